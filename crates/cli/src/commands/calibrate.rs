@@ -1,0 +1,55 @@
+//! `squama calibrate`.
+
+use anyhow::{Context as _, ensure};
+use substrate::{Footprint, Springs};
+use sweep::{Setting, Sweep, footprint};
+
+use super::DONE;
+use crate::args;
+use crate::print::{aligned, print};
+
+/// Prints the springs under a row of scales.
+pub fn calibrate(arguments: &args::Calibrate) -> anyhow::Result<u8> {
+    let footprint = footprint_of(arguments)?;
+    let springs = substrate::calibrate(&footprint)?;
+    print(&report(&footprint, &springs))?;
+    Ok(DONE)
+}
+
+/// The arguments are validated as the keys of a sweep that they are.
+fn footprint_of(arguments: &args::Calibrate) -> anyhow::Result<Footprint> {
+    let options = [
+        ("--gap", "designs.gap_over_t", &arguments.gap),
+        ("--length", "designs.length_over_t", &arguments.length),
+        ("--width", "scale.width_over_t", &arguments.width),
+        ("--base", "scale.base", &arguments.base),
+        ("--poisson-ratio", "substrate.poisson_ratio", &arguments.poisson_ratio),
+    ];
+    let setting = |(option, key, value): (&str, &str, &String)| {
+        Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
+    };
+    let settings: Vec<_> = options.into_iter().map(setting).collect::<Result<_, _>>()?;
+    let sweep =
+        Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
+    let several = "--gap and --length: several values, expected one of each";
+    ensure!(sweep.grid().len() == 1, several);
+    footprint(&sweep.grid().case(0)).context("lengths too far apart, expected comparable ones")
+}
+
+fn report(footprint: &Footprint, springs: &Springs) -> String {
+    let header = ["", "x", "y", "phi"].map(str::to_owned);
+    let rows = [header, row("alpha", springs.direct), row("beta", springs.coupling)];
+    format!(
+        "d/a = {:.6}, b/a = {:.6}, nu = {}\n\n{}\nestimated relative error {:.1e}\n",
+        footprint.gap_over_a(),
+        footprint.width_over_a(),
+        footprint.poisson_ratio(),
+        aligned(&rows),
+        springs.error
+    )
+}
+
+fn row(name: &str, values: [f64; 3]) -> [String; 4] {
+    let [x, y, phi] = values.map(|value| format!("{value:.6}"));
+    [name.to_owned(), x, y, phi]
+}

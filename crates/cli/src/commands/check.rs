@@ -1,0 +1,78 @@
+//! `squama check`.
+
+use std::path::Path;
+
+use sweep::{Axis, Measure, Sweep};
+
+use super::{DONE, folder_of, read};
+use crate::args;
+use crate::print::{aligned, counted, print};
+
+/// Values that an axis lists before it is cut short.
+const LISTED: u64 = 12;
+
+/// Says what would run.
+pub fn check(arguments: &args::Check) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    print(&report(&sweep, &arguments.definition.path))?;
+    Ok(DONE)
+}
+
+fn report(sweep: &Sweep, path: &Path) -> String {
+    let grid = sweep.grid();
+    let measures: Vec<_> = sweep.measures().iter().map(|measure| measure.key()).collect();
+    let mut rows = vec![
+        row("name", sweep.name()),
+        row("measures", &measures.join(", ")),
+        row("designs", &grid.len().to_string()),
+    ];
+    if sweep.measures().contains(&Measure::Puncture) {
+        rows.push(row("calibrations", &calibrations(sweep).to_string()));
+    }
+    rows.push(row("output", &folder_of(sweep, None).display().to_string()));
+    let axes: Vec<_> = grid.axes().iter().map(axis_row).collect();
+    format!(
+        "{} is valid\n{}\naxes, slowest first\n{}\n{}",
+        path.display(),
+        aligned(&rows),
+        aligned(&axes),
+        changes(sweep)
+    )
+}
+
+fn row(what: &str, value: &str) -> [String; 2] {
+    [what, value].map(str::to_owned)
+}
+
+fn axis_row(axis: &Axis) -> [String; 3] {
+    [axis.parameter().key.to_owned(), counted(axis.len(), "value"), values(axis)]
+}
+
+fn values(axis: &Axis) -> String {
+    let text = |range: std::ops::Range<u64>| {
+        let values: Vec<_> = range.map(|i| axis.value(i).to_string()).collect();
+        values.join(" ")
+    };
+    match axis.len() {
+        len if len <= LISTED => text(0..len),
+        len => format!("{} … {}", text(0..3), text(len - 1..len)),
+    }
+}
+
+/// How many footprints the substrate is calibrated for: the combinations of what they depend on.
+fn calibrations(sweep: &Sweep) -> u64 {
+    let matters = ["gap_over_t", "length_over_t", "base", "width_over_t", "poisson_ratio"];
+    let axes = sweep.grid().axes().iter();
+    axes.filter(|axis| matters.contains(&axis.parameter().key)).map(Axis::len).product()
+}
+
+fn changes(sweep: &Sweep) -> String {
+    let changed = sweep.shared().filter(|(parameter, value)| parameter.default() != *value);
+    let rows: Vec<_> = changed
+        .map(|(p, value)| [p.path(), value.to_string(), format!("instead of {}", p.default())])
+        .collect();
+    if rows.is_empty() {
+        return "parameters: all defaults\n".to_owned();
+    }
+    format!("parameters that differ from the defaults\n{}", aligned(&rows))
+}

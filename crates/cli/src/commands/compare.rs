@@ -1,0 +1,122 @@
+//! `squama compare`.
+
+use std::fmt::Write as _;
+
+use anyhow::{bail, ensure};
+use sweep::{ColumnDifference, Comparison, Extreme, Results};
+
+use super::{DIFFERENT, DONE};
+use crate::args;
+use crate::print::{aligned, counted, digits, print};
+
+/// Designs that are listed before the list is cut short.
+const LISTED: usize = 8;
+
+/// Says where two runs differ.
+pub fn compare(arguments: &args::Compare) -> anyhow::Result<u8> {
+    let tolerance = tolerance(&arguments.tolerance)?;
+    let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
+    let (first, second) = (first?, second?);
+    let comparison = sweep::compare(&first, &second, tolerance)?;
+    let mut text = report(&comparison, &first, &second);
+    if let Some(folder) = &arguments.out {
+        let files = sweep::write_comparison(folder, &comparison)?;
+        let _ = writeln!(text, "{}: {}", folder.display(), files.join(" "));
+    }
+    print(&text)?;
+    Ok(if arguments.exit_code && !comparison.is_none() { DIFFERENT } else { DONE })
+}
+
+fn tolerance(text: &str) -> anyhow::Result<f64> {
+    let Ok(tolerance) = text.parse::<f64>() else {
+        bail!("--tolerance {text}: not accepted, expected a number of at least 0, e.g. 1e-9");
+    };
+    ensure!(
+        tolerance >= 0.0 && tolerance.is_finite(),
+        "--tolerance {text}: out of range, expected a number of at least 0, e.g. 1e-9"
+    );
+    Ok(tolerance)
+}
+
+fn report(comparison: &Comparison<'_>, first: &Results, second: &Results) -> String {
+    let [one, other] = [first, second].map(|results| results.folder().display().to_string());
+    let both = counted(comparison.matched() as u64, "design");
+    let mut text = format!("{one} against {other}: {both} in both\n");
+    for (alone, folder) in comparison.unmatched().iter().zip([one, other]) {
+        text.push_str(&unmatched(alone, &folder));
+    }
+    let parameters: Vec<_> = comparison
+        .parameters()
+        .iter()
+        .map(|c| [c.parameter.path(), c.first.to_string(), format!("against {}", c.second)])
+        .collect();
+    text.push_str(&aligned(&parameters));
+    text.push_str(&columns(comparison));
+    text
+}
+
+fn unmatched(designs: &[&str], folder: &str) -> String {
+    if designs.is_empty() {
+        return String::new();
+    }
+    let mut listed = designs[..designs.len().min(LISTED)].join(" ");
+    if designs.len() > LISTED {
+        listed.push_str(" …");
+    }
+    format!("  {} in {folder} alone: {listed}\n", counted(designs.len() as u64, "design"))
+}
+
+fn columns(comparison: &Comparison<'_>) -> String {
+    let (same, differing): (Vec<_>, Vec<_>) =
+        comparison.columns.iter().partition(|column| column.is_none());
+    let mut text = String::new();
+    if !differing.is_empty() {
+        let mut rows = vec![HEADER.map(str::to_owned)];
+        rows.extend(differing.iter().map(|column| row(column)));
+        let _ = write!(text, "\n{}", aligned(&rows));
+    }
+    let changes: Vec<_> = differing.iter().flat_map(|column| changes(column)).collect();
+    if !changes.is_empty() {
+        let _ = write!(text, "\n{}", aligned(&changes));
+    }
+    if !same.is_empty() {
+        let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
+        let _ = writeln!(text, "\nno difference: {}", names.join(" "));
+    }
+    text
+}
+
+const HEADER: [&str; 9] = [
+    "column",
+    "compared",
+    "differ",
+    "one alone",
+    "largest relative",
+    "at design",
+    "first",
+    "second",
+    "rank correlation",
+];
+
+fn row(column: &ColumnDifference) -> [String; 9] {
+    let extreme =
+        |cell: fn(&Extreme) -> String| column.relative.as_ref().map_or(String::new(), cell);
+    [
+        column.name.clone(),
+        column.compared.to_string(),
+        column.differing.to_string(),
+        (column.only_first + column.only_second).to_string(),
+        extreme(|e| digits(e.difference)),
+        extreme(|e| e.design.clone()),
+        extreme(|e| digits(e.first)),
+        extreme(|e| digits(e.second)),
+        column.correlation.map_or(String::new(), |correlation| format!("{correlation:.4}")),
+    ]
+}
+
+fn changes(column: &ColumnDifference) -> impl Iterator<Item = [String; 3]> {
+    let change = |((from, to), count): (&(String, String), &usize)| {
+        [column.name.clone(), counted(*count as u64, "design"), format!("{from} → {to}")]
+    };
+    column.changes.iter().map(change)
+}

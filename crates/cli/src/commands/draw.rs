@@ -1,0 +1,180 @@
+//! `squama draw`.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context as _, bail};
+use report::drawings;
+use skin::{flexure, puncture};
+use substrate::Springs;
+use sweep::{Case, DesignNumber, Sweep, footprint};
+
+use super::figure_file::{Written, write_html, write_svg};
+use super::{DONE, folder_of, read};
+use crate::args;
+use crate::print::print;
+
+/// Frames of an animation.
+const FRAMES: u32 = 60;
+
+/// Rotations of each end at which a strip is drawn unless told otherwise, degrees.
+const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
+
+/// Draws designs.
+pub fn draw(arguments: &args::Draw) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    let folder = arguments.out.clone();
+    let folder = folder.unwrap_or_else(|| folder_of(&sweep, None).join("drawings"));
+    sweep::make_folder(&folder)?;
+    let designs = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
+    let mut files = Written::default();
+    for (number, case) in designs {
+        let drawing = Drawing { sweep: &sweep, number, case, arguments, folder: &folder };
+        if arguments.flexure {
+            drawing.flexure(&mut files)?;
+        } else {
+            drawing.puncture(&mut files)?;
+        }
+    }
+    print(&files.report(&folder))?;
+    Ok(DONE)
+}
+
+/// The designs of `sweep` that `numbers` name.
+pub fn designs(
+    sweep: &Sweep,
+    path: &Path,
+    numbers: &[String],
+) -> anyhow::Result<Vec<(DesignNumber, Case)>> {
+    let design = |number: &String| {
+        let grid = sweep.grid();
+        let index = grid.parse_number(number.trim());
+        let index = index.with_context(|| format!("{}: --design {number}", path.display()))?;
+        Ok((grid.number(index), grid.case(index)))
+    };
+    numbers.iter().map(design).collect()
+}
+
+/// One design to be drawn.
+struct Drawing<'a> {
+    sweep: &'a Sweep,
+    number: DesignNumber,
+    case: Case,
+    arguments: &'a args::Draw,
+    folder: &'a PathBuf,
+}
+
+impl Drawing<'_> {
+    fn name(&self) -> String {
+        format!("{} design {}", self.sweep.name(), self.number)
+    }
+
+    fn file(&self, what: &str) -> String {
+        format!("design-{}-{what}", self.number)
+    }
+
+    fn puncture(&self, files: &mut Written) -> anyhow::Result<()> {
+        let case = &self.case;
+        let critical = case.puncture.critical_tilt_deg;
+        let at: Vec<_> = match self.arguments.at.as_slice() {
+            [] if self.arguments.animate => self.frames()?,
+            [] if self.arguments.force.is_empty() => vec![puncture::At::Tilt(critical)],
+            [] => self.arguments.force.iter().map(|&f| puncture::At::Force(f)).collect(),
+            at => at.iter().map(|&u| puncture::At::Displacement(u)).collect(),
+        };
+        let states = self.puncture_states(&at)?;
+        let name = self.name();
+        let drawing = drawings::Puncture {
+            name: &name,
+            design: &case.design,
+            load_position: case.puncture.load_position,
+            states: &states,
+        };
+        if self.arguments.animate {
+            let file = self.file("puncture-animation");
+            return write_html(self.folder, &file, &drawing.animation()?, files);
+        }
+        let place = if self.arguments.force.is_empty() {
+            places(&self.arguments.at, "u", "critical-tilt")
+        } else {
+            places(&self.arguments.force, "force", "")
+        };
+        let file = self.file(&format!("puncture-at-{place}"));
+        write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
+    }
+
+    /// Displacements at equal steps, up to the critical tilt.
+    fn frames(&self) -> anyhow::Result<Vec<puncture::At>> {
+        let critical = puncture::At::Tilt(self.case.puncture.critical_tilt_deg);
+        let end = self.puncture_states(&[critical])?;
+        let last = end.first().map_or(0.0, |state| state.displacement);
+        let frame = |k| puncture::At::Displacement(last * f64::from(k) / f64::from(FRAMES));
+        Ok((0..FRAMES).map(frame).chain([critical]).collect())
+    }
+
+    fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::Snapshot>> {
+        let case = &self.case;
+        let springs = springs(case)?;
+        let solved = puncture::snapshots(&case.design, &springs, &case.puncture, at)?;
+        let reached = |(at, state): (&puncture::At, Option<puncture::Snapshot>)| match state {
+            Some(state) => Ok(state),
+            None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
+        };
+        at.iter().zip(solved.at).map(reached).collect()
+    }
+
+    fn flexure(&self, files: &mut Written) -> anyhow::Result<()> {
+        let parameters = self.case.flexure;
+        let last = parameters.max_end_rotation_deg;
+        let at: Vec<f64> = match self.arguments.at.as_slice() {
+            [] if self.arguments.animate => {
+                (0..=FRAMES).map(|k| last * f64::from(k) / f64::from(FRAMES)).collect()
+            }
+            [] => ROTATIONS_DEG.into_iter().filter(|&rotation| rotation <= last).collect(),
+            at => at.to_vec(),
+        };
+        let solved = flexure::snapshots(&self.case.design, &parameters, &at)?;
+        let reached = |(at, state): (&f64, Option<flexure::Snapshot>)| match state {
+            Some(state) => Ok(state),
+            None => bail!("design {}: bending does not turn the ends by {at}°", self.number),
+        };
+        let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
+        let name = self.name();
+        let drawing = drawings::Flexure {
+            name: &name,
+            design: &self.case.design,
+            membrane_thickness: parameters.membrane_thickness,
+            states: &states,
+        };
+        if self.arguments.animate {
+            let file = self.file("flexure-animation");
+            return write_html(self.folder, &file, &drawing.animation()?, files);
+        }
+        let place = places(&self.arguments.at, "end-rotation", "0-to-180-deg");
+        let file = self.file(&format!("flexure-at-{place}"));
+        write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
+    }
+}
+
+/// The springs under a row.
+pub fn springs(case: &Case) -> anyhow::Result<Springs> {
+    let footprint = footprint(case);
+    let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
+    Ok(substrate::calibrate(&footprint)?)
+}
+
+/// Places on a path, for the name of a file.
+fn places(at: &[f64], quantity: &str, otherwise: &str) -> String {
+    if at.is_empty() {
+        return otherwise.to_owned();
+    }
+    let values: Vec<_> = at.iter().map(ToString::to_string).collect();
+    format!("{quantity}-{}", values.join("-"))
+}
+
+fn place(at: puncture::At) -> String {
+    match at {
+        puncture::At::Displacement(u) => format!("u/t = {u}"),
+        puncture::At::Force(force) => format!("F* = {force}"),
+        puncture::At::Tilt(tilt) => format!("a tilt of {tilt}°"),
+    }
+}

@@ -1,0 +1,53 @@
+//! Files of drawings and figures.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use anyhow::Context as _;
+use sweep::WholeFile;
+
+/// Names of the files that were written.
+#[derive(Debug, Default)]
+pub struct Written(Vec<String>);
+
+impl Written {
+    /// What was written, for people.
+    pub fn report(&self, folder: &Path) -> String {
+        let line = |file: &String| format!("{}\n", folder.join(file).display());
+        self.0.iter().map(line).collect()
+    }
+}
+
+/// Writes a drawing, and its image if `png`.
+pub fn write_svg(
+    folder: &Path,
+    name: &str,
+    svg: &str,
+    png: bool,
+    files: &mut Written,
+) -> anyhow::Result<()> {
+    write(folder, format!("{name}.svg"), svg.as_bytes(), files)?;
+    if png {
+        write(folder, format!("{name}.png"), &report::png(svg)?, files)?;
+    }
+    Ok(())
+}
+
+/// Writes a page.
+pub fn write_html(
+    folder: &Path,
+    name: &str,
+    page: &str,
+    files: &mut Written,
+) -> anyhow::Result<()> {
+    write(folder, format!("{name}.html"), page.as_bytes(), files)
+}
+
+fn write(folder: &Path, name: String, bytes: &[u8], files: &mut Written) -> anyhow::Result<()> {
+    let mut file = WholeFile::create(folder, &name)?;
+    let written = file.write_all(bytes);
+    written.with_context(|| format!("{}: cannot be written", file.path().display()))?;
+    file.finish()?;
+    files.0.push(name);
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! `squama plot`.
+
+use std::path::Path;
+
+use anyhow::bail;
+use report::{Solved, curves, figures};
+use skin::flexure::{self, Flexure};
+use skin::puncture::{self, Puncture};
+use sweep::{Case, DesignNumber, Sweep};
+
+use super::draw::{designs, springs};
+use super::figure_file::{Written, write_svg};
+use super::results_folder::ResultsFolder;
+use super::{DONE, INCOMPLETE, folder_of, read};
+use crate::args;
+use crate::print::print;
+
+/// Largest step along a curve, as a fraction of the whole path.
+const CURVE_STEP: f64 = 0.004;
+
+/// Draws the figures of a sweep, or the curves of designs.
+pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
+    match (&arguments.what, &arguments.results) {
+        (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
+        (None, Some(results)) => plot_results(results, arguments),
+        (None, None) => bail!("nothing to plot, expected RESULTS or curves SWEEP.toml"),
+    }
+}
+
+fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
+    let results = ResultsFolder::read(results)?;
+    let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
+    sweep::make_folder(&folder)?;
+    let mut files = Written::default();
+    let tetrahedron = results.tetrahedron();
+    for figure in figures(results.sweep.name(), &results.designs, tetrahedron.as_ref()) {
+        write_svg(&folder, figure.name, &figure.svg, arguments.png, &mut files)?;
+    }
+    print(&files.report(&folder))?;
+    Ok(DONE)
+}
+
+fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    let chosen = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
+    let solve = |(_, case): &(DesignNumber, Case)| solve(case, arguments.to);
+    let solved = chosen.iter().map(solve).collect::<anyhow::Result<Vec<_>>>()?;
+    let shown: Vec<_> = solved
+        .iter()
+        .zip(&chosen)
+        .map(|((puncture, flexure), (number, case))| Solved {
+            number: number.to_string(),
+            design: &case.design,
+            puncture: Some(puncture),
+            flexure: Some(flexure),
+        })
+        .collect();
+    let folder = arguments.out.clone().unwrap_or_else(|| folder_of(&sweep, None).join("curves"));
+    sweep::make_folder(&folder)?;
+    let mut files = Written::default();
+    let names = numbers(&sweep, &arguments.designs);
+    for figure in curves(sweep.name(), &shown) {
+        let file = format!("{}-of-{names}", figure.name);
+        write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
+    }
+    print(&files.report(&folder))?;
+    let failed = solved.iter().any(|(puncture, flexure)| {
+        puncture.status != puncture::Status::Complete || flexure.status != flexure::Status::Complete
+    });
+    Ok(if failed { INCOMPLETE } else { DONE })
+}
+
+/// The puncture of a design, to the critical tilt or to a displacement, and its bending.
+fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
+    let springs = springs(case)?;
+    let (mut parameters, mut bending) = (case.puncture, case.flexure);
+    // Close enough for a line.
+    for solver in [&mut parameters.solver, &mut bending.solver] {
+        solver.max_step = solver.max_step.min(CURVE_STEP);
+    }
+    let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
+    let mut puncture = puncture::snapshots(&case.design, &springs, &parameters, &at)?.puncture;
+    if let Some(to) = to {
+        let beyond = puncture.path.iter().position(|point| point.displacement > to);
+        puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
+        let path = &puncture.path;
+        puncture.events.retain(|event| path.contains(&event.point));
+    }
+    Ok((puncture, flexure::solve(&case.design, &bending)?))
+}
+
+/// The numbers of designs, for the name of a file.
+fn numbers(sweep: &Sweep, designs: &[String]) -> String {
+    let number = |text: &String| {
+        let index = sweep.grid().parse_number(text.trim());
+        index.map_or_else(|_| text.clone(), |index| sweep.grid().number(index).to_string())
+    };
+    designs.iter().map(number).collect::<Vec<_>>().join("-")
+}

@@ -1,0 +1,80 @@
+//! `squama report`.
+
+use std::path::PathBuf;
+
+use report::{Fact, Page, Tetrahedron, drawings};
+use skin::puncture;
+use sweep::columns::design_columns;
+
+use super::draw::springs;
+use super::figure_file::{Written, write_html};
+use super::results_folder::ResultsFolder;
+use super::{DONE, PROGRAM};
+use crate::args;
+use crate::print::print;
+
+/// Writes the page of a sweep.
+pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
+    let results = ResultsFolder::read(&arguments.results)?;
+    let page = page(&results);
+    let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
+    sweep::make_folder(&folder)?;
+    let name =
+        out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
+    let mut files = Written::default();
+    write_html(&folder, &name, &page.html(), &mut files)?;
+    print(&files.report(&folder))?;
+    Ok(DONE)
+}
+
+fn page(results: &ResultsFolder) -> Page {
+    let sweep = &results.sweep;
+    let known = design_columns(sweep);
+    let column = |header: &String| {
+        let column = known.iter().find(|column| column.name == header);
+        column.map_or_else(
+            || ("-".to_owned(), String::new()),
+            |column| (column.unit.to_owned(), column.meaning.to_owned()),
+        )
+    };
+    let shared = sweep.shared().map(|(parameter, value)| {
+        [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
+    });
+    Page {
+        name: sweep.name().to_owned(),
+        version: PROGRAM.version.to_owned(),
+        folder: results.folder.display().to_string(),
+        axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
+        columns: results.designs.headers().iter().map(column).collect(),
+        run: results.run.clone(),
+        shared: shared.collect(),
+        drawings: drawn(results),
+        designs: results.designs.clone(),
+    }
+}
+
+/// Drawings of the designs that are best for one criterion or for all alike.
+fn drawn(results: &ResultsFolder) -> Vec<Fact> {
+    let rows = Tetrahedron::corners_and_middle(&results.designs);
+    rows.into_iter().filter_map(|row| drawing(results, row)).collect()
+}
+
+/// A drawing, or none if the design cannot be solved: its row in the table says why.
+fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
+    let number = results.designs.text("design", row);
+    let grid = results.sweep.grid();
+    let case = grid.case(grid.parse_number(number).ok()?);
+    let springs = springs(&case).ok()?;
+    let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
+    let solved = puncture::snapshots(&case.design, &springs, &case.puncture, &at).ok()?;
+    let states: Vec<_> = solved.at.into_iter().flatten().collect();
+    let name = format!("{} design {number}", results.sweep.name());
+    let drawing = drawings::Puncture {
+        name: &name,
+        design: &case.design,
+        load_position: case.puncture.load_position,
+        states: &states,
+    };
+    Some((number.to_owned(), drawing.svg().ok()?))
+}

@@ -1,0 +1,56 @@
+//! `squama rerun`.
+
+use sweep::{Choice, Rerun, Setting};
+
+use super::run::{exit_code, options, summary};
+use super::{DONE, PROGRAM};
+use crate::args;
+use crate::interrupt::Interrupt;
+use crate::print::{counted, print};
+use crate::progress::Progress;
+
+/// Designs that are named before the list is cut short.
+const NAMED: usize = 20;
+
+/// Solves some designs of a run again.
+pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
+    let settings = arguments.settings.iter().map(|text| Setting::parse(text));
+    let settings = settings.collect::<Result<Vec<_>, _>>()?;
+    let rerun = Rerun::plan(&arguments.results, &choice(arguments), &settings, &PROGRAM)?;
+    if arguments.dry_run || rerun.designs().len() == 0 {
+        print(&plan(&rerun))?;
+        return Ok(DONE);
+    }
+    let interrupt = Interrupt::listen()?;
+    let options = options(&arguments.work, &arguments.format, &interrupt);
+    let mut progress = Progress::new(arguments.work.quiet);
+    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
+    let finished = rerun.run(&options, &PROGRAM, news);
+    drop(progress);
+    let finished = finished?;
+    if !arguments.work.quiet {
+        let results = summary("all results", &arguments.results, options.threads, &finished);
+        print(&format!("{}{results}", plan(&rerun)))?;
+    }
+    Ok(exit_code(&finished, &interrupt))
+}
+
+fn choice(arguments: &args::Rerun) -> Choice {
+    Choice {
+        failed: arguments.failed,
+        numbers: arguments.numbers.clone(),
+        conditions: arguments.conditions.clone(),
+    }
+}
+
+fn plan(rerun: &Rerun) -> String {
+    let count = rerun.designs().len();
+    let named: Vec<_> = rerun.designs().take(NAMED).map(|number| number.to_string()).collect();
+    let more = if count > NAMED { " …" } else { "" };
+    let settings = match rerun.settings() {
+        "" => "the sweep's own settings".to_owned(),
+        settings => settings.to_owned(),
+    };
+    let designs = counted(count as u64, "design");
+    format!("solved again: {designs} with {settings}\n  {}{more}\n", named.join(" "))
+}

@@ -1,0 +1,119 @@
+//! `squama run`.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
+use std::time::Duration;
+
+use sweep::{Best, Finished, Options, Part, Sample, Start, Sweep};
+
+use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
+use crate::args;
+use crate::interrupt::Interrupt;
+use crate::print::{aligned, counted, print};
+use crate::progress::Progress;
+
+/// How often the tables are written while a run goes on.
+const TABLES_EVERY: Duration = Duration::from_secs(30);
+
+/// Solves every design that is not done and writes the tables.
+pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    let folder = folder(arguments, &sweep);
+    let interrupt = Interrupt::listen()?;
+    let options = options(&arguments.work, &arguments.format, &interrupt);
+    let mut progress = Progress::new(arguments.work.quiet);
+    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
+    let (part, start) = (part(arguments), start(arguments));
+    let finished = sweep::run(&sweep, part, &folder, start, &options, &PROGRAM, news);
+    drop(progress);
+    let finished = finished?;
+    if !arguments.work.quiet {
+        print(&summary(sweep.name(), &folder, options.threads, &finished))?;
+    }
+    Ok(exit_code(&finished, &interrupt))
+}
+
+fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
+    let folder = folder_of(sweep, arguments.out.as_deref());
+    match &arguments.shard {
+        Some(shard) if arguments.out.is_none() => {
+            folder.join("shards").join(shard.to_string().replace('/', "-of-"))
+        }
+        _ => folder,
+    }
+}
+
+fn part(arguments: &args::Run) -> Part {
+    let sample = arguments.sample.map(|designs| Sample { designs, seed: arguments.seed });
+    Part { sample, shard: arguments.shard }
+}
+
+fn start(arguments: &args::Run) -> Start {
+    match (arguments.resume, arguments.fresh) {
+        (true, _) => Start::Resume,
+        (_, true) => Start::Fresh,
+        _ => Start::New,
+    }
+}
+
+/// How designs are solved, as the arguments have it.
+pub(super) fn options<'i>(
+    work: &args::Work,
+    format: &args::Format,
+    interrupt: &'i Interrupt,
+) -> Options<'i> {
+    let cores = || available_parallelism().map_or(1, usize::from);
+    Options {
+        threads: work.threads.map_or_else(cores, usize::from),
+        dialect: format.csv,
+        fail_fast: work.fail_fast,
+        tables_every: TABLES_EVERY,
+        stop: interrupt.stop(),
+    }
+}
+
+pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
+    let complete = finished.summary.failed == 0 && finished.missing == 0;
+    interrupt.exit_code().unwrap_or(if complete { DONE } else { INCOMPLETE })
+}
+
+pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Finished) -> String {
+    let designs = counted(finished.summary.designs, "design");
+    let threads = counted(threads as u64, "thread");
+    let time = short(finished.duration);
+    let mut text = format!("{name}: {designs} in {time} on {threads}\n");
+    let mut rows = Vec::new();
+    if finished.missing > 0 {
+        let missing = counted(finished.missing, "design");
+        rows.push(["missing".to_owned(), format!("{missing}, --resume goes on")]);
+    }
+    rows.extend(status_rows(finished));
+    rows.extend(best_rows(finished));
+    let tables = finished.tables.join(" ");
+    rows.push(["tables", &format!("{}: {tables} run.toml", folder.display())].map(str::to_owned));
+    let _ = write!(text, "{}", aligned(&rows));
+    text
+}
+
+fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
+    finished.summary.statuses.iter().map(|(column, counts)| {
+        let counts: Vec<_> = counts.iter().map(|(status, n)| format!("{n} {status}")).collect();
+        [column.trim_end_matches("_status").to_owned(), counts.join(", ")]
+    })
+}
+
+fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
+    let row =
+        |best: &Best| [best.what.to_owned(), format!("{:.6} (design {})", best.value, best.design)];
+    finished.summary.best.iter().map(row)
+}
+
+/// `duration` to the hundredth of a second, or to the second if it is long.
+pub(super) fn short(duration: Duration) -> String {
+    if duration < Duration::from_secs(60) {
+        format!("{:.2} s", duration.as_secs_f64())
+    } else {
+        humantime::format_duration(Duration::from_secs(duration.as_secs())).to_string()
+    }
+}

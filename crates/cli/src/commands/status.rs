@@ -1,0 +1,73 @@
+//! `squama status`.
+
+use std::time::Duration;
+
+use super::run::short;
+use super::{DONE, INCOMPLETE};
+use crate::args;
+use crate::print::{aligned, counted, print};
+
+/// Says how far a run is.
+pub fn status(arguments: &args::Status) -> anyhow::Result<u8> {
+    let status = sweep::Status::of(&arguments.results)?;
+    print(&report(&status))?;
+    let complete = status.failed == 0 && status.archive.missing().is_empty();
+    Ok(if complete { DONE } else { INCOMPLETE })
+}
+
+fn report(status: &sweep::Status) -> String {
+    let header = status.archive.header();
+    let part = header.part().to_string();
+    let mut rows = vec![
+        row("designs", format!("{}, {part}", status.archive.selection().len())),
+        row("done", format!("{}{}", status.archive.done(), again(status))),
+        row("failed", status.failed.to_string()),
+        row("running", status.running().to_string()),
+        row("missing", status.missing().to_string()),
+    ];
+    rows.extend(rate(status).map(|rate| row("rate", rate)));
+    rows.push(row("sessions", status.archive.sessions().len().to_string()));
+    rows.push(row("program", format!("squama {}", header.program())));
+    rows.push(row("definition", format!("sha256 {}", header.definition_sha256())));
+    let state = if status.in_use { "running" } else { "not running" };
+    let name = status.archive.sweep().name();
+    format!("{name}: {state}\n{}{}{}", aligned(&rows), reasons(status), slowest(status))
+}
+
+fn row(what: &str, value: String) -> [String; 2] {
+    [what.to_owned(), value]
+}
+
+fn again(status: &sweep::Status) -> String {
+    match status.solved_again {
+        0 => String::new(),
+        count => format!(", {count} of them solved again"),
+    }
+}
+
+/// The rate of the last session, and how long the rest then takes.
+fn rate(status: &sweep::Status) -> Option<String> {
+    let rate = status.rate()?;
+    let left = (status.running() + status.missing()) as f64 / rate;
+    let left = match Duration::try_from_secs_f64(left) {
+        Ok(left) if !left.is_zero() => format!(", {} for the rest", short(left)),
+        _ => String::new(),
+    };
+    Some(format!("{rate:.1} designs/s{left}"))
+}
+
+fn reasons(status: &sweep::Status) -> String {
+    let rows = status.reasons.iter().map(|((measure, reason), count)| {
+        [measure.clone(), reason.clone(), counted(*count, "design")]
+    });
+    titled("why designs failed", &rows.collect::<Vec<_>>())
+}
+
+fn slowest(status: &sweep::Status) -> String {
+    let row = |(seconds, number): &(f64, String)| [number.clone(), format!("{seconds:.3} s")];
+    titled("slowest designs", &status.slowest.iter().map(row).collect::<Vec<_>>())
+}
+
+fn titled<const N: usize>(title: &str, rows: &[[String; N]]) -> String {
+    if rows.is_empty() { String::new() } else { format!("{title}\n{}", aligned(rows)) }
+}

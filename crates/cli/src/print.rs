@@ -1,0 +1,67 @@
+//! Text for people.
+
+use std::io::{self, ErrorKind, Write as _};
+
+/// Prints `text`. A reader that has seen enough and closed the pipe is no error.
+pub fn print(text: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
+/// `rows` with their columns aligned, each line indented by two spaces.
+pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
+    let mut widths = Vec::new();
+    for row in rows.iter().map(AsRef::as_ref) {
+        widths.resize(widths.len().max(row.len()), 0);
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = cell.chars().count().max(*width);
+        }
+    }
+    let line = |row: &R| {
+        let cells = row.as_ref().iter().zip(&widths).map(|(cell, width)| format!("{cell:width$}"));
+        let cells: Vec<_> = cells.collect();
+        format!("  {}\n", cells.join("  ").trim_end())
+    };
+    rows.iter().map(line).collect()
+}
+
+/// `value` to five digits.
+pub fn digits(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-3..1e5).contains(&size) {
+        // At most 7 decimals, so the conversion keeps the value.
+        let decimals = (4.0 - size.log10().floor()).max(0.0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.4e}")
+    }
+}
+
+/// `count` things, in words.
+pub fn counted(count: u64, thing: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {thing}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up() {
+        let rows = [["a", "1"], ["long", "2"]].map(|row| row.map(str::to_owned));
+        assert_eq!(aligned(&rows), "  a     1\n  long  2\n");
+    }
+
+    #[test]
+    fn numbers_have_five_digits() {
+        let numbers = [0.0, 0.7, 64.123_456, 12345.6, -0.001, 1.5e-7, 123_456.7];
+        let texts = numbers.map(digits).join(" ");
+        assert_eq!(texts, "0 0.70000 64.123 12346 -0.0010000 1.5000e-7 1.2346e5");
+    }
+}

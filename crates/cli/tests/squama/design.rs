@@ -1,0 +1,89 @@
+//! `squama design`: one design as in its sweep, and its files.
+
+use crate::{FEW, Place};
+
+/// What the course of a design is written to.
+const COURSE: &str = "design.toml events.csv flexure_events.csv flexure_path.csv \
+                      flexure_scales.csv flexure_steps.csv path.csv scales.csv steps.csv";
+
+/// The cells of row `number` of a table, by column.
+fn row(table: &str, number: usize) -> Vec<(String, String)> {
+    let mut lines = table.lines();
+    let header = lines.next().expect("a header").split(',').map(str::to_owned);
+    let cells = lines.nth(number - 1).expect("a row").split(',').map(str::to_owned);
+    header.zip(cells).collect()
+}
+
+#[test]
+fn prints_what_the_sweep_writes() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    let text = place.prints("design x.toml --design 0006");
+    assert!(text.starts_with("few: design 0006 of 8\n"), "{text}");
+    for (name, value) in row(&place.read("results/few/designs.csv"), 6).iter().skip(1) {
+        let value = if value.is_empty() { "none" } else { value };
+        let printed = text.lines().find(|line| line.split_whitespace().next() == Some(name));
+        let printed = printed.expect("every column is printed");
+        assert!(printed.contains(value), "{printed} should say {value}");
+    }
+}
+
+#[test]
+fn writes_its_course() {
+    let place = Place::with(FEW);
+    place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);
+    let folder = "results/few/designs/0004";
+    assert_eq!(place.list(folder), COURSE);
+    let header = |file: &str| {
+        let text = place.read(&format!("{folder}/{file}"));
+        assert!(text.lines().count() > 1, "{file} is empty");
+        format!("{file}: {}\n", text.lines().next().expect("a header"))
+    };
+    let course = COURSE.split_whitespace().filter(|file| file.ends_with(".csv"));
+    insta::assert_snapshot!(course.map(header).collect::<String>(), @r"
+    events.csv: displacement,force,tilt_deg,left_scale,kind,change
+    flexure_events.csv: curvature,moment,end_rotation_deg,gap,kind,change
+    flexure_path.csv: curvature,moment,stiffness,end_rotation_deg,bending_energy,axial_energy,contact_energy,contacts
+    flexure_scales.csv: scale,displacement_x,displacement_y,rotation_deg
+    flexure_steps.csv: step,iteration,residual,end_rotation_deg
+    path.csv: displacement,force,tilt_deg,contacts
+    scales.csv: scale,displacement_x,displacement_y,rotation_deg,reaction
+    steps.csv: step,iteration,residual,tilt_deg
+    ");
+    assert_eq!(place.read(&format!("{folder}/scales.csv")).lines().count(), 1 + 21);
+}
+
+#[test]
+fn may_be_none_of_the_sweep() {
+    let place = Place::with(FEW);
+    let text = place.prints("design x.toml --gap 0.15 --length 1 --slant 45");
+    assert!(text.starts_with("few: a design beside the grid, gap_over_t = 0.15, "), "{text}");
+    assert_eq!(place.list("results/few/designs"), "gap_over_t_0.15-length_over_t_1-slant_deg_45");
+}
+
+#[test]
+fn says_what_is_not_as_in_its_sweep() {
+    let place = Place::with(FEW);
+    let text = place.prints("design x.toml --design 4 --set puncture.scales=11 --out y");
+    assert!(text.contains("  with puncture.scales = 11 instead of 21\n"), "{text}");
+    assert_eq!(place.list("y"), COURSE);
+}
+
+#[test]
+fn further_axes_are_given_with_set() {
+    let place = Place::with("name = 'wide'\n[designs]\nwidth_over_t = [1, 2, 4]\nslant_deg = 0");
+    let design = "design x.toml --gap 0.2 --length 0.5 --slant 0";
+    place.squama(design).assert().code(2);
+    let text = place.prints(&format!("{design} --set designs.width_over_t=2"));
+    // Gap 0.2 is the 2nd of 10, length 0.5 the 7th of 12, width 2 the 2nd of 3.
+    assert!(text.starts_with("wide: design 0056 of 360\n"), "{text}");
+}
+
+#[test]
+fn that_stops_early_has_an_exit_code() {
+    let place = Place::with(FEW);
+    let stopped =
+        place.squama("design x.toml --design 1 --set solver.max_points=3").assert().code(1);
+    let text = String::from_utf8(stopped.get_output().stdout.clone()).expect("text");
+    assert!(text.contains("too many points"), "{text}");
+}

@@ -1,0 +1,68 @@
+//! The command as people and scripts use it: exit codes, messages, files.
+
+mod bad_input;
+mod design;
+mod output;
+mod rankings;
+mod reruns;
+mod runs;
+mod shards;
+mod survival;
+
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// A few designs, one of each kind: flat and slanted, with contact and without.
+const FEW: &str = "name = 'few'\n[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = [0.2, 1]\n\
+                   slant_deg = [0, 45]\n[puncture]\nscales = 21\n";
+
+/// An empty folder to work in.
+struct Place {
+    folder: TempDir,
+}
+
+impl Place {
+    fn new() -> Self {
+        Self { folder: TempDir::new().expect("a folder") }
+    }
+
+    /// A place with the file `x.toml`.
+    fn with(text: &str) -> Self {
+        let place = Self::new();
+        std::fs::write(place.path("x.toml"), text).expect("writable");
+        place
+    }
+
+    fn path(&self, file: impl AsRef<Path>) -> PathBuf {
+        self.folder.path().join(file)
+    }
+
+    fn read(&self, file: &str) -> String {
+        std::fs::read_to_string(self.path(file)).expect("a file")
+    }
+
+    /// Names of what stands in `folder`, sorted.
+    fn list(&self, folder: &str) -> String {
+        let entries = std::fs::read_dir(self.path(folder)).expect("a folder");
+        let name = |entry: std::io::Result<std::fs::DirEntry>| entry.expect("an entry").file_name();
+        let mut names: Vec<_> =
+            entries.map(|entry| name(entry).to_string_lossy().into_owned()).collect();
+        names.sort();
+        names.join(" ")
+    }
+
+    /// `squama` with `arguments` separated by spaces.
+    fn squama(&self, arguments: &str) -> Command {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("squama"));
+        command.current_dir(self.folder.path()).args(arguments.split_whitespace());
+        command
+    }
+
+    /// What `squama` prints when it is done well.
+    fn prints(&self, arguments: &str) -> String {
+        let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();
+        String::from_utf8(output).expect("text")
+    }
+}

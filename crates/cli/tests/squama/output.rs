@@ -1,0 +1,94 @@
+//! What is printed for people.
+
+use std::process::Stdio;
+
+use crate::{FEW, Place};
+
+#[test]
+fn check_says_what_would_run() {
+    let place = Place::with(FEW);
+    insta::assert_snapshot!(
+        place.prints("check x.toml --set designs.c1={from=0.01,to=1,step=0.01}")
+    );
+    assert_eq!(place.list("."), "x.toml", "nothing is written");
+}
+
+#[test]
+fn calibrate_prints_six_coefficients() {
+    let text = Place::new().prints("calibrate --gap 0.1 --length 1");
+    let numbers = |name: &str| {
+        let line = text.lines().find(|line| line.trim_start().starts_with(name));
+        let words = line.expect("a line").split_whitespace().skip(1);
+        words.map(|word| word.parse::<f64>().expect("a number")).collect::<Vec<_>>()
+    };
+    let close = |found: Vec<f64>, expected: [f64; 3]| {
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 2e-3), "{found:?}");
+    };
+    // Three square bases a tenth of their side apart.
+    close(numbers("alpha"), [2.699, 3.376, 2.473]);
+    close(numbers("beta"), [0.993, 1.082, -0.428]);
+}
+
+#[test]
+fn help_shows_examples() {
+    let place = Place::new();
+    let commands = [
+        "",
+        "run ",
+        "rerun ",
+        "status ",
+        "merge ",
+        "design ",
+        "rank ",
+        "compare ",
+        "check ",
+        "calibrate ",
+    ];
+    for command in commands {
+        let text = place.prints(&format!("{command}--help"));
+        assert!(text.contains("Examples:\n  squama "), "{text}");
+    }
+    insta::assert_snapshot!(place.prints("run --help"));
+    insta::assert_snapshot!(place.prints("rank --help"));
+    insta::assert_snapshot!(place.prints("compare --help"));
+}
+
+#[test]
+fn a_run_ends_with_a_summary() {
+    let place = Place::with(FEW);
+    let text = place.prints("run x.toml --threads 1");
+    let (title, rest) = text.split_once('\n').expect("lines");
+    assert!(
+        title.starts_with("few: 8 designs in ") && title.ends_with(" s on 1 thread"),
+        "{title}"
+    );
+    let names: Vec<_> = rest.lines().map(|line| line.split("  ").nth(1).unwrap_or("")).collect();
+    assert_eq!(
+        names,
+        [
+            "puncture",
+            "flexure",
+            "best coverage",
+            "largest critical force",
+            "least penetration",
+            "largest compliance",
+            "tables"
+        ]
+    );
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let place = Place::with(FEW);
+    let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("squama"))
+        .args(["design", "x.toml", "--design", "1"])
+        .current_dir(place.folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("an end");
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+}

@@ -1,0 +1,122 @@
+//! `squama rank` and `squama compare`: what they print, what they write, what they refuse.
+
+use crate::{FEW, Place};
+
+const TABLE: &str =
+    "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,\
+                     compliance,puncture_status,flexure_status
+0001,0.1,0.2,0,0,1,0.1,0.5,complete,complete
+0002,0.1,0.2,45,0.6,4,0.2,0.3,complete,complete
+0003,0.1,1,45,0.9,2,0.25,0.1,complete,complete
+0004,0.5,0.2,45,0.3,1.5,0.1,0.7,complete,complete
+0005,0.5,1,45,0.25,1.25,0.3,0.2,complete,complete
+0006,0.5,1,60,0.5,,,0.4,no convergence,complete
+";
+
+/// A place with the results `a`.
+fn place() -> Place {
+    let place = Place::new();
+    put(&place, "a", TABLE);
+    place
+}
+
+fn put(place: &Place, folder: &str, table: &str) {
+    std::fs::create_dir(place.path(folder)).expect("a folder");
+    std::fs::write(place.path(folder).join("designs.csv"), table).expect("writable");
+}
+
+fn refused(place: &Place, arguments: &str) -> String {
+    let assert = place.squama(arguments).assert().code(2).stdout("");
+    let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    assert_eq!(message.lines().count(), 1, "{message}");
+    message
+}
+
+#[test]
+fn the_best_designs_are_printed() {
+    let place = place();
+    insta::assert_snapshot!(place.prints("rank a --top 3 --resolution 10"));
+    assert_eq!(place.list("a"), "designs.csv pareto.csv quaternary.csv ranking.csv winners.csv");
+    insta::assert_snapshot!(place.read("a/ranking.csv"));
+    insta::assert_snapshot!(place.read("a/winners.csv"));
+}
+
+#[test]
+fn the_tables_may_go_elsewhere() {
+    let place = place();
+    place.prints("rank a --weights 0.4,0.3,0.2,0.1 --out b");
+    assert_eq!(place.list("a"), "designs.csv");
+    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv winners.csv");
+}
+
+#[test]
+fn one_design_is_ranked_alone() {
+    let place = Place::new();
+    let one: Vec<_> = TABLE.lines().take(3).collect();
+    put(&place, "a", &one.join("\n"));
+    insta::assert_snapshot!(place.prints("rank a --resolution 1"));
+}
+
+#[test]
+fn a_run_takes_the_ranking_of_an_earlier_one_away() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    place.prints("rank results/few");
+    assert!(place.list("results/few").contains("ranking.csv"));
+    place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
+    assert_eq!(
+        place.list("results/few"),
+        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+    );
+    let message = refused(&place, "rank results/few");
+    insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");
+}
+
+#[test]
+fn wrong_weights_and_results_are_refused() {
+    let place = place();
+    let messages = [
+        "rank a --weights 0.5,0.6,0,0",
+        "rank a --weights -0.5,0.5,0.5,0.5",
+        "rank a --weights 1,0,0",
+        "rank a --weights a,b,c,d",
+        "rank a --resolution 0",
+        "rank a --out a/designs.csv",
+        "rank b",
+        "compare a b",
+        "compare a a --tolerance -1",
+        "compare a a --tolerance x",
+    ];
+    let messages = messages.map(|arguments| refused(&place, arguments));
+    insta::assert_snapshot!(messages.concat());
+    assert_eq!(place.list("a"), "designs.csv", "nothing is written");
+}
+
+#[test]
+fn differences_are_printed() {
+    let place = place();
+    let other = TABLE.replace("0.5,1,60,0.5,,,0.4,no convergence", "0.5,1,75,0.4,3,1,0.4,complete");
+    put(&place, "b", &other.replace(",0.3,complete,complete", ",0.30003,complete,complete"));
+    insta::assert_snapshot!(place.prints("compare a b"));
+    assert_eq!(place.list("."), "a b", "nothing is written");
+    place.prints("compare a b --out c");
+    assert_eq!(place.list("c"), "compare.csv differences.csv");
+    place.squama("compare a b --exit-code").assert().code(1);
+    place.squama("compare a a --exit-code").assert().code(0);
+}
+
+#[test]
+fn a_run_with_another_base_is_compared_design_by_design() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --set measures=coverage --out L").assert().code(0);
+    place
+        .squama("run x.toml -q --set measures=coverage --set scale.base=2L --out 2L")
+        .assert()
+        .code(0);
+    let text = place.prints("compare L 2L");
+    assert!(
+        text.starts_with("L against 2L: 8 designs in both\n  scale.base  L  against 2L\n"),
+        "{text}"
+    );
+    assert!(text.lines().any(|line| line.trim_start().starts_with("coverage  8 ")), "{text}");
+}

@@ -1,0 +1,133 @@
+//! Failures as data, and solving designs again.
+
+use crate::{FEW, Place};
+
+/// A few designs, all of which stop early.
+const STOPPED: &str = "run x.toml -q --out r --set solver.max_points=3";
+
+#[test]
+fn a_failure_says_where_and_how_to_see_it() {
+    let place = Place::with(FEW);
+    place.squama(STOPPED).assert().code(1);
+    let table = place.read("r/failures.csv");
+    let rows: Vec<_> = table.lines().collect();
+    assert_eq!(rows.len(), 1 + 8);
+    assert_eq!(
+        rows[0],
+        "design,gap_over_t,length_over_t,slant_deg,measure,reason,angle_deg,load,displacement,\
+         contacts,step,iteration,residual,settings,command"
+    );
+    assert!(rows[4].starts_with("0004,0.1,1,45,puncture,too many points,0.559,"), "{}", rows[4]);
+    let command = rows[4].rsplit(',').next().expect("a command");
+    assert_eq!(command, "squama design run.toml --design 0004 --out designs/0004");
+    let mut design = place.squama(command.strip_prefix("squama ").expect("squama"));
+    design.current_dir(place.path("r")).assert().code(1);
+    // The last equilibrium of its path is where the failure is said to be.
+    let path = place.read("r/designs/0004/path.csv");
+    let cells: Vec<_> = rows[4].split(',').collect();
+    let last = path.lines().last().expect("a point");
+    assert_eq!(last, format!("{},{},{},{}", cells[8], cells[7], cells[6], cells[9]));
+}
+
+#[test]
+fn failed_designs_are_solved_again_and_what_changed_is_told() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out whole").assert().code(0);
+    place.squama(STOPPED).assert().code(1);
+    let plan = place.prints("rerun r --failed --dry-run --set solver.max_points=1000");
+    insta::assert_snapshot!(plan, @r"
+    solved again: 8 designs with solver.max_points=1000
+      0001 0002 0003 0004 0005 0006 0007 0008
+    ");
+    assert_eq!(place.read("r/failures.csv").lines().count(), 1 + 8, "a plan changes nothing");
+    place.squama("rerun r --failed -q --set solver.max_points=1000").assert().code(0);
+    assert_eq!(place.read("r/failures.csv").lines().count(), 1);
+    let settled = place.read("r/designs.csv").replace("solver.max_points=1000", "");
+    assert_eq!(settled, place.read("whole/designs.csv"));
+    assert_eq!(place.read("r/critical_force.csv"), place.read("whole/critical_force.csv"));
+    let changes = place.read("r/reruns.csv");
+    let change = "0004,1,solver.max_points=1000,,puncture_status,too many points,complete";
+    assert!(changes.lines().any(|line| line == change), "{changes}");
+}
+
+#[test]
+fn designs_are_chosen_by_number_and_by_value() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let chosen = |choice: &[&str]| {
+        let mut command = place.squama("rerun r --dry-run");
+        let output = command.args(choice).assert().code(0).get_output().stdout.clone();
+        let text = String::from_utf8(output).expect("text");
+        text.lines().nth(1).expect("designs").trim().to_owned()
+    };
+    assert_eq!(chosen(&["--design", "7,0002,2"]), "0002 0007");
+    assert_eq!(chosen(&["--where", "slant_deg=45.0"]), "0002 0004 0006 0008");
+    assert_eq!(chosen(&["--where", "slant_deg=45", "--where", "gap_over_t=0.5"]), "0006 0008");
+    assert_eq!(chosen(&["--where", "puncture_status=row limit"]), "");
+    let refused = |choice: &[&str]| {
+        let mut command = place.squama("rerun r --dry-run");
+        String::from_utf8(command.args(choice).assert().code(2).get_output().stderr.clone())
+    };
+    let refused: Vec<_> = [
+        &["--design", "9"][..],
+        &["--where", "slant=45"],
+        &["--where", "slant_deg"],
+        &["--failed", "--set", "designs.slant_deg=30"],
+        &["--failed", "--set", "name=y"],
+        &["--failed", "--set", "solver.max_stepp=1"],
+        &["--failed", "--set", "solver.min_step=0.5"],
+    ]
+    .into_iter()
+    .map(|choice| refused(choice).expect("text"))
+    .collect();
+    insta::assert_snapshot!(refused.concat());
+}
+
+#[test]
+fn solving_again_with_the_same_settings_changes_nothing() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let before = place.read("r/designs.csv");
+    place.squama("rerun r --design 2 -q").assert().code(0);
+    assert_eq!(place.read("r/designs.csv"), before);
+    assert_eq!(place.read("r/reruns.csv").lines().nth(1), Some("0002,1,,,,,"));
+}
+
+#[test]
+fn status_tells_reasons_and_the_slowest() {
+    let place = Place::with(FEW);
+    place.squama(STOPPED).assert().code(1);
+    let output = place.squama("status r").assert().code(1).get_output().stdout.clone();
+    let text = String::from_utf8(output).expect("text");
+    for line in [
+        "few: not running",
+        "  designs     8, all designs",
+        "  done        8",
+        "  failed      8",
+        "  missing     0",
+        "why designs failed",
+        "  puncture  too many points  8 designs",
+        "slowest designs",
+    ] {
+        assert!(text.lines().any(|other| other == line), "{line} is missing in\n{text}");
+    }
+    assert_eq!(text.lines().skip_while(|line| *line != "slowest designs").count(), 1 + 5);
+}
+
+#[test]
+fn tables_for_spreadsheets_with_decimal_commas() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out plain").assert().code(0);
+    place.squama("run x.toml -q --out r --csv excel-eu").assert().code(0);
+    let bytes = std::fs::read(place.path("r/coverage.csv")).expect("a file");
+    assert!(bytes.starts_with("\u{feff}design;gap_over_t;".as_bytes()));
+    let table = place.read("r/coverage.csv");
+    assert!(table.contains("\r\n0003;0,1;1;0;0,") || table.contains("\r\n0002;0,1;0,2;45;0,"));
+    let plain = table.trim_start_matches('\u{feff}').replace(',', ".").replace(';', ",");
+    assert_eq!(plain, place.read("plain/coverage.csv"));
+    // It stays as it was asked for, until something else is.
+    place.squama("rerun r --design 1 -q").assert().code(0);
+    assert_eq!(place.read("r/coverage.csv"), table);
+    place.squama("run x.toml -q --resume --out r --csv plain").assert().code(0);
+    assert_eq!(place.read("r/coverage.csv"), place.read("plain/coverage.csv"));
+}

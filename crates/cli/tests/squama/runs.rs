@@ -1,0 +1,105 @@
+//! `squama run`: its files, its exit code, and that threads do not matter.
+
+use crate::{FEW, Place};
+
+/// The files of a run that must not depend on when and with how many threads it ran.
+pub const TABLES: [&str; 6] = [
+    "designs.csv",
+    "coverage.csv",
+    "critical_force.csv",
+    "penetration.csv",
+    "compliance.csv",
+    "failures.csv",
+];
+
+#[test]
+fn writes_its_tables_to_the_folder_of_its_name() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml --quiet").assert().code(0).stdout("").stderr("");
+    assert_eq!(
+        place.list("results/few"),
+        "compliance.csv coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
+         penetration.csv run.toml"
+    );
+    let table = place.read("results/few/designs.csv");
+    let rows: Vec<_> = table.lines().collect();
+    assert!(rows[0].starts_with(
+        "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,puncture_status,"
+    ));
+    assert_eq!(rows.len(), 1 + 8);
+    assert!(rows[1].starts_with("0001,0.1,0.2,0,0,"));
+    assert!(rows[8].starts_with("0008,0.5,1,45,0.4"));
+}
+
+#[test]
+fn any_number_of_threads_writes_the_same_bytes() {
+    let place = Place::with(FEW);
+    for threads in [1, 2, 8] {
+        place
+            .squama(&format!("run x.toml -q --threads {threads} --out {threads}"))
+            .assert()
+            .code(0);
+    }
+    for table in TABLES {
+        let one = place.read(&format!("1/{table}"));
+        assert_eq!(one, place.read(&format!("2/{table}")));
+        assert_eq!(one, place.read(&format!("8/{table}")));
+    }
+}
+
+#[test]
+fn its_record_repeats_it() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --set contact.c1=0.7 --out a").assert().code(0);
+    place.squama("run a/run.toml -q --out b").assert().code(0);
+    for table in TABLES {
+        assert_eq!(place.read(&format!("a/{table}")), place.read(&format!("b/{table}")));
+    }
+    let record = place.read("a/run.toml");
+    let version = format!("version = \"{}\"", env!("CARGO_PKG_VERSION"));
+    for line in ["\"complete\" = 8", "designs = 8", "failed = 0", &version, "c1 = 0.7"] {
+        assert!(record.lines().any(|other| other == line), "{line} is missing in\n{record}");
+    }
+}
+
+#[test]
+fn a_design_that_stops_early_is_a_row_and_an_exit_code() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml --set solver.max_points=3").assert().code(1);
+    let table = place.read("results/few/critical_force.csv");
+    let row = table.lines().nth(1).expect("a row");
+    assert!(row.starts_with("0001,0.1,0.2,0,,too many points,,,"), "{row}");
+    assert!(place.read("results/few/run.toml").contains("\"too many points\" = 8"));
+}
+
+#[test]
+fn what_is_not_measured_is_empty_and_has_no_table() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
+    assert_eq!(
+        place.list("results/few"),
+        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+    );
+    let table = place.read("results/few/designs.csv");
+    let row = table.lines().nth(8).expect("a row");
+    assert_eq!(row.trim_end_matches(',').matches(',').count(), 4, "{row}");
+    assert_eq!(
+        row.matches(',').count(),
+        table.lines().next().expect("a header").matches(',').count()
+    );
+}
+
+#[test]
+fn another_axis_has_a_column() {
+    let place = Place::with(FEW);
+    place
+        .squama("run x.toml -q --set designs.base=[\"L\",\"2L\"] --set designs.gap_over_t=1")
+        .assert()
+        .code(0);
+    let table = place.read("results/few/coverage.csv");
+    let rows: Vec<_> = table.lines().take(4).collect();
+    assert_eq!(rows[0], "design,gap_over_t,length_over_t,slant_deg,coverage,base");
+    assert_eq!(rows[1], "0001,1,0.2,0,0,L");
+    assert_eq!(rows[3], "0003,1,0.2,0,0,2L");
+}

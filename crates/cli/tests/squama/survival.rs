@@ -1,0 +1,216 @@
+//! A run that is killed, ended, or meets a full disk loses nothing that was done, and its tables
+//! are those of a run that nothing has happened to.
+
+use std::process::{Child, ExitStatus, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::runs::TABLES;
+use crate::{FEW, Place};
+
+/// Some designs that take a while.
+pub const MANY: &str = "name = 'many'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\n\
+                    length_over_t = [0.1, 0.3, 1]\nslant_deg = { from = 0, to = 75, step = 15 }\n\
+                    [puncture]\nscales = 61\n";
+
+impl Place {
+    fn spawn(&self, arguments: &str) -> Child {
+        std::process::Command::new(assert_cmd::cargo::cargo_bin!("squama"))
+            .args(arguments.split_whitespace())
+            .current_dir(self.path(""))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the command")
+    }
+
+    /// Runs `arguments` and kills it after a while.
+    fn kill(&self, arguments: &str, after: Duration) -> ExitStatus {
+        let mut child = self.spawn(arguments);
+        sleep(after);
+        child.kill().expect("a process");
+        child.wait().expect("an end")
+    }
+
+    fn lines(&self, file: &str) -> usize {
+        std::fs::read_to_string(self.path(file)).map_or(0, |text| text.lines().count())
+    }
+
+    pub fn assert_same_tables(&self, one: &str, other: &str) {
+        for table in TABLES {
+            let [one, other] = [one, other].map(|folder| self.read(&format!("{folder}/{table}")));
+            assert_eq!(one, other, "{table}");
+        }
+    }
+}
+
+#[test]
+fn killed_at_any_moment_it_goes_on_to_the_same_tables() {
+    let place = Place::with(MANY);
+    place.squama("run x.toml -q --out whole").assert().code(0);
+    for (threads, pauses) in [(1, [5, 60, 130]), (2, [40, 20, 90]), (8, [80, 35, 10])] {
+        let run = format!("run x.toml -q --resume --threads {threads} --out {threads}");
+        for pause in pauses {
+            place.kill(&run, Duration::from_millis(pause));
+        }
+        place.squama(&run).assert().code(0);
+        place.assert_same_tables("whole", &threads.to_string());
+        let list = place.list(&threads.to_string());
+        assert!(!list.contains(".partial"), "{list}");
+    }
+}
+
+#[test]
+fn a_torn_last_line_is_solved_again() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out a").assert().code(0);
+    let journal = place.read("a/journal.jsonl");
+    let torn = &journal[..journal.len() - 7];
+    std::fs::create_dir(place.path("b")).expect("a folder");
+    std::fs::write(place.path("b/journal.jsonl"), torn).expect("writable");
+    let status = place.squama("status b").assert().code(1).get_output().stdout.clone();
+    assert!(String::from_utf8_lossy(&status).contains("missing     1\n"));
+    place.squama("run x.toml -q --out b --resume").assert().code(0);
+    place.assert_same_tables("a", "b");
+}
+
+#[test]
+fn results_are_not_overwritten_unasked() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    let before = place.read("results/few/designs.csv");
+    let refused = |arguments: &str| {
+        let stderr = place.squama(arguments).assert().code(2).get_output().stderr.clone();
+        String::from_utf8(stderr).expect("text")
+    };
+    insta::assert_snapshot!(refused("run x.toml"), @"error: results/few: holds results already, expected --resume to go on with them or --fresh to throw them away");
+    insta::assert_snapshot!(refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: is of another definition: contact.c1 is 1.1 in it and 2 now; designs.slant_deg is [0, 45] in it and [30] now; expected no difference, or --fresh to throw the results away");
+    insta::assert_snapshot!(refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: is of all designs, not of --sample 3 --seed 0; expected no difference, or --fresh to throw the results away");
+    assert_eq!(place.read("results/few/designs.csv"), before);
+    place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
+    assert_ne!(place.read("results/few/designs.csv"), before);
+    std::fs::remove_file(place.path("results/few/journal.jsonl")).expect("a file");
+    insta::assert_snapshot!(refused("run x.toml --resume"), @"error: results/few: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR");
+}
+
+#[test]
+fn a_journal_of_another_program_is_refused() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    let journal = place.read("results/few/journal.jsonl");
+    let (header, rest) = journal.split_once('\n').expect("lines");
+    let content = header.replace("\"version\":\"", "\"version\":\"9.").split_off(18);
+    let sum = crc32fast::hash(content.as_bytes());
+    let forged = format!("{{\"crc\":\"{sum:08x}\",{content}\n{rest}");
+    std::fs::write(place.path("results/few/journal.jsonl"), forged).expect("writable");
+    let stderr = place.squama("run x.toml --resume").assert().code(2).get_output().stderr.clone();
+    let message = String::from_utf8(stderr).expect("text");
+    assert!(message.contains("is by squama 9."), "{message}");
+}
+
+#[test]
+fn the_second_run_on_a_folder_is_refused() {
+    let place = Place::with(MANY);
+    let slow = "run x.toml -q --threads 1 --resume --set solver.max_step=0.0005";
+    let mut first = place.spawn(slow);
+    while place.lines("results/many/journal.jsonl") < 3 {
+        sleep(Duration::from_millis(5));
+    }
+    let second = place.squama(slow).assert().code(2).get_output().stderr.clone();
+    insta::assert_snapshot!(String::from_utf8_lossy(&second), @"error: results/many: another squama is writing there, expected one at a time");
+    let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
+    let status = String::from_utf8_lossy(&status).into_owned();
+    assert!(
+        status.starts_with("many: running\n") && status.contains("running     1\n"),
+        "{status}"
+    );
+    first.kill().expect("a process");
+    first.wait().expect("an end");
+    let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
+    assert!(String::from_utf8_lossy(&status).starts_with("many: not running\n"));
+}
+
+#[cfg(unix)]
+mod signals {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+
+    use super::*;
+
+    /// Sends `signal` to a process.
+    fn send(child: &Child, signal: i32) {
+        let kill = format!("kill -{signal} {}", child.id());
+        let status = std::process::Command::new("sh").args(["-c", &kill]).status();
+        assert!(status.expect("a shell").success());
+    }
+
+    #[test]
+    fn the_first_finishes_what_is_in_hand() {
+        for (signal, code) in [(SIGINT, 130), (SIGTERM, 143)] {
+            let place = Place::with(MANY);
+            let run = "run x.toml -q --threads 2 --resume --set solver.max_step=0.002";
+            let mut child = place.spawn(run);
+            while place.lines("results/many/journal.jsonl") < 4 {
+                sleep(Duration::from_millis(2));
+            }
+            send(&child, signal);
+            assert_eq!(child.wait().expect("an end").code(), Some(code));
+            let journal = place.lines("results/many/journal.jsonl");
+            let rows = place.lines("results/many/designs.csv");
+            assert_eq!(rows, journal - 1, "a header and a session; a header");
+            assert!((3..54).contains(&rows), "{rows}");
+        }
+    }
+
+    #[test]
+    fn the_second_leaves_at_once() {
+        let place = Place::with(MANY);
+        // One design takes minutes.
+        let endless = "run x.toml -q --set solver.max_step=1e-7 --set solver.first_step=1e-7 \
+                       --set solver.max_points=1000000000";
+        let mut child = place.spawn(endless);
+        while place.lines("results/many/journal.jsonl") < 2 {
+            sleep(Duration::from_millis(5));
+        }
+        sleep(Duration::from_millis(100));
+        send(&child, SIGINT);
+        sleep(Duration::from_millis(200));
+        assert!(child.try_wait().expect("a process").is_none(), "it waits for what is in hand");
+        send(&child, SIGINT);
+        assert_eq!(child.wait().expect("an end").code(), Some(130));
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error_that_a_run_goes_on_from() {
+        let place = Place::with(MANY);
+        place.squama("run x.toml -q --out whole").assert().code(0);
+        let squama = assert_cmd::cargo::cargo_bin!("squama").display().to_string();
+        // Blocks of 512 or 1024 bytes, in mid-journal either way; then in mid-table.
+        for blocks in [5, 8, 15] {
+            let out = format!("out{blocks}");
+            let limited = format!("ulimit -f {blocks}; exec {squama} run x.toml -q --out {out}");
+            let output = std::process::Command::new("sh")
+                .args(["-c", &limited])
+                .current_dir(place.path(""))
+                .output()
+                .expect("a shell");
+            let message = String::from_utf8(output.stderr).expect("text");
+            assert_eq!(output.status.code(), Some(2), "{message}");
+            let begin = format!("error: {out}/");
+            assert!(message.starts_with(&begin) && message.lines().count() == 1, "{message}");
+            assert!(message.contains(": cannot be written (File too large)"), "{message}");
+            place.squama(&format!("run x.toml -q --resume --out {out}")).assert().code(0);
+            place.assert_same_tables("whole", &out);
+        }
+    }
+}
+
+#[test]
+fn a_run_ends_at_the_first_failure_if_asked_to() {
+    let place = Place::with(MANY);
+    let run = "run x.toml -q --threads 1 --set solver.max_points=3";
+    place.squama(&format!("{run} --fail-fast")).assert().code(1);
+    let done = place.lines("results/many/designs.csv") - 1;
+    assert!((1..5).contains(&done), "{done}");
+    place.squama(&format!("{run} --resume")).assert().code(1);
+    assert_eq!(place.lines("results/many/failures.csv"), 1 + 54);
+}

@@ -1,0 +1,354 @@
+//! The gap between a corner of one scale and an edge of its neighbour.
+
+use geometry::{Corner, Parallelogram, Vec2};
+
+/// Displacement and rotation of a scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Displacement of the node, over `t`.
+    pub displacement: Vec2,
+    /// Rotation `φ`, counter-clockwise, radians.
+    pub rotation: f64,
+    cos: f64,
+    sin: f64,
+}
+
+impl Pose {
+    /// The pose with displacements `x`, `y` of the node and rotation `rotation`.
+    pub fn new(x: f64, y: f64, rotation: f64) -> Self {
+        let (sin, cos) = rotation.sin_cos();
+        Self { displacement: Vec2::new(x, y), rotation, cos, sin }
+    }
+
+    /// A vector that turns with the scale.
+    pub fn turn(&self, v: Vec2) -> Vec2 {
+        Vec2::new(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+}
+
+/// Which corner of a pair of neighbours meets which edge of the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Top right corner of the left scale on the left edge of the right scale.
+    TopRightOnLeftEdge,
+    /// Top left corner of the right scale on the right edge of the left scale.
+    TopLeftOnRightEdge,
+    /// Bottom right corner of the left scale on the left edge of the right scale.
+    BottomRightOnLeftEdge,
+    /// Bottom left corner of the right scale on the right edge of the left scale.
+    BottomLeftOnRightEdge,
+}
+
+impl Kind {
+    /// The four kinds.
+    pub const ALL: [Self; 4] = [
+        Self::TopRightOnLeftEdge,
+        Self::TopLeftOnRightEdge,
+        Self::BottomRightOnLeftEdge,
+        Self::BottomLeftOnRightEdge,
+    ];
+
+    /// Short name, as in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::TopRightOnLeftEdge => "TR on left edge",
+            Self::TopLeftOnRightEdge => "TL on right edge",
+            Self::BottomRightOnLeftEdge => "BR on left edge",
+            Self::BottomLeftOnRightEdge => "BL on right edge",
+        }
+    }
+
+    /// The corner that touches.
+    pub fn corner(self) -> Corner {
+        match self {
+            Self::TopRightOnLeftEdge => Corner::TopRight,
+            Self::TopLeftOnRightEdge => Corner::TopLeft,
+            Self::BottomRightOnLeftEdge => Corner::BottomRight,
+            Self::BottomLeftOnRightEdge => Corner::BottomLeft,
+        }
+    }
+
+    /// The kind in which the same two corners change their parts.
+    #[must_use]
+    pub fn partner(self) -> Self {
+        match self {
+            Self::TopRightOnLeftEdge => Self::TopLeftOnRightEdge,
+            Self::TopLeftOnRightEdge => Self::TopRightOnLeftEdge,
+            Self::BottomRightOnLeftEdge => Self::BottomLeftOnRightEdge,
+            Self::BottomLeftOnRightEdge => Self::BottomRightOnLeftEdge,
+        }
+    }
+
+    /// Whether the corner belongs to the left scale of the pair.
+    pub fn corner_is_left(self) -> bool {
+        matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge)
+    }
+}
+
+/// A gap and its derivatives with respect to the six coordinates
+/// `(x, y, φ)` of the left and `(x, y, φ)` of the right scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gap {
+    /// `g`, over `t`; negative where the corner has passed the edge.
+    pub value: f64,
+    /// `∇g`.
+    pub gradient: [f64; 6],
+    /// `∇²g`, symmetric.
+    pub hessian: [[f64; 6]; 6],
+    /// Where the corner's foot lies on the edge: 0 at the base, 1 at the top.
+    pub foot: f64,
+    /// Outward normal of the edge: the direction of the force on the corner.
+    pub normal: Vec2,
+}
+
+/// Neighbouring scales at a pitch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pair {
+    scale: Parallelogram,
+    pitch: f64,
+    /// Outward normal of the right edge, undeformed.
+    right_normal: Vec2,
+    /// Distance of the right edge from the node, and of the left edge.
+    edge: f64,
+    /// From the base to the top along an edge, undeformed, over the square of its length.
+    rise: Vec2,
+    /// The corner of each kind of contact, undeformed, in the order of [`Kind`].
+    corners: [Vec2; 4],
+}
+
+/// A quarter turn counter-clockwise.
+pub(crate) fn quarter(v: Vec2) -> Vec2 {
+    Vec2::new(-v.y, v.x)
+}
+
+impl Pair {
+    /// Neighbours of the shape `scale`, their nodes `pitch` apart (over `t`).
+    pub fn new(scale: Parallelogram, pitch: f64) -> Self {
+        let (sin, cos) = scale.slant().sin_cos();
+        let rise = Vec2::new(scale.shift(), 1.0);
+        Self {
+            scale,
+            pitch,
+            right_normal: Vec2::new(cos, -sin),
+            edge: scale.half_base() * cos,
+            rise: rise / rise.norm_squared(),
+            corners: Kind::ALL.map(|kind| scale.corner(kind.corner())),
+        }
+    }
+
+    /// The shape of both scales.
+    pub fn scale(&self) -> &Parallelogram {
+        &self.scale
+    }
+
+    /// Distance of the nodes at rest, over `t`.
+    pub fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
+    /// Outward normal of a right edge at rest.
+    pub fn right_normal(&self) -> Vec2 {
+        self.right_normal
+    }
+
+    /// The gap of one kind of contact, with all its derivatives.
+    ///
+    /// With the corner `ρ` from the node of its scale `A`, turned by `φ_A`; the edge's outward normal `n`
+    /// and quarter turn `n'`, turned by `φ_B`; the edge's distance `e` from the node of `B`; and the vector `D` from the
+    /// node of `B` to the corner (a prime is a quarter turn counter-clockwise):
+    ///
+    /// ```text
+    /// g = D·n − e                                                                  (C1)
+    /// ∂g/∂u_A = n      ∂g/∂φ_A = ρ'·n      ∂g/∂u_B = −n      ∂g/∂φ_B = D·n'        (C2)
+    /// ∂²g/∂u_A∂φ_B = n'      ∂²g/∂u_B∂φ_B = −n'
+    /// ∂²g/∂φ_A² = −ρ·n       ∂²g/∂φ_A∂φ_B = ρ·n        ∂²g/∂φ_B² = −D·n            (C3)
+    /// ```
+    pub fn gap(&self, kind: Kind, left: &Pose, right: &Pose) -> Gap {
+        let frame = self.frame(kind, left, right);
+        let Frame { arm, normal, to_corner, .. } = frame;
+        let normal_turned = quarter(normal);
+        // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
+        let (a, b) = if kind.corner_is_left() { (0, 3) } else { (3, 0) };
+        let mut gradient = [0.0; 6];
+        let mut hessian = [[0.0; 6]; 6];
+        for axis in 0..2 {
+            gradient[a + axis] = normal[axis];
+            gradient[b + axis] = -normal[axis];
+            set(&mut hessian, a + axis, b + 2, normal_turned[axis]);
+            set(&mut hessian, b + axis, b + 2, -normal_turned[axis]);
+        }
+        gradient[a + 2] = quarter(arm).dot(&normal);
+        gradient[b + 2] = to_corner.dot(&normal_turned);
+        set(&mut hessian, a + 2, a + 2, -arm.dot(&normal));
+        set(&mut hessian, a + 2, b + 2, arm.dot(&normal));
+        set(&mut hessian, b + 2, b + 2, -to_corner.dot(&normal));
+        Gap { value: frame.gap, gradient, hessian, foot: frame.foot, normal }
+    }
+
+    /// The gap of one kind of contact alone.
+    pub fn distance(&self, kind: Kind, left: &Pose, right: &Pose) -> f64 {
+        self.frame(kind, left, right).gap
+    }
+
+    /// The upper contact and its gap: the top right corner on the left edge while its foot lies within that
+    /// edge, otherwise the top left corner on the right edge; `None` where neither corner faces
+    /// the other scale's edge.
+    pub fn upper(&self, left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
+        self.facing([Kind::TopRightOnLeftEdge, Kind::TopLeftOnRightEdge], left, right)
+    }
+
+    /// The lower contact and its gap: the bottom right corner on the left edge while its foot lies within that
+    /// edge, otherwise the bottom left corner on the right edge; `None` where neither corner
+    /// faces the other scale's edge.
+    pub fn lower(&self, left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
+        self.facing([Kind::BottomRightOnLeftEdge, Kind::BottomLeftOnRightEdge], left, right)
+    }
+
+    fn facing(&self, kinds: [Kind; 2], left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
+        kinds.into_iter().find_map(|kind| {
+            let frame = self.frame(kind, left, right);
+            (0.0..=1.0).contains(&frame.foot).then_some((kind, frame.gap))
+        })
+    }
+
+    fn frame(&self, kind: Kind, left: &Pose, right: &Pose) -> Frame {
+        let (corner_pose, edge_pose, offset, normal) = if kind.corner_is_left() {
+            (left, right, -self.pitch, -self.right_normal)
+        } else {
+            (right, left, self.pitch, self.right_normal)
+        };
+        let arm = corner_pose.turn(self.corners[kind as usize]);
+        // Relative positions, so that the place of the pair in a long row costs no digits.
+        let to_corner =
+            Vec2::new(offset, 0.0) + (corner_pose.displacement - edge_pose.displacement) + arm;
+        let turned = edge_pose.turn(normal);
+        let gap = to_corner.dot(&turned) - self.edge;
+        // From the node to the base of the edge: `a` along the base, to the side that the normal tells.
+        let base = self.scale.half_base().copysign(normal.x);
+        let from_base = to_corner - edge_pose.turn(Vec2::new(base, 0.0));
+        let foot = from_base.dot(&edge_pose.turn(self.rise));
+        Frame { arm, normal: turned, to_corner, gap, foot }
+    }
+}
+
+/// The vectors that a gap is made of, turned.
+struct Frame {
+    arm: Vec2,
+    normal: Vec2,
+    to_corner: Vec2,
+    gap: f64,
+    foot: f64,
+}
+
+fn set(hessian: &mut [[f64; 6]; 6], row: usize, column: usize, value: f64) {
+    hessian[row][column] = value;
+    hessian[column][row] = value;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, Pair, Pose};
+    use approx::assert_relative_eq;
+    use geometry::Parallelogram;
+    use proptest::prelude::*;
+
+    fn poses(q: &[f64; 6]) -> (Pose, Pose) {
+        (Pose::new(q[0], q[1], q[2]), Pose::new(q[3], q[4], q[5]))
+    }
+
+    fn moved(q: &[f64; 6], i: usize, h: f64) -> (Pose, Pose) {
+        let mut q = *q;
+        q[i] += h;
+        poses(&q)
+    }
+
+    proptest! {
+        #[test]
+        fn derivatives_agree_with_finite_differences(
+            slant in 0.0_f64..80.0, half_base in 0.02_f64..3.0, gap in 0.05_f64..2.0,
+            q in prop::array::uniform6(-1.5_f64..1.5), kind in 0_usize..4,
+        ) {
+            let kind = Kind::ALL[kind];
+            let scale = Parallelogram::new(half_base, slant).unwrap();
+            let pair = Pair::new(scale, 2.0 * half_base + gap);
+            let (left, right) = poses(&q);
+            let ours = pair.gap(kind, &left, &right);
+            let h = 1e-6;
+            for i in 0..6 {
+                let (l, r) = moved(&q, i, h);
+                let high = pair.gap(kind, &l, &r);
+                let (l, r) = moved(&q, i, -h);
+                let low = pair.gap(kind, &l, &r);
+                assert_relative_eq!(
+                    ours.gradient[i], (high.value - low.value) / (2.0 * h), epsilon = 1e-7, max_relative = 1e-7
+                );
+                for j in 0..6 {
+                    assert_relative_eq!(
+                        ours.hessian[i][j], (high.gradient[j] - low.gradient[j]) / (2.0 * h),
+                        epsilon = 1e-7, max_relative = 1e-7
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn at_rest_the_gap_is_the_distance_of_the_edges() {
+        let scale = Parallelogram::new(0.5, 60.0).unwrap();
+        let pair = Pair::new(scale, 1.2);
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        assert_eq!(pair.upper(&rest, &rest).map(|(kind, _)| kind), Some(Kind::TopRightOnLeftEdge));
+        assert_eq!(
+            pair.lower(&rest, &rest).map(|(kind, _)| kind),
+            Some(Kind::BottomLeftOnRightEdge)
+        );
+        for kind in [Kind::TopRightOnLeftEdge, Kind::BottomLeftOnRightEdge] {
+            assert_relative_eq!(pair.distance(kind, &rest, &rest), 0.1, max_relative = 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_corner_that_has_left_its_edge_hands_over_to_its_partner() {
+        let scale = Parallelogram::new(0.5, 0.0).unwrap();
+        let pair = Pair::new(scale, 1.2);
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let raised = Pose::new(0.0, 0.1, 0.0);
+        assert_eq!(
+            pair.upper(&raised, &rest).map(|(kind, _)| kind),
+            Some(Kind::TopLeftOnRightEdge)
+        );
+        assert_eq!(
+            pair.lower(&raised, &rest).map(|(kind, _)| kind),
+            Some(Kind::BottomRightOnLeftEdge)
+        );
+        assert_eq!(
+            pair.upper(&rest, &raised).map(|(kind, _)| kind),
+            Some(Kind::TopRightOnLeftEdge)
+        );
+        assert_eq!(
+            pair.lower(&rest, &raised).map(|(kind, _)| kind),
+            Some(Kind::BottomLeftOnRightEdge)
+        );
+    }
+
+    #[test]
+    fn a_corner_below_its_neighbour_faces_no_edge() {
+        let scale = Parallelogram::new(0.5, 60.0).unwrap();
+        let pair = Pair::new(scale, 3.0);
+        let (sunk, rest) = (Pose::new(0.0, -0.6, 0.0), Pose::new(0.0, 0.0, 0.0));
+        assert_eq!(pair.upper(&sunk, &rest), None);
+    }
+
+    #[test]
+    fn a_rotated_neighbour_is_met_where_trigonometry_says() {
+        // Upright blocks; the left one turns clockwise by φ about its node: its top right corner
+        // moves right by (sin φ + a (cos φ − 1)).
+        let (a, gap, phi) = (0.5, 0.3, 0.2_f64);
+        let pair = Pair::new(Parallelogram::new(a, 0.0).unwrap(), 2.0 * a + gap);
+        let left = Pose::new(0.0, 0.0, -phi);
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let expected = gap - (phi.sin() + a * (phi.cos() - 1.0));
+        let ours = pair.distance(Kind::TopRightOnLeftEdge, &left, &rest);
+        assert_relative_eq!(ours, expected, max_relative = 1e-14);
+    }
+}

@@ -1,0 +1,164 @@
+//! The contact law, Eq. (5).
+
+use thiserror::Error;
+
+/// Constants of the contact law `F/(L b E_ct) = C₁ (δ/L)^C₂` (Eq. 5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Law {
+    /// Prefactor `C₁ > 0`, dimensionless.
+    pub c1: f64,
+    /// Exponent `C₂ > 0`, dimensionless.
+    pub c2: f64,
+}
+
+impl Law {
+    /// The constants as printed by Shafiei et al. (2021): `C₁ = 1.1`, `C₂ = 0.23`.
+    pub const PRINTED: Self = Self { c1: 1.1, c2: 0.23 };
+
+    /// The printed constants exchanged, the reading that finite elements support.
+    pub const EXCHANGED: Self = Self { c1: 0.23, c2: 1.1 };
+}
+
+/// A contact law with a constant that is not positive and finite.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[error("{name} of the contact law is {value}, expected a positive number")]
+pub struct InvalidLaw {
+    /// Which constant.
+    pub name: &'static str,
+    /// What was given.
+    pub value: f64,
+}
+
+/// Contact between scales of one design: the approach `δ` that a force `λ` on a corner takes.
+///
+/// ```text
+/// δ(λ) = L (λ/λ₀)^(1/C₂),    λ₀ = C₁ L b E_ct                                      (C4)
+/// ```
+///
+/// This is Eq. (5) in compliance form. For `C₂ < 1` the stiffness is infinite at first touch, and
+/// the force as a function of the approach is of no use to Newton's method; the approach as a
+/// function of the force is smooth, with zero slope at zero. For `C₂ > 1` the compliance is
+/// infinite at first touch, but only just: a force of `10⁻¹²` of `λ₀` leaves a slope that is finite and
+/// moderate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactLaw {
+    /// `λ₀`: the force at `δ = L`.
+    force: f64,
+    /// `L`.
+    length: f64,
+    exponent: f64,
+}
+
+/// Part of `λ₀` below which the slope of the law is taken at this force: it may be infinite at zero.
+const SMALLEST_FORCE: f64 = 1e-12;
+
+/// How far a contact gives way to a force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// `δ`, over `t`.
+    pub value: f64,
+    /// `dδ/dλ`.
+    pub slope: f64,
+}
+
+impl ContactLaw {
+    /// The law for scales of length `L` and width `b` (over `t`), with the contact modulus `E_ct` in
+    /// units of the modulus that forces are measured in.
+    ///
+    /// # Errors
+    /// If a number is not positive and finite.
+    pub fn new(law: Law, length: f64, width: f64, modulus: f64) -> Result<Self, InvalidLaw> {
+        let numbers = [
+            ("c1", law.c1),
+            ("c2", law.c2),
+            ("length", length),
+            ("width", width),
+            ("modulus", modulus),
+        ];
+        for (name, value) in numbers {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(InvalidLaw { name, value });
+            }
+        }
+        Ok(Self { force: law.c1 * length * width * modulus, length, exponent: law.c2 })
+    }
+
+    /// Approach under a force, Eq. (C4); continued as an odd function to forces below zero, where
+    /// Newton's method may pass through.
+    pub fn approach(&self, force: f64) -> Approach {
+        let n = self.exponent.recip();
+        let ratio = force / self.force;
+        let value = self.length * ratio.abs().powf(n).copysign(ratio);
+        let slope = n * self.length / self.force * ratio.abs().max(SMALLEST_FORCE).powf(n - 1.0);
+        Approach { value, slope }
+    }
+
+    /// Elastic energy `∫ λ dδ = λ δ / (1 + C₂)` of a contact under a force.
+    pub fn energy(&self, force: f64) -> f64 {
+        force * self.approach(force).value / (1.0 + self.exponent)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ContactLaw, Law};
+    use approx::assert_relative_eq;
+
+    fn laws() -> [(Law, ContactLaw); 3] {
+        [Law::PRINTED, Law::EXCHANGED, Law { c1: 2.0, c2: 1.0 }]
+            .map(|law| (law, ContactLaw::new(law, 0.4, 1.5, 7000.0).unwrap()))
+    }
+
+    #[test]
+    fn force_and_approach_obey_equation_5() {
+        for (law, contact) in laws() {
+            for force in [1e-3, 0.1, 20.0, 900.0] {
+                let approach = contact.approach(force).value;
+                let expected = law.c1 * (approach / 0.4).powf(law.c2) * 0.4 * 1.5 * 7000.0;
+                assert_relative_eq!(force, expected, max_relative = 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn slope_is_the_derivative_on_both_sides_of_zero() {
+        for (_, contact) in laws() {
+            for force in [-3.0_f64, -0.02, 0.02, 3.0] {
+                let h = 1e-6 * force.abs();
+                let difference =
+                    contact.approach(force + h).value - contact.approach(force - h).value;
+                let slope = contact.approach(force).slope;
+                assert_relative_eq!(slope, difference / (2.0 * h), max_relative = 1e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn the_slope_at_first_touch_is_finite() {
+        for (_, contact) in laws() {
+            assert!(contact.approach(0.0).slope.is_finite());
+        }
+    }
+
+    #[test]
+    fn energy_is_the_work_of_the_force() {
+        for (_, contact) in laws() {
+            let n = 20_000;
+            let force = |i: i32| 50.0 * (f64::from(i) / f64::from(n)).powi(3);
+            let work: f64 = (0..n)
+                .map(|i| {
+                    let (low, high) = (force(i), force(i + 1));
+                    let step = contact.approach(high).value - contact.approach(low).value;
+                    0.5 * (low + high) * step
+                })
+                .sum();
+            assert_relative_eq!(contact.energy(50.0), work, max_relative = 1e-6);
+        }
+    }
+
+    #[test]
+    fn constants_must_be_positive() {
+        let error = ContactLaw::new(Law { c1: 1.1, c2: 0.0 }, 1.0, 1.0, 1.0).unwrap_err();
+        assert_eq!(error.to_string(), "c2 of the contact law is 0, expected a positive number");
+    }
+}

@@ -1,0 +1,135 @@
+//! Overlap of deformed scales: the interpenetration audit.
+//!
+//! Collision queries serve here, in general position, and never the gap or its derivatives: on
+//! aligned edges they lose digits that an equilibrium needs.
+
+use geometry::{Parallelogram, Vec2};
+use parry2d_f64::math::{Pose as Placement, Vector};
+use parry2d_f64::query;
+use parry2d_f64::shape::ConvexPolygon;
+use parry2d_f64::transformation::convex_polygons_intersection_points;
+
+use crate::gap::Pose;
+
+/// Two scales that overlap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// The scale to the left, from 0.
+    pub left: usize,
+    /// The scale to the right.
+    pub right: usize,
+    /// Least distance by which one must be moved to part them, over `t`.
+    pub depth: f64,
+}
+
+/// Every pair of scales of a row, neighbours or not, that overlap in the given poses.
+pub fn overlaps(scale: &Parallelogram, pitch: f64, poses: &[Pose]) -> Vec<Overlap> {
+    let across = Vec2::new(scale.slant().cos(), -scale.slant().sin());
+    let extents: Vec<[(f64, f64); 2]> = poses
+        .iter()
+        .enumerate()
+        .map(|(i, pose)| {
+            let corners = corners(scale, pose, i as f64 * pitch);
+            [extent(&corners, Vec2::x()), extent(&corners, across)]
+        })
+        .collect();
+    // Where scale `k` and all to its right begin: beyond it nothing reaches back.
+    let mut begins: Vec<f64> = extents.iter().map(|[horizontal, _]| horizontal.0).collect();
+    for k in (1..begins.len()).rev() {
+        begins[k - 1] = begins[k - 1].min(begins[k]);
+    }
+    let mut found = Vec::new();
+    for left in 0..poses.len() {
+        let reach = extents[left][0].1;
+        let candidates = (left + 1..poses.len()).take_while(|&right| begins[right] <= reach);
+        for right in candidates {
+            if (0..2).any(|k| apart(extents[left][k], extents[right][k])) {
+                continue;
+            }
+            let offset = (right - left) as f64 * pitch;
+            if let Some(depth) = depth(scale, offset, &poses[left], &poses[right]) {
+                found.push(Overlap { left, right, depth });
+            }
+        }
+    }
+    found
+}
+
+/// The polygon in which two scales overlap, their nodes `offset` apart; empty where they do not.
+pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Vec<Vec2> {
+    let points = |pose, at| corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
+    let mut polygon = Vec::new();
+    convex_polygons_intersection_points(&points(left, 0.0), &points(right, offset), &mut polygon);
+    polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
+}
+
+fn depth(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Option<f64> {
+    let polygon = |pose, at| {
+        let points = corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
+        ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
+    };
+    let (first, second) = (polygon(left, 0.0)?, polygon(right, offset)?);
+    let here = Placement::IDENTITY;
+    let contact = query::contact(&here, &first, &here, &second, 0.0).ok()??;
+    (contact.dist < 0.0).then_some(-contact.dist)
+}
+
+fn corners(scale: &Parallelogram, pose: &Pose, at: f64) -> [Vec2; 4] {
+    scale.corners().map(|corner| Vec2::new(at, 0.0) + pose.displacement + pose.turn(corner))
+}
+
+fn extent(points: &[Vec2], direction: Vec2) -> (f64, f64) {
+    points
+        .iter()
+        .map(|p| p.dot(&direction))
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+}
+
+fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
+    a.1 < b.0 || b.1 < a.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{overlap_polygon, overlaps};
+    use crate::gap::Pose;
+    use approx::assert_relative_eq;
+    use geometry::Parallelogram;
+
+    #[test]
+    fn a_scale_pushed_into_its_neighbour_overlaps_by_as_much() {
+        let scale = Parallelogram::new(0.5, 0.0).unwrap();
+        let poses =
+            [Pose::new(0.0, 0.0, 0.0), Pose::new(-0.25, 0.02, 0.0), Pose::new(0.0, 0.0, 0.0)];
+        let found = overlaps(&scale, 1.1, &poses);
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].left, found[0].right), (0, 1));
+        assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
+    }
+
+    #[test]
+    fn scales_that_jump_over_a_neighbour_are_found() {
+        let scale = Parallelogram::new(0.1, 45.0).unwrap();
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let poses = [Pose::new(0.55, 0.0, 0.0), rest, rest];
+        let found = overlaps(&scale, 0.3, &poses);
+        assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
+    }
+
+    #[test]
+    fn the_overlap_of_two_tilted_blocks_is_a_triangle_of_the_right_area() {
+        let scale = Parallelogram::new(0.5, 0.0).unwrap();
+        // The left block leans over its neighbour's upright edge with its top right corner.
+        let phi = 0.2_f64;
+        let left = Pose::new(0.0, -0.2, -phi);
+        let polygon = overlap_polygon(&scale, 1.1, &left, &Pose::new(0.0, 0.0, 0.0));
+        assert_eq!(polygon.len(), 3);
+        let area = 0.5 * (0..3).map(|i| polygon[i].perp(&polygon[(i + 1) % 3])).sum::<f64>().abs();
+        let depth = phi.sin() + 0.5 * phi.cos() - 0.6;
+        assert_relative_eq!(
+            area,
+            0.5 * depth * depth * (phi.tan() + phi.tan().recip()),
+            max_relative = 1e-9
+        );
+    }
+}

@@ -1,0 +1,70 @@
+//! Coverage in closed form.
+
+/// Two lengths closer than this (over `t`) are the same: `tan 45°` is not exactly 1 in floating
+/// point, and a line that only touches a scale must not count as cutting it.
+const TOUCH: f64 = 1e-12;
+
+/// Coverage of scales with shift `S` of the top, base `2a` and pitch `p`, all over `t`.
+///
+/// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
+/// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. The neighbour begins within the line for
+/// `k ≤ S/p`, and then it is covered whole (its upper end `S − k p + 2a` lies below `S`, since
+/// `2a < p`); the one after that may still reach in from below the base by `S − k p + 2a`.
+pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
+    if shift < TOUCH {
+        return 0.0;
+    }
+    let whole = ((shift + TOUCH) / pitch).floor();
+    let partial = shift - (whole + 1.0) * pitch + base;
+    let partial = if partial > TOUCH { partial } else { 0.0 };
+    (whole * base + partial) / shift
+}
+
+#[cfg(test)]
+mod tests {
+    use super::coverage;
+    use proptest::prelude::*;
+
+    /// The sum over neighbours as it is defined, interval by interval.
+    fn by_intervals(shift: f64, base: f64, pitch: f64) -> f64 {
+        let mut sum = 0.0;
+        for k in 1..=(shift / pitch).ceil() as u32 + 1 {
+            let start = shift - f64::from(k) * pitch;
+            sum += ((start + base).min(shift) - start.max(0.0)).max(0.0);
+        }
+        sum / shift
+    }
+
+    proptest! {
+        #[test]
+        fn closed_form_equals_sum_of_intervals(
+            slant in 1.0_f64..80.0, base in 0.02_f64..6.0, gap in 0.05_f64..2.0,
+        ) {
+            let shift = slant.to_radians().tan();
+            let (ours, sum) = (coverage(shift, base, base + gap), by_intervals(shift, base, base + gap));
+            prop_assert!((ours - sum).abs() < 1e-10, "{ours} {sum}");
+        }
+
+        #[test]
+        fn coverage_lies_between_zero_and_one(
+            slant in 0.0_f64..89.0, base in 0.01_f64..6.0, gap in 0.01_f64..3.0,
+        ) {
+            let value = coverage(slant.to_radians().tan(), base, base + gap);
+            prop_assert!((0.0..1.0).contains(&value), "{value}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_only_touches_the_next_scale_is_exposed() {
+        // d = t tan 45°: the line ends on the corner of the neighbour's base.
+        assert_eq!(coverage(45.0_f64.to_radians().tan(), 0.5, 1.5), 0.0);
+        assert_eq!(coverage(0.0, 1.0, 1.1), 0.0);
+    }
+
+    #[test]
+    fn best_of_the_reference_study_is_at_45_degrees() {
+        let at = |slant: f64| coverage(slant.to_radians().tan(), 1.0, 1.1);
+        assert!((at(45.0) - 0.9).abs() < 1e-12);
+        assert!([15.0, 30.0, 60.0, 75.0].iter().all(|&slant| at(slant) < 0.9));
+    }
+}

@@ -1,0 +1,231 @@
+//! The membrane in one gap.
+
+use geometry::Vec2;
+use nalgebra::{DMatrix, DVector};
+
+use crate::section::positive;
+use crate::{
+    CorotationalBeam, Ends, InvalidMembrane, Local, OffsetBeam, Response, RigidArm, Section,
+};
+
+/// Where the membrane of a gap is held, undeformed; lengths over `t`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// Half-width `a ≥ 0` of the bases of the scales, under which the membrane is rigid.
+    pub half_base: f64,
+    /// Gap `d` between two bases: the free length of the membrane.
+    pub gap: f64,
+    /// Depth `e` of the membrane's axis below the bases; positive away from the scales.
+    pub axis_offset: f64,
+}
+
+/// The membrane between two neighbouring scales: `m` equal elements, rigid under the bases.
+///
+/// ```text
+///  ┌───────┐           ┌───────┐
+///  │ left  │           │ right │        scale nodes ○ at the midpoints of the bases
+///  └───○───┘           └───○───┘
+///      ┆ e                 ┆
+///      ╰┄┄┄●━━━●━━━●━━━●┄┄┄╯            m = 3 elements, interior nodes ● with poses of their own
+///        a │     d     │ a
+/// ```
+///
+/// The first element starts at the arm `(a, −e)` of the left scale and the last one ends at the arm
+/// `(−a, −e)` of the right scale. The state consists of displacements and rotations,
+///
+/// ```text
+/// u = (left; node 1; …; node m−1; right),   three numbers (uₓ, u_y, φ) each     (M13)
+/// W(u) = Σₖ Wₖ(u₃ₖ … u₃ₖ₊₅),   k = 0 … m−1,   each element of length d/m        (M14)
+/// ```
+///
+/// so element `k` always acts on the six entries of `u` from `3k` on, and a row of gaps that share
+/// their scales has a block-tridiagonal tangent. An element sees only the difference of its two
+/// displacements, added to their distance at rest: the place of the gap in a long row costs no digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapMembrane {
+    beam: CorotationalBeam,
+    elements: usize,
+    span: Span,
+}
+
+/// Energies of the membrane in a gap, and their derivatives with respect to its state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapResponse {
+    /// Stretching energy.
+    pub axial_energy: f64,
+    /// Bending energy.
+    pub bending_energy: f64,
+    /// Gradient of the sum of the energies.
+    pub force: DVector<f64>,
+    /// Second derivatives, symmetric.
+    pub tangent: DMatrix<f64>,
+}
+
+impl GapMembrane {
+    /// `elements` equal elements of the given section over a span.
+    ///
+    /// # Errors
+    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or there
+    /// is no element.
+    pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, InvalidMembrane> {
+        if elements == 0 {
+            return Err(InvalidMembrane {
+                quantity: "number of elements per gap",
+                value: 0.0,
+                expected: "at least 1",
+            });
+        }
+        check(&span)?;
+        let beam = CorotationalBeam::new(
+            span.gap / elements as f64,
+            section.axial_stiffness(),
+            section.bending_stiffness(),
+        )?;
+        Ok(Self { beam, elements, span })
+    }
+
+    /// Number `m` of elements.
+    pub fn elements(&self) -> usize {
+        self.elements
+    }
+
+    /// Length `3(m + 1)` of the state.
+    pub fn unknowns(&self) -> usize {
+        3 * (self.elements + 1)
+    }
+
+    /// Distance `2a + d` between the nodes of the scales at rest.
+    pub fn pitch(&self) -> f64 {
+        2.0 * self.span.half_base + self.span.gap
+    }
+
+    /// Poses at rest of what the state displaces, with the node of the left scale at the origin.
+    pub fn rest(&self) -> DVector<f64> {
+        let mut poses = DVector::zeros(self.unknowns());
+        for node in 0..=self.elements {
+            let position = self.rest_position(node);
+            poses[3 * node] = position.x;
+            poses[3 * node + 1] = position.y;
+        }
+        poses
+    }
+
+    /// Element `k`, with its arm where it starts or ends at a scale.
+    pub fn element(&self, k: usize) -> OffsetBeam {
+        let Span { half_base, axis_offset, .. } = self.span;
+        let mut arms = [RigidArm::NONE; 2];
+        if k == 0 {
+            arms[0] = RigidArm::new(Vec2::new(half_base, -axis_offset));
+        }
+        if k + 1 == self.elements {
+            arms[1] = RigidArm::new(Vec2::new(-half_base, -axis_offset));
+        }
+        OffsetBeam { beam: self.beam, arms }
+    }
+
+    /// Response of element `k` to the entries `3k … 3k + 5` of the state, for assembly elsewhere.
+    pub fn element_response(&self, k: usize, displacements: &Ends) -> Response {
+        self.element(k).response(&self.bodies(k, displacements))
+    }
+
+    /// Energies, force and tangent of the whole gap (M14).
+    ///
+    /// # Panics
+    /// If `u` is shorter than [`Self::unknowns`].
+    pub fn response(&self, u: &DVector<f64>) -> GapResponse {
+        let size = self.unknowns();
+        let mut sum = GapResponse {
+            axial_energy: 0.0,
+            bending_energy: 0.0,
+            force: DVector::zeros(size),
+            tangent: DMatrix::zeros(size, size),
+        };
+        for k in 0..self.elements {
+            sum.add(3 * k, &self.element_response(k, &entries(u, k)));
+        }
+        sum
+    }
+
+    /// Deformations and forces of each element, in the frames of their chords.
+    ///
+    /// # Panics
+    /// If `u` is shorter than [`Self::unknowns`].
+    pub fn local(&self, u: &DVector<f64>) -> Vec<Local> {
+        let local = |k| self.element(k).local(&self.bodies(k, &entries(u, k)));
+        (0..self.elements).map(local).collect()
+    }
+
+    /// The deformed axis, from base to base, as `intervals ≥ 1` intervals per element, measured from
+    /// the position at rest of the left scale's node.
+    ///
+    /// # Panics
+    /// If `u` is shorter than [`Self::unknowns`].
+    pub fn axis(&self, u: &DVector<f64>, intervals: usize) -> Vec<Vec2> {
+        let point = |k: usize, xi: f64| {
+            let displacements = entries(u, k);
+            let first = self.rest_position(k) + Vec2::new(displacements[0], displacements[1]);
+            first + self.element(k).axis_point(&self.bodies(k, &displacements), xi)
+        };
+        let within = move |k| (1..=intervals).map(move |i| (k, i as f64 / intervals as f64));
+        std::iter::once((0, 0.0))
+            .chain((0..self.elements).flat_map(within))
+            .map(|(k, xi)| point(k, xi))
+            .collect()
+    }
+
+    /// Position at rest of the `i`-th pose of the state, from the node of the left scale.
+    fn rest_position(&self, i: usize) -> Vec2 {
+        let Span { half_base, axis_offset, .. } = self.span;
+        if i == 0 {
+            Vec2::zeros()
+        } else if i == self.elements {
+            Vec2::new(self.pitch(), 0.0)
+        } else {
+            Vec2::new(half_base + i as f64 * self.beam.length(), -axis_offset)
+        }
+    }
+
+    /// Poses of the two bodies that element `k` joins, with the origin at the first.
+    fn bodies(&self, k: usize, u: &Ends) -> Ends {
+        let at_rest = self.rest_position(k + 1) - self.rest_position(k);
+        Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])
+    }
+}
+
+impl GapResponse {
+    /// Adds an element that acts on the six entries from `start` on.
+    fn add(&mut self, start: usize, element: &Response) {
+        self.axial_energy += element.axial_energy;
+        self.bending_energy += element.bending_energy;
+        let mut force = self.force.fixed_rows_mut::<6>(start);
+        force += element.force;
+        let mut tangent = self.tangent.fixed_view_mut::<6, 6>(start, start);
+        tangent += element.tangent;
+    }
+}
+
+/// The six entries of the state that element `k` acts on.
+fn entries(u: &DVector<f64>, k: usize) -> Ends {
+    u.fixed_rows::<6>(3 * k).into_owned()
+}
+
+/// Refuses a span that no membrane can bridge.
+fn check(span: &Span) -> Result<(), InvalidMembrane> {
+    positive("gap", span.gap)?;
+    let Span { half_base, axis_offset, .. } = *span;
+    if !(half_base >= 0.0 && half_base.is_finite()) {
+        return Err(InvalidMembrane {
+            quantity: "half-width of the base",
+            value: half_base,
+            expected: "a length of at least 0",
+        });
+    }
+    if !axis_offset.is_finite() {
+        return Err(InvalidMembrane {
+            quantity: "offset of the membrane's axis",
+            value: axis_offset,
+            expected: "a finite length",
+        });
+    }
+    Ok(())
+}

@@ -1,0 +1,119 @@
+//! Points that are rigidly attached to a pose, and elements between such points.
+
+use geometry::Vec2;
+use nalgebra::Matrix3;
+
+use crate::corotational_beam::{CorotationalBeam, Ends, Response, Stiffness};
+use crate::{Local, Pose};
+
+/// A point rigidly attached to a body.
+///
+/// ```text
+///      ┌─────────┐
+///      │    φ    │          body with its node ○ at x, rotated by φ
+///      └────○────┘
+///            ╲ Rp
+///             ● x_P         the attached point; its direction rotates with the body
+/// ```
+///
+/// With the arm `p` in the frame of the body and `R(φ)` the rotation,
+///
+/// ```text
+/// x_P = x + R p,   φ_P = φ                                                      (M10)
+/// ∂x_P/∂x = 1,   ∂x_P/∂φ = R p turned by +90°,   ∂²x_P/∂φ² = −R p               (M11)
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidArm(Vec2);
+
+impl RigidArm {
+    /// No arm: the point is the node itself.
+    pub const NONE: Self = Self(Vec2::new(0.0, 0.0));
+
+    /// An arm `p`, given in the frame of the body.
+    pub const fn new(arm: Vec2) -> Self {
+        Self(arm)
+    }
+
+    /// The arm `R p` in the frame of the plane, for a body rotated by `phi`.
+    pub fn lever(&self, phi: f64) -> Vec2 {
+        let (sin, cos) = phi.sin_cos();
+        Vec2::new(cos * self.0.x - sin * self.0.y, sin * self.0.x + cos * self.0.y)
+    }
+
+    /// Pose of the attached point (M10).
+    pub fn attached(&self, body: &Pose) -> Pose {
+        let lever = self.lever(body[2]);
+        Pose::new(body[0] + lever.x, body[1] + lever.y, body[2])
+    }
+
+    /// Gradient of the attached pose with respect to the pose of the body (M11): row by component.
+    pub fn gradient(&self, phi: f64) -> Matrix3<f64> {
+        let lever = self.lever(phi);
+        Matrix3::new(1.0, 0.0, -lever.y, 0.0, 1.0, lever.x, 0.0, 0.0, 1.0)
+    }
+
+    /// Second derivative `−R p` of the position of the attached point with respect to `φ` (M11).
+    pub fn second_derivative(&self, phi: f64) -> Vec2 {
+        -self.lever(phi)
+    }
+}
+
+/// An element whose ends are rigidly attached to two bodies.
+///
+/// Let `F` and `K` be the force and the tangent of the element at the attached poses `Q(q)`, and
+/// `T = ∂Q/∂q`. In terms of the poses `q` of the bodies,
+///
+/// ```text
+/// f = Tᵀ F,   k = Tᵀ K T + Σᵢ Fᵢ·(−R pᵢ) iᵩᵢ iᵩᵢᵀ                               (M12)
+/// ```
+///
+/// where `Fᵢ` is the force (without the moment) on end `i`, and `iᵩᵢ` the unit vector of the rotation
+/// of body `i`. The sum is the work of the end forces on the curved paths of the ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OffsetBeam {
+    /// The element.
+    pub beam: CorotationalBeam,
+    /// Arms from the bodies to ends 1 and 2.
+    pub arms: [RigidArm; 2],
+}
+
+impl OffsetBeam {
+    /// Poses of the ends of the element, from the poses of the bodies.
+    pub fn ends(&self, bodies: &Ends) -> Ends {
+        let first = self.arms[0].attached(&bodies.fixed_rows::<3>(0).into());
+        let second = self.arms[1].attached(&bodies.fixed_rows::<3>(3).into());
+        Ends::new(first[0], first[1], first[2], second[0], second[1], second[2])
+    }
+
+    /// Deformations and forces of the element in the frame of its chord.
+    pub fn local(&self, bodies: &Ends) -> Local {
+        self.beam.local(&self.ends(bodies))
+    }
+
+    /// Point of the deformed axis at `ξ ∈ [0, 1]`.
+    pub fn axis_point(&self, bodies: &Ends, xi: f64) -> Vec2 {
+        self.beam.axis_point(&self.ends(bodies), xi)
+    }
+
+    /// Energies, and their derivatives with respect to the poses of the bodies (M12).
+    pub fn response(&self, bodies: &Ends) -> Response {
+        let at_ends = self.beam.response(&self.ends(bodies));
+        let transform = self.transform(bodies);
+        let mut tangent = transform.transpose() * at_ends.tangent * transform;
+        for (arm, phi) in self.arms.iter().zip([2, 5]) {
+            let force = Vec2::new(at_ends.force[phi - 2], at_ends.force[phi - 1]);
+            tangent[(phi, phi)] += force.dot(&arm.second_derivative(bodies[phi]));
+        }
+        Response { force: transform.transpose() * at_ends.force, tangent, ..at_ends }
+    }
+
+    /// `T = ∂Q/∂q`.
+    fn transform(&self, bodies: &Ends) -> Stiffness {
+        let mut transform = Stiffness::zeros();
+        for (arm, start) in self.arms.iter().zip([0, 3]) {
+            let gradient = arm.gradient(bodies[start + 2]);
+            transform.fixed_view_mut::<3, 3>(start, start).copy_from(&gradient);
+        }
+        transform
+    }
+}

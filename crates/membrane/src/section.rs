@@ -1,0 +1,79 @@
+//! Cross-section of the membrane.
+
+/// A number that no membrane can have.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{quantity} is {value}, expected {expected}")]
+pub struct InvalidMembrane {
+    /// Which quantity.
+    pub quantity: &'static str,
+    /// What was given.
+    pub value: f64,
+    /// What would be right.
+    pub expected: &'static str,
+}
+
+/// Refuses what is not a positive finite number.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, InvalidMembrane> {
+    if value > 0.0 && value.is_finite() {
+        return Ok(value);
+    }
+    Err(InvalidMembrane { quantity, value, expected: "a positive finite number" })
+}
+
+/// A rectangular section of depth `b` (out of the plane) and thickness `h`, both over `t`.
+///
+/// With forces in units of `E_m t²`, the modulus is 1 and
+///
+/// ```text
+/// EA = b h,     EI = b h³/12                                                    (M1)
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section {
+    depth: f64,
+    thickness: f64,
+}
+
+impl Section {
+    /// A section of depth `b` and thickness `h`, over `t`.
+    ///
+    /// # Errors
+    /// If either is not positive and finite.
+    pub fn new(depth: f64, thickness: f64) -> Result<Self, InvalidMembrane> {
+        Ok(Self {
+            depth: positive("depth of the membrane", depth)?,
+            thickness: positive("thickness of the membrane", thickness)?,
+        })
+    }
+
+    /// Axial stiffness `EA` (M1), over `E_m t²`.
+    pub fn axial_stiffness(&self) -> f64 {
+        self.depth * self.thickness
+    }
+
+    /// Bending stiffness `EI` (M1), over `E_m t⁴`.
+    pub fn bending_stiffness(&self) -> f64 {
+        self.depth * self.thickness.powi(3) / 12.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stiffnesses_of_a_rectangle() -> Result<(), InvalidMembrane> {
+        let section = Section::new(2.0, 0.5)?;
+        assert!((section.axial_stiffness() - 1.0).abs() < 1e-15);
+        assert!((section.bending_stiffness() - 2.0 * 0.125 / 12.0).abs() < 1e-15);
+        Ok(())
+    }
+
+    #[test]
+    fn the_message_names_what_was_given() {
+        let message = Section::new(1.0, -0.5).map_err(|error| error.to_string());
+        let expected = "thickness of the membrane is -0.5, expected a positive finite number";
+        assert_eq!(message, Err(expected.into()));
+        assert!(Section::new(f64::INFINITY, 0.1).is_err());
+        assert!(Section::new(f64::NAN, 0.1).is_err());
+    }
+}

@@ -1,0 +1,111 @@
+//! Every force is the gradient of its energy and every tangent the gradient of its force.
+
+use membrane::{Ends, Pose, Response, RigidArm};
+use nalgebra::{DMatrix, DVector, Vector2};
+use proptest::prelude::*;
+
+use crate::states::{bent_beam, bent_gap, bent_offset_beam};
+
+const STEP: f64 = 2e-4;
+const TOLERANCE: f64 = 1e-8;
+
+/// Derivative of `f` along component `i`, with an error of fourth order in the step.
+fn derivative(
+    f: impl Fn(&DVector<f64>) -> DVector<f64>,
+    q: &DVector<f64>,
+    i: usize,
+) -> DVector<f64> {
+    let at = |shift: f64| {
+        let mut moved = q.clone();
+        moved[i] += shift * STEP;
+        f(&moved)
+    };
+    (at(-2.0) - 8.0 * at(-1.0) + 8.0 * at(1.0) - at(2.0)) / (12.0 * STEP)
+}
+
+/// Energy (as a vector of one), force and tangent at a state.
+type Parts = (DVector<f64>, DVector<f64>, DMatrix<f64>);
+
+/// Largest errors of the force and of the tangent, relative to their largest entries.
+fn errors(parts: impl Fn(&DVector<f64>) -> Parts, q: &DVector<f64>) -> [f64; 2] {
+    let (_, force, tangent) = parts(q);
+    let mut errors: [f64; 2] = [0.0; 2];
+    for i in 0..q.len() {
+        let slope = derivative(|q| parts(q).0, q, i)[0];
+        let column = derivative(|q| parts(q).1, q, i);
+        errors[0] = errors[0].max((slope - force[i]).abs() / force.amax());
+        errors[1] = errors[1].max((column - tangent.column(i)).amax() / tangent.amax());
+    }
+    errors
+}
+
+fn parts(response: &Response) -> Parts {
+    (
+        DVector::from_element(1, response.axial_energy + response.bending_energy),
+        DVector::from_column_slice(response.force.as_slice()),
+        DMatrix::from_column_slice(6, 6, response.tangent.as_slice()),
+    )
+}
+
+/// The six poses of a state of two bodies.
+fn ends(q: &DVector<f64>) -> Ends {
+    q.fixed_rows::<6>(0).into_owned()
+}
+
+/// Largest difference between a matrix and its transpose, relative to its largest entry.
+fn asymmetry(tangent: &DMatrix<f64>) -> f64 {
+    (tangent - tangent.transpose()).amax() / tangent.amax()
+}
+
+proptest! {
+    #[test]
+    fn of_an_element((beam, q) in bent_beam()) {
+        let q = DVector::from_column_slice(q.as_slice());
+        let [force, tangent] = errors(|q| parts(&beam.response(&ends(q))), &q);
+        prop_assert!(force < TOLERANCE && tangent < TOLERANCE, "{force:e} {tangent:e}");
+    }
+
+    #[test]
+    fn of_an_element_between_arms((beam, q) in bent_offset_beam()) {
+        let q = DVector::from_column_slice(q.as_slice());
+        let [force, tangent] = errors(|q| parts(&beam.response(&ends(q))), &q);
+        prop_assert!(force < TOLERANCE && tangent < TOLERANCE, "{force:e} {tangent:e}");
+    }
+
+    #[test]
+    fn of_a_gap((gap, u) in bent_gap()) {
+        let parts = |u: &DVector<f64>| {
+            let response = gap.response(u);
+            let energy = response.axial_energy + response.bending_energy;
+            (DVector::from_element(1, energy), response.force, response.tangent)
+        };
+        let [force, tangent] = errors(parts, &u);
+        prop_assert!(force < TOLERANCE && tangent < TOLERANCE, "{force:e} {tangent:e}");
+    }
+
+    #[test]
+    fn of_an_arm(x in -1.0..1.0, y in -1.0..1.0, body in prop::array::uniform3(-20.0..20.0)) {
+        let arm = RigidArm::new(Vector2::new(x, y));
+        let place = |q: &DVector<f64>| {
+            DVector::from_column_slice(arm.attached(&Pose::new(q[0], q[1], q[2])).as_slice())
+        };
+        let q = DVector::from_column_slice(&body);
+        let gradient = arm.gradient(q[2]);
+        for i in 0..3 {
+            prop_assert!((derivative(place, &q, i) - gradient.column(i)).amax() < TOLERANCE);
+        }
+        let turning = derivative(|q| DVector::from_column_slice(arm.gradient(q[2]).as_slice()), &q, 2);
+        let second = arm.second_derivative(q[2]);
+        prop_assert!((turning[6] - second.x).abs() < TOLERANCE);
+        prop_assert!((turning[7] - second.y).abs() < TOLERANCE);
+    }
+
+    #[test]
+    fn tangents_are_symmetric(
+        (beam, ends) in bent_beam(), (offset, bodies) in bent_offset_beam(), (gap, u) in bent_gap(),
+    ) {
+        prop_assert!(asymmetry(&parts(&beam.response(&ends)).2) < 1e-14);
+        prop_assert!(asymmetry(&parts(&offset.response(&bodies)).2) < 1e-14);
+        prop_assert!(asymmetry(&gap.response(&u).tangent) < 1e-14);
+    }
+}

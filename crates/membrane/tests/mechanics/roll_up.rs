@@ -1,0 +1,55 @@
+//! A tip moment rolls the strip up; exact for any mesh.
+
+use std::f64::consts::{PI, TAU};
+
+use membrane::InvalidMembrane;
+use nalgebra::Vector3;
+
+use crate::cantilever::{cantilever, equilibrium};
+
+/// Rotation, energy and shape under a moment that turns the tip by `half_turns`.
+fn check(elements: usize, half_turns: u32) -> Result<(), InvalidMembrane> {
+    let angle = PI * f64::from(half_turns);
+    let gap = cantilever(elements, 0.1)?;
+    let u = equilibrium(&gap, Vector3::new(0.0, 0.0, angle), 75 * half_turns);
+    let energy = gap.response(&u);
+    assert!((energy.bending_energy - 0.5 * angle.powi(2)).abs() < 1e-11 * angle.powi(2));
+    assert!(energy.axial_energy < 1e-20);
+
+    let poses = gap.rest() + &u;
+    let count = elements as f64;
+    let mut node = [0.0, 0.0];
+    for k in 1..=elements {
+        let chord = angle * (k as f64 - 0.5) / count;
+        node = [node[0] + chord.cos() / count, node[1] + chord.sin() / count];
+        let expected = Vector3::new(node[0], node[1], angle * k as f64 / count);
+        let error = (poses.fixed_rows::<3>(3 * k) - expected).amax();
+        assert!(error < 1e-11, "{elements} elements, {angle} rad, node {k}: {error:e}");
+    }
+    for local in gap.local(&u) {
+        assert!(
+            (local.moments[0] + angle).abs() < 1e-10 && (local.moments[1] - angle).abs() < 1e-10
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn half_a_circle() -> Result<(), InvalidMembrane> {
+    (1..=9).try_for_each(|elements| check(elements, 1))
+}
+
+#[test]
+fn a_full_circle_closes() -> Result<(), InvalidMembrane> {
+    for elements in [2, 3, 4, 7, 16, 50] {
+        check(elements, 2)?;
+        let u = equilibrium(&cantilever(elements, 0.1)?, Vector3::new(0.0, 0.0, -TAU), 150);
+        assert!((u[3 * elements] + 1.0).abs() < 1e-11 && u[3 * elements + 1].abs() < 1e-11);
+    }
+    Ok(())
+}
+
+#[test]
+fn three_circles() -> Result<(), InvalidMembrane> {
+    [5, 12, 31].into_iter().try_for_each(|elements| check(elements, 6))
+}

@@ -1,0 +1,188 @@
+"use strict";
+// The figures of the sweep.
+
+(() => {
+  const html = {
+    coverage: "coverage <i>λ</i>",
+    force: "critical force <i>F</i><sub>c</sub>*",
+    penetration: "penetration <i>u</i><sub>max</sub>/<i>t</i>",
+    resistance: "penetration resistance <i>t</i>/<i>u</i><sub>max</sub>",
+    compliance: "compliance <i>C</i><sub>f</sub>*",
+    gap: "gap <i>d</i>/<i>t</i>",
+    length: "aspect ratio <i>L</i>/<i>t</i>",
+  };
+  const axisName = (k, letter) => `${letter}axis${k === 0 ? "" : k + 1}`;
+  const axisRef = (k, letter) => `${letter}${k === 0 ? "" : k + 1}`;
+  const hover = (rows, name, values) => rows.map((row, i) => `${squama.title(row)}<br>${name} ${squama.short(values[i])}`);
+
+  /** Panels in a grid: their count in a row, and the part of the chart that each takes. */
+  const grid = (count, width, least, gapX, gapY) => {
+    const columns = Math.max(1, Math.min(count, Math.floor(width / least)));
+    const rows = Math.ceil(count / columns);
+    const w = (1 - gapX * (columns - 1)) / columns;
+    const h = (1 - gapY * (rows - 1)) / rows;
+    const domain = (k) => {
+      const [i, j] = [k % columns, Math.floor(k / columns)];
+      const left = i * (w + gapX), top = 1 - j * (h + gapY);
+      return { x: [left, left + w], y: [Math.max(0, top - h), top] };
+    };
+    return { columns, rows, domain };
+  };
+
+  /** Ticks of a small logarithmic axis, `range` in decades: 1 and 3 of each, or of some. */
+  const decades = (range) => {
+    const wide = range[1] - range[0] > 3;
+    const every = Math.max(1, Math.ceil((range[1] - range[0]) / 5));
+    const values = [];
+    for (let decade = Math.floor(range[0]); decade <= range[1]; decade++) {
+      for (const digit of wide ? [1] : [1, 3]) {
+        const value = digit * 10 ** decade;
+        if (decade % every === 0 && Math.log10(value) >= range[0] && Math.log10(value) <= range[1]) values.push(Number(value.toPrecision(1)));
+      }
+    }
+    const text = (value) => (value >= 0.01 && value <= 1000 ? String(value) : `10<sup>${Math.round(Math.log10(value))}</sup>`);
+    return { tickmode: "array", minor: { ticks: "" }, tickvals: values, ticktext: values.map((value) => text(value).replace("-", "−")) };
+  };
+
+  const caption = (text, domain) => ({ text, showarrow: false, xref: "paper", yref: "paper", x: (domain.x[0] + domain.x[1]) / 2, y: domain.y[1], xanchor: "center", yanchor: "bottom", font: { size: 12 } });
+
+  /** One value against the longer of the two lengths, a panel for each value of the other. */
+  const multiples = (id, column, name, title, description, filled) => {
+    const rows = squama.rowsWith(column, "gap_over_t", "length_over_t", "slant_deg");
+    if (rows.length === 0) return;
+    const byLength = squama.values("length_over_t").length >= squama.values("gap_over_t").length;
+    const [along, across] = byLength ? ["length_over_t", "gap_over_t"] : ["gap_over_t", "length_over_t"];
+    const [alongName, acrossName] = byLength ? [html.length, "<i>d</i>/<i>t</i>"] : [html.gap, "<i>L</i>/<i>t</i>"];
+    let panels = squama.values(across);
+    if (panels.length > 15) panels = Array.from({ length: 15 }, (_, k) => panels[Math.floor((k * (panels.length - 1)) / 14)]);
+    const shown = rows.filter((row) => panels.includes(squama.cell(row, across)));
+    const panel = (row) => panels.indexOf(squama.cell(row, across));
+    const values = shown.map((row) => squama.cell(row, column));
+    const xs = shown.map((row) => squama.cell(row, along));
+    const range = (list) => {
+      const [low, high] = [Math.min(...list), Math.max(...list)];
+      if (squama.scale(list) === "log") { const air = 0.06 * Math.log10(high / low); return [Math.log10(low) - air, Math.log10(high) + air]; }
+      const air = 0.06 * (high - low || 1);
+      return [low - air, high + air];
+    };
+    const [rangeX, rangeY] = [range(xs), range(values)];
+    const make = (width) => {
+      const place = grid(panels.length, width, 165, 0.012, 0.09);
+      const layout = { height: 70 + 190 * place.rows, annotations: [], margin: { l: 64, r: 12, t: 34, b: 56 } };
+      const traces = [];
+      const ticks = (list, range) => (squama.scale(list) === "log" ? decades(range) : { nticks: 5 });
+      const [ticksX, ticksY] = [ticks(xs, rangeX), ticks(values, rangeY)];
+      panels.forEach((value, k) => {
+        const domain = place.domain(k);
+        const first = k % place.columns === 0;
+        const last = k + place.columns >= panels.length;
+        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), type: squama.scale(xs), range: rangeX, ...ticksX, showticklabels: last, title: last && Math.floor((panels.length - 1) / place.columns) * place.columns + Math.floor(place.columns / 2) === k ? { text: alongName } : undefined };
+        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), type: squama.scale(values), range: rangeY, ...ticksY, showticklabels: first, title: first && k === Math.floor((place.rows - 1) / 2) * place.columns ? { text: name } : undefined };
+        layout.annotations.push(caption(`${acrossName} = ${value}`, domain));
+        for (const slant of squama.slants) {
+          const own = shown.filter((row) => panel(row) === k && squama.cell(row, "slant_deg") === slant.degrees)
+            .sort((a, b) => squama.cell(a, along) - squama.cell(b, along));
+          const x = own.map((row) => squama.cell(row, along));
+          const y = own.map((row) => squama.cell(row, column));
+          const once = new Set(x).size === x.length;
+          traces.push({ x, y, customdata: own, mode: once ? "lines+markers" : "markers", line: { color: slant.color, width: 1.2 }, marker: squama.markers(own, 6, filled), text: hover(own, column.replace("_", " "), y), hoverinfo: "text", xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") });
+        }
+      });
+      return { traces, layout };
+    };
+    const rings = (row) => {
+      const k = row === null || !shown.includes(row) ? -1 : panel(row);
+      return panels.map((_, i) => ({ ...squama.ring({ xaxis: axisRef(i, "x"), yaxis: axisRef(i, "y") }), x: i === k ? [squama.cell(row, along)] : [], y: i === k ? [squama.cell(row, column)] : [] }));
+    };
+    squama.addChart({ id, title, description, rows: shown, make, rings });
+  };
+
+  /** Panels of one value against another. `front` tells which rows stand out. */
+  const scatter = (id, pairs, title, description, rows, front) => {
+    if (rows.length === 0) return;
+    const make = (width) => {
+      const place = grid(pairs.length, width, 290, 0.09, 0.2);
+      const layout = { height: 60 + 300 * place.rows };
+      const traces = [];
+      pairs.forEach(([a, b], k) => {
+        const domain = place.domain(k);
+        const axis = (quantity) => ({ type: squama.scale(rows.map(quantity.value)), title: { text: quantity.name, standoff: 4 } });
+        layout[axisName(k, "x")] = { ...axis(a), domain: domain.x, anchor: axisRef(k, "y") };
+        layout[axisName(k, "y")] = { ...axis(b), domain: domain.y, anchor: axisRef(k, "x") };
+        const part = (own, marker) => traces.push({ x: own.map(a.value), y: own.map(b.value), customdata: own, mode: "markers", marker, text: own.map(squama.title), hoverinfo: "text", xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") });
+        if (front) part(rows.filter((row) => !front.has(row)), { size: 4, color: squama.themeColors().faint, opacity: 0.45 });
+        const own = front ? rows.filter((row) => front.has(row)) : rows;
+        part(own, squama.markers(own));
+      });
+      return { traces, layout };
+    };
+    const rings = (row) => pairs.map(([a, b], k) => {
+      const has = rows.includes(row);
+      return { ...squama.ring({ xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") }), x: has ? [a.value(row)] : [], y: has ? [b.value(row)] : [] };
+    });
+    squama.addChart({ id, title, description, rows, make, rings });
+  };
+
+  const coverageMaps = () => {
+    const rows = squama.rowsWith("coverage", "gap_over_t", "length_over_t", "slant_deg");
+    if (rows.length === 0) return;
+    const slants = squama.slants.map((slant) => slant.degrees);
+    const [lengths, gaps] = [squama.values("length_over_t"), squama.values("gap_over_t")];
+    const across = (row) => lengths.indexOf(squama.cell(row, "length_over_t"));
+    const up = (row) => gaps.indexOf(squama.cell(row, "gap_over_t"));
+    // Every cell has a place of its own; labels as many as there is room for.
+    const places = (values, room) => {
+      const every = Math.ceil(values.length / room);
+      const shown = values.map((_, i) => i).filter((i) => i % every === 0);
+      return { tickmode: "array", tickvals: shown, ticktext: shown.map((i) => String(values[i])), range: [-0.6, values.length - 0.4], showgrid: false, minor: { ticks: "" } };
+    };
+    const make = (width) => {
+      const place = grid(slants.length, width, 240, 0.02, 0.14);
+      const layout = { height: 60 + 230 * place.rows, annotations: [], margin: { l: 64, r: 80, t: 34, b: 56 } };
+      const size = Math.max(5, 0.82 * Math.min((width - 150) / place.columns / lengths.length, 180 / gaps.length));
+      const traces = slants.map((slant, k) => {
+        const domain = place.domain(k);
+        const own = rows.filter((row) => squama.cell(row, "slant_deg") === slant);
+        const last = k + place.columns >= slants.length;
+        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), ...places(lengths, 7), showticklabels: last, title: last ? { text: html.length } : undefined };
+        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), ...places(gaps, 10), showticklabels: k % place.columns === 0, title: k % place.columns === 0 ? { text: html.gap } : undefined };
+        layout.annotations.push(caption(`<i>α</i> = ${slant}°`, domain));
+        const values = own.map((row) => squama.cell(row, "coverage"));
+        return {
+          x: own.map(across), y: own.map(up), customdata: own,
+          mode: "markers", text: hover(own, "coverage", values), hoverinfo: "text", xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y"),
+          marker: { symbol: "square", size, color: values, opacity: values.map((value) => (value > 0 ? 1 : 0.12)), cmin: 0, cmax: 1, colorscale: "Cividis", line: { width: 0.5, color: squama.themeColors().faint }, showscale: k === 0, colorbar: { title: { text: "<i>λ</i>" }, thickness: 14, x: 1.01 } },
+        };
+      });
+      return { traces, layout };
+    };
+    const rings = (row) => slants.map((slant, k) => {
+      const here = row !== null && squama.cell(row, "slant_deg") === slant;
+      return { ...squama.ring({ xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") }), x: here ? [across(row)] : [], y: here ? [up(row)] : [] };
+    });
+    squama.addChart({ id: "coverage", title: "Coverage", description: "Coverage by gap, aspect ratio and slant; faint: none.", rows, make, rings });
+  };
+
+  /** Rows that no other beats in all criteria. */
+  const paretoFront = () => {
+    const points = squama.ranked.map((row) => squama.criteria.map((criterion) => criterion.value(row)));
+    const beats = (a, b) => a.every((value, k) => value >= b[k]) && a.some((value, k) => value > b[k]);
+    return new Set(squama.ranked.filter((_, i) => !points.some((other) => beats(other, points[i]))));
+  };
+
+  multiples("critical-force", "critical_force", html.force, "Critical force", "Critical force against the aspect ratio, for each gap and slant.");
+  const column = (name, label) => ({ name: label, value: (row) => squama.cell(row, name) });
+  const force = column("critical_force", html.force);
+  scatter("stiffness", [
+    [force, column("max_stiffness", "largest stiffness <i>K</i><sub>max</sub>*")],
+    [force, column("secant_stiffness", "secant stiffness <i>K</i><sub>sec</sub>*")],
+  ], "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", squama.rowsWith("critical_force", "max_stiffness", "secant_stiffness"));
+  multiples("penetration", "penetration", html.penetration, "Penetration", "Penetration at the critical tilt against the aspect ratio, for each gap and slant.");
+  multiples("compliance", "compliance", html.compliance, "Flexural compliance", "Flexural compliance against the aspect ratio, for each gap and slant; open marks: no contact in bending.",
+    (row) => squama.cell(row, "flexure_contact") !== "false" && squama.cell(row, "flexure_contact") !== "no" && squama.cell(row, "flexure_contact") !== 0);
+  coverageMaps();
+  const quantities = squama.criteria.map((criterion, k) => ({ name: [html.coverage, html.force, html.resistance, html.compliance][k], value: criterion.value }));
+  const pairs = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]].map(([i, j]) => [quantities[i], quantities[j]]);
+  squama.front = paretoFront();
+  scatter("pareto", pairs, "Pareto front", `${squama.front.size} designs that no other beats in all four criteria, in colour; grey: the others.`, squama.ranked, squama.front);
+})();

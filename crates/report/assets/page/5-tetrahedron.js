@@ -1,0 +1,106 @@
+"use strict";
+// The best design for every weighting, in a tetrahedron that turns.
+
+(() => {
+  const RESOLUTION = 14;
+  const LISTED = 10;
+  // Distance of the eye, in sizes of the tetrahedron.
+  const AWAY = 1.6;
+  const CORNERS = [[0, 0, 1], [0.9428, 0, -0.3333], [-0.4714, 0.8165, -0.3333], [-0.4714, -0.8165, -0.3333]];
+  const area = document.getElementById("tetrahedron");
+  const place = (weights) => [0, 1, 2].map((axis) => weights.reduce((sum, weight, k) => sum + weight * CORNERS[k][axis], 0));
+
+  const winners = [];
+  for (let m = 0; m <= RESOLUTION; m++) {
+    for (let n = 0; n <= RESOLUTION - m; n++) {
+      for (let k = 0; k <= RESOLUTION - m - n; k++) {
+        const weights = [m, n, k, RESOLUTION - m - n - k].map((part) => part / RESOLUTION);
+        winners.push({ weights, at: place(weights), row: squama.best(weights) });
+      }
+    }
+  }
+  if (squama.ranked.length === 0) {
+    area.textContent = "No design has coverage and every value, so there is nothing to rank.";
+    return;
+  }
+
+  const counts = new Map();
+  for (const { row } of winners) counts.set(row, (counts.get(row) ?? 0) + 1);
+  const regions = [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+  // Regions of one slant differ in shade.
+  const SHADES = [0, 0.5, -0.4, 0.25, -0.2, 0.75];
+  const shaded = (color, part) => "#" + [1, 3, 5].map((k) => {
+    const own = parseInt(color.slice(k, k + 2), 16), other = part > 0 ? 255 : 0;
+    return Math.round(own + Math.abs(part) * (other - own)).toString(16).padStart(2, "0");
+  }).join("");
+  const colors = new Map();
+  regions.forEach(([row], place) => {
+    const slant = squama.slant(row);
+    const before = regions.slice(0, place).filter(([other]) => squama.slant(other) === slant).length;
+    colors.set(row, shaded(slant.color, SHADES[before % SHADES.length]));
+  });
+  document.getElementById("tetrahedron-legend").append(
+    ...regions.slice(0, LISTED).map(([row, count]) => squama.element("button", { type: "button", onclick: () => squama.choose(row) },
+      squama.symbol({ ...squama.slant(row), color: colors.get(row) }), `${squama.title(row)} (${((100 * count) / winners.length).toFixed(1)} %)`)),
+    regions.length > LISTED ? `and ${regions.length - LISTED} more` : "");
+
+  // Symbols that a tetrahedron in space can draw.
+  const inSpace = { circle: "circle", square: "square", diamond: "diamond", "triangle-up": "cross", "triangle-down": "x", star: "circle-open", hexagon: "square-open" };
+  const traces = () => {
+    const theme = squama.themeColors();
+    const edges = { x: [], y: [], z: [], type: "scatter3d", mode: "lines", hoverinfo: "skip", line: { color: theme.faint, width: 3 } };
+    for (const [a, b] of [[0, 1], [0, 2], [0, 3], [1, 2], [2, 3], [3, 1]]) {
+      [CORNERS[a], CORNERS[b], [null, null, null]].forEach(([x, y, z]) => { edges.x.push(x); edges.y.push(y); edges.z.push(z); });
+    }
+    const names = {
+      x: CORNERS.map((corner) => 1.38 * corner[0]), y: CORNERS.map((corner) => 1.38 * corner[1]), z: CORNERS.map((corner) => (corner[2] > 0 ? 1.12 : -0.48)),
+      type: "scatter3d", mode: "text", hoverinfo: "skip", text: squama.criteria.map((criterion) => `<b>${criterion.name}</b>`), textfont: { color: theme.ink, size: 13 },
+    };
+    const coordinate = (axis) => winners.map(({ at }) => at[axis]);
+    const dots = {
+      x: coordinate(0), y: coordinate(1), z: coordinate(2), type: "scatter3d", mode: "markers", customdata: winners.map(({ row }) => row),
+      hoverinfo: "text", text: winners.map(({ row, weights }) => `${squama.title(row)}<br>best for ${weights.map((weight) => weight.toFixed(2)).join(", ")}`),
+      marker: { size: 5, color: winners.map(({ row }) => colors.get(row)), symbol: winners.map(({ row }) => inSpace[squama.slant(row).symbol] ?? "circle"), line: { color: winners.map(({ row }) => colors.get(row)), width: 2 } },
+    };
+    const here = place(squama.weights());
+    const ring = {
+      x: [here[0]], y: [here[1]], z: [here[2]], type: "scatter3d", mode: "markers", hoverinfo: "skip",
+      marker: { size: 16, symbol: "circle-open", color: theme.accent, line: { width: 4, color: theme.accent } },
+    };
+    return [edges, names, dots, ring];
+  };
+
+  // The camera, by its angles.
+  const camera = { turn: 0.55, tip: 0.3 };
+  const eye = () => ({
+    eye: { x: AWAY * Math.cos(camera.tip) * Math.cos(camera.turn), y: AWAY * Math.cos(camera.tip) * Math.sin(camera.turn), z: AWAY * Math.sin(camera.tip) },
+    center: { x: 0, y: 0, z: -0.06 },
+  });
+  const layout = () => {
+    const axis = { visible: false };
+    return squama.layout({
+      margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "kept",
+      scene: { xaxis: axis, yaxis: axis, zaxis: axis, aspectmode: "data", camera: eye(), dragmode: "orbit" },
+    });
+  };
+  const draw = () => Plotly.react(area, traces(), layout(), squama.config);
+
+  draw();
+  area.on("plotly_click", (event) => {
+    const row = event.points[0]?.customdata;
+    if (Number.isInteger(row)) squama.choose(row);
+  });
+  area.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.12], ArrowDown: [0, -0.12] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    camera.turn += step[0];
+    camera.tip = Math.max(-1.4, Math.min(1.4, camera.tip + step[1]));
+    Plotly.relayout(area, { "scene.camera": eye() });
+  });
+  squama.onWeights.push(() => {
+    const [x, y, z] = place(squama.weights());
+    Plotly.restyle(area, { x: [[x]], y: [[y]], z: [[z]] }, [3]);
+  });
+  squama.redrawTetrahedron = draw;
+})();

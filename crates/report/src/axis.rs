@@ -1,0 +1,158 @@
+//! Axes: a range of values, linear or logarithmic, with ticks where a person would put them.
+
+/// How values are laid out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scale {
+    Linear,
+    Log,
+}
+
+/// Data whose ends differ by more than this factor take a logarithmic axis.
+const SPANS_DECADES: f64 = 30.0;
+
+/// A range of values.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) label: String,
+    scale: Scale,
+    low: f64,
+    high: f64,
+}
+
+/// A mark on an axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tick {
+    pub(crate) value: f64,
+    /// `None` for a minor one.
+    pub(crate) label: Option<String>,
+}
+
+impl Axis {
+    /// An axis for `values`: logarithmic if they are positive and span decades, otherwise linear
+    /// and, if zero is near, from zero.
+    pub(crate) fn fit(label: &str, values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = ends(values);
+        if low > 0.0 && high / low > SPANS_DECADES {
+            Self::log(label, low, high)
+        } else {
+            Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
+        }
+    }
+
+    /// A linear axis with some air at its ends; zero stays an end.
+    pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
+        let air = 0.05 * if high > low { high - low } else { 1.0 };
+        let below = if low == 0.0 { low } else { low - air };
+        let above = if high == 0.0 { high } else { high + air };
+        Self { label: label.to_owned(), scale: Scale::Linear, low: below, high: above }
+    }
+
+    fn log(label: &str, low: f64, high: f64) -> Self {
+        let air = (high / low).powf(0.05);
+        Self { label: label.to_owned(), scale: Scale::Log, low: low / air, high: high * air }
+    }
+
+    /// Where a value lies: 0 at the low end, 1 at the high end. `None` if it has no place.
+    pub(crate) fn place(&self, value: f64) -> Option<f64> {
+        let place = match self.scale {
+            Scale::Linear => (value - self.low) / (self.high - self.low),
+            Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
+        };
+        (-1e-9..=1.0 + 1e-9).contains(&place).then_some(place)
+    }
+
+    /// Ticks, about as many labelled ones as `wanted`.
+    pub(crate) fn ticks(&self, wanted: usize) -> Vec<Tick> {
+        match self.scale {
+            Scale::Linear => self.linear_ticks(wanted),
+            Scale::Log => self.log_ticks(wanted),
+        }
+    }
+
+    fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
+        let rough = (self.high - self.low) / wanted as f64;
+        let unit = 10f64.powf(rough.log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|m| m * unit >= 0.99 * rough);
+        let step = step.unwrap_or(10.0) * unit;
+        // A small count: the axis has few steps.
+        let first = (self.low / step - 1e-9).ceil() as i64;
+        let last = (self.high / step + 1e-9).floor() as i64;
+        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+        let tick = |k: i64| {
+            let value = k as f64 * step;
+            Tick { value, label: Some(minus(&format!("{value:.decimals$}"))) }
+        };
+        (first..=last).map(tick).collect()
+    }
+
+    fn log_ticks(&self, wanted: usize) -> Vec<Tick> {
+        let (first, last) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
+        let decades = self.high.log10() - self.low.log10();
+        let every = ((decades / (1.4 * wanted as f64)).ceil() as i32).max(1);
+        let labelled = |decade: i32, digit: i32| match digit {
+            1 => decade.rem_euclid(every) == 0,
+            2 | 5 => decades < 2.2 && wanted > 3,
+            _ => false,
+        };
+        let digits = if decades > 7.0 { 1 } else { 9 };
+        let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
+        all.map(|(decade, digit)| {
+            let value = f64::from(digit) * 10f64.powi(decade);
+            let label = labelled(decade, digit).then(|| power(decade, digit));
+            Tick { value, label }
+        })
+        .filter(|tick| self.place(tick.value).is_some())
+        .collect()
+    }
+}
+
+/// `digit · 10^decade`, short.
+fn power(decade: i32, digit: i32) -> String {
+    match decade {
+        0..=3 => format!("{}", f64::from(digit) * 10f64.powi(decade)),
+        -2..0 => {
+            let decimals = usize::try_from(-decade).unwrap_or(0);
+            format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade))
+        }
+        _ if digit == 1 => format!("10^{{{}}}", minus(&decade.to_string())),
+        _ => format!("{digit}·10^{{{}}}", minus(&decade.to_string())),
+    }
+}
+
+/// With a minus sign in place of a hyphen.
+fn minus(text: &str) -> String {
+    text.replace('-', "−")
+}
+
+/// The smallest and the largest of `values`; of none, 0 and 1.
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let ends = values
+        .filter(|value| value.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+    if ends.0 <= ends.1 { ends } else { (0.0, 1.0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Axis;
+
+    fn labels(axis: &Axis) -> String {
+        let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
+        labels.join(" ")
+    }
+
+    #[test]
+    fn ticks_are_round_numbers() {
+        assert_eq!(labels(&Axis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
+        assert_eq!(labels(&Axis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+    }
+
+    #[test]
+    fn decades_have_a_logarithmic_axis() {
+        assert_eq!(
+            labels(&Axis::fit("", [1e-6, 1e4].into_iter())),
+            "10^{−6} 10^{−4} 0.01 1 100 10^{4}"
+        );
+        assert_eq!(labels(&Axis::fit("", [0.025, 1.0].into_iter())), "0.05 0.1 0.2 0.5 1");
+    }
+}

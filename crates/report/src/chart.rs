@@ -1,0 +1,168 @@
+//! A panel of a figure: a frame with two axes, and what stands in it.
+
+use crate::axis::Axis;
+use crate::label::{Anchor, label, upright, width};
+use crate::palette::{FAINT, GRID, INK, Mark, slant_color};
+use crate::svg::{Element, Spot, line};
+
+/// Size of tick labels, px.
+const TICK: f64 = 11.0;
+/// Size of axis labels, px.
+pub(crate) const NAME: f64 = 13.0;
+
+/// A rectangle of paper, px.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Area {
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+impl Area {
+    pub(crate) fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    pub(crate) fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+
+    pub(crate) fn center(&self) -> Spot {
+        [self.left + 0.5 * self.width, self.top + 0.5 * self.height]
+    }
+}
+
+/// A frame with two axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Panel<'a> {
+    pub(crate) area: Area,
+    pub(crate) x: &'a Axis,
+    pub(crate) y: &'a Axis,
+    /// What tells it from the others.
+    pub(crate) title: String,
+    /// Whether the axes have their tick labels here.
+    pub(crate) x_labels: bool,
+    pub(crate) y_labels: bool,
+}
+
+impl Panel<'_> {
+    /// Where a point stands; `None` if it lies outside.
+    pub(crate) fn place(&self, x: f64, y: f64) -> Option<Spot> {
+        Some([self.across(x)?, self.down(y)?])
+    }
+
+    fn across(&self, x: f64) -> Option<f64> {
+        Some(self.area.left + self.area.width * self.x.place(x)?)
+    }
+
+    fn down(&self, y: f64) -> Option<f64> {
+        Some(self.area.bottom() - self.area.height * self.y.place(y)?)
+    }
+
+    /// Frame, grid, ticks and title.
+    pub(crate) fn frame(&self) -> Element {
+        let area = &self.area;
+        let border = Element::new("rect")
+            .at("x", area.left)
+            .at("y", area.top)
+            .at("width", area.width)
+            .at("height", area.height)
+            .with("fill", "none")
+            .with("stroke", FAINT);
+        let title = label(&self.title, [area.center()[0], area.top - 6.0], 12.0, Anchor::Middle);
+        Element::group("frame")
+            .containing(self.x_ticks())
+            .containing(self.y_ticks())
+            .containing([border, title.with("fill", INK)])
+    }
+
+    fn x_ticks(&self) -> Vec<Element> {
+        let area = self.area;
+        let wanted = (area.width / 42.0).clamp(2.0, 9.0) as usize;
+        let mut drawn = Vec::new();
+        let mut free = f64::NEG_INFINITY;
+        for tick in self.x.ticks(wanted) {
+            let Some(x) = self.across(tick.value) else { continue };
+            let long = if tick.label.is_some() { 5.0 } else { 2.5 };
+            if tick.label.is_some() {
+                drawn.push(line([x, area.top], [x, area.bottom()], GRID, 0.8));
+            }
+            drawn.push(line([x, area.bottom()], [x, area.bottom() - long], FAINT, 0.8));
+            let Some(text) = tick.label.filter(|_| self.x_labels) else { continue };
+            let half = 0.5 * width(&text, TICK);
+            // A label that would touch the one before is left out.
+            if x - half > free {
+                free = x + half + 5.0;
+                let spot = [x, area.bottom() + 15.0];
+                drawn.push(label(&text, spot, TICK, Anchor::Middle).with("fill", INK));
+            }
+        }
+        drawn
+    }
+
+    fn y_ticks(&self) -> Vec<Element> {
+        let area = self.area;
+        let wanted = (area.height / 34.0).clamp(2.0, 9.0) as usize;
+        let mut drawn = Vec::new();
+        for tick in self.y.ticks(wanted) {
+            let Some(y) = self.down(tick.value) else { continue };
+            let long = if tick.label.is_some() { 5.0 } else { 2.5 };
+            if tick.label.is_some() {
+                drawn.push(line([area.left, y], [area.right(), y], GRID, 0.8));
+            }
+            drawn.push(line([area.left, y], [area.left + long, y], FAINT, 0.8));
+            if let Some(text) = tick.label.filter(|_| self.y_labels) {
+                let spot = [area.left - 6.0, y + 4.0];
+                drawn.push(label(&text, spot, TICK, Anchor::End).with("fill", INK));
+            }
+        }
+        drawn
+    }
+
+    /// The label of the x axis under the panel.
+    pub(crate) fn x_name(&self) -> Element {
+        let spot = [self.area.center()[0], self.area.bottom() + 36.0];
+        let size = fitting(&self.x.label, 1.1 * self.area.width);
+        label(&self.x.label, spot, size, Anchor::Middle).with("fill", INK)
+    }
+
+    /// The label of the y axis beside the panel, `away` px from it.
+    pub(crate) fn y_name(&self, away: f64) -> Element {
+        let spot = [self.area.left - away, self.area.center()[1]];
+        let size = fitting(&self.y.label, 1.1 * self.area.height);
+        upright(&self.y.label, spot, size).with("fill", INK)
+    }
+}
+
+/// The size of letters with which a label takes no more than `room`.
+fn fitting(label: &str, room: f64) -> f64 {
+    NAME * (room / width(label, NAME)).min(1.0)
+}
+
+/// The mark of a design of a slant, filled or open.
+pub(crate) fn mark(slant_deg: f64, at: Spot, radius: f64, filled: bool) -> Element {
+    let color = slant_color(slant_deg);
+    let fill = if filled { color.as_str() } else { "#fff" };
+    let edge = if filled { "#fff" } else { color.as_str() };
+    let stroke = if filled { 0.5 } else { 1.3 };
+    Mark::of(slant_deg)
+        .draw(at, radius)
+        .with("fill", fill)
+        .with("stroke", edge)
+        .at("stroke-width", stroke)
+}
+
+/// The slants with their marks, in one line.
+pub(crate) fn slant_legend(slants: &[f64], [x, y]: Spot) -> Element {
+    let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
+    let mut legend = Element::group("legend").containing([name]);
+    let mut left = x + 64.0;
+    for &slant in slants {
+        let text = format!("{slant}°");
+        legend.add(mark(slant, [left, y], 4.5, true));
+        legend.add(label(&text, [left + 9.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK));
+        left += 28.0 + width(&text, 12.0);
+    }
+    legend
+}

@@ -1,0 +1,248 @@
+//! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event.
+
+use skin::Design;
+use skin::flexure::Flexure;
+use skin::puncture::Puncture;
+
+use crate::axis::Axis;
+use crate::chart::{Area, Panel};
+use crate::drawings::geometry_label;
+use crate::figures::{Figure, columns, sheet};
+use crate::label::{Anchor, label, width};
+use crate::palette::{INK, slant_color};
+use crate::svg::{Element, Spot, line, polyline};
+
+const WIDTH: f64 = 760.0;
+/// Room for the axes, px: left, right, below.
+const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
+const HEIGHT: f64 = 430.0;
+
+/// Dashes that tell designs of one slant from each other.
+const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
+
+/// A solved design.
+#[derive(Clone, Debug)]
+pub struct Solved<'a> {
+    /// Its number.
+    pub number: String,
+    /// The geometry.
+    pub design: &'a Design,
+    /// The puncture.
+    pub puncture: Option<&'a Puncture>,
+    /// The bending.
+    pub flexure: Option<&'a Flexure>,
+}
+
+/// A line of a panel.
+struct Curve {
+    name: String,
+    color: String,
+    dashes: &'static str,
+    points: Vec<[f64; 2]>,
+    crosses: Vec<[f64; 2]>,
+}
+
+/// The curves of `designs` as figures: those for which there are paths.
+pub fn curves(name: &str, designs: &[Solved]) -> Vec<Figure> {
+    let candidates = [
+        ("force-displacement-curves", one_panel(name, &FORCE, designs, puncture)),
+        ("moment-curvature-curves", one_panel(name, &MOMENT, designs, flexure)),
+        ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
+        ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
+    ];
+    candidates.into_iter().filter_map(|(name, svg)| Some(Figure { name, svg: svg? })).collect()
+}
+
+/// What a kind of figure says about itself.
+struct Text {
+    title: &'static str,
+    x: &'static str,
+    y: &'static str,
+    note: &'static str,
+}
+
+const FORCE: Text = Text {
+    title: "puncture force against displacement",
+    x: "displacement $u^*$ = $u/t$, dimensionless",
+    y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
+    note: "× a contact closes, opens or passes a corner",
+};
+const MOMENT: Text = Text {
+    title: "moment against curvature",
+    x: "curvature $κ^*$ = $κ t$, dimensionless",
+    y: "moment $M^*$ = $M t$/($E_m I_m$), dimensionless",
+    note: "× a contact closes, opens or passes a corner",
+};
+const PUNCTURE_ENERGY: Text = Text {
+    title: "energies of a puncture",
+    x: "displacement $u^*$ = $u/t$, dimensionless",
+    y: "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless",
+    note: "solid: substrate, dotted: contacts",
+};
+const FLEXURE_ENERGY: Text = Text {
+    title: "energies of bending",
+    x: "curvature $κ^*$ = $κ t$, dimensionless",
+    y: "energy $U$/($E_m t$^3), dimensionless",
+    note: "solid: bending, dashed: axial, dotted: contacts",
+};
+
+fn puncture(solved: &Solved) -> Option<[Vec<[f64; 2]>; 2]> {
+    let puncture = solved.puncture?;
+    let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
+    let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
+    Some([points.collect(), events.collect()])
+}
+
+fn flexure(solved: &Solved) -> Option<[Vec<[f64; 2]>; 2]> {
+    let flexure = solved.flexure?;
+    let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
+    let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
+    Some([points.collect(), events.collect()])
+}
+
+/// The energies of each design, the dashes of each.
+type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
+
+fn puncture_energies(solved: &Solved) -> Option<Energies> {
+    let path = &solved.puncture?.path;
+    Some(vec![
+        ("none", path.iter().map(|p| [p.displacement, p.substrate_energy]).collect()),
+        ("2 3", path.iter().map(|p| [p.displacement, p.contact_energy]).collect()),
+    ])
+}
+
+fn flexure_energies(solved: &Solved) -> Option<Energies> {
+    let path = &solved.flexure?.path;
+    Some(vec![
+        ("none", path.iter().map(|p| [p.curvature, p.bending_energy]).collect()),
+        ("7 4", path.iter().map(|p| [p.curvature, p.axial_energy]).collect()),
+        ("2 3", path.iter().map(|p| [p.curvature, p.contact_energy]).collect()),
+    ])
+}
+
+fn one_panel(
+    name: &str,
+    text: &Text,
+    designs: &[Solved],
+    values: fn(&Solved) -> Option<[Vec<[f64; 2]>; 2]>,
+) -> Option<String> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for solved in designs {
+        let Some([points, crosses]) = values(solved) else { continue };
+        let color = slant_color(solved.design.slant_deg);
+        let alike = curves.iter().filter(|other| other.color == color).count();
+        let dashes = DASHES[alike % DASHES.len()];
+        let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
+        curves.push(Curve { name, color, dashes, points, crosses });
+    }
+    if curves.is_empty() {
+        return None;
+    }
+    let top = 62.0 + 20.0 * curves.len() as f64;
+    let (x, mut y) = axes(text, curves.iter().flat_map(|curve| &curve.points));
+    if let Some(log) = logarithmic(text, &curves) {
+        y = log;
+    }
+    let panel = Panel {
+        area: Area {
+            left: MARGINS[0],
+            top,
+            width: WIDTH - MARGINS[0] - MARGINS[1],
+            height: HEIGHT - 62.0 - MARGINS[2],
+        },
+        x: &x,
+        y: &y,
+        title: String::new(),
+        x_labels: true,
+        y_labels: true,
+    };
+    let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
+    inside.extend(curves.iter().map(|curve| drawn(&panel, curve)));
+    inside
+        .extend(curves.iter().enumerate().map(|(k, curve)| legend(curve, 56.0 + 20.0 * k as f64)));
+    let note = [WIDTH - MARGINS[1], 56.0 + 4.0];
+    inside.push(label(text.note, note, 12.0, Anchor::End).with("fill", INK));
+    let height = panel.area.bottom() + MARGINS[2] - 8.0;
+    Some(sheet(WIDTH, height, &format!("{name}: {}", text.title), inside))
+}
+
+/// Axes for points, both from zero.
+fn axes<'a>(text: &Text, points: impl Iterator<Item = &'a [f64; 2]> + Clone) -> (Axis, Axis) {
+    let axis = |name: &str, k: usize| {
+        let (low, high) = crate::axis::ends(points.clone().map(|point| point[k]));
+        Axis::linear(name, low.min(0.0), high)
+    };
+    (axis(text.x, 0), axis(text.y, 1))
+}
+
+/// An axis that shows the smallest of curves whose ends differ by decades.
+fn logarithmic(text: &Text, curves: &[Curve]) -> Option<Axis> {
+    let ends = curves.iter().map(|curve| curve.points.iter().map(|p| p[1]).fold(0.0, f64::max));
+    let (low, high) = crate::axis::ends(ends);
+    (low > 0.0 && high > 30.0 * low).then(|| Axis::fit(text.y, [low / 30.0, high].into_iter()))
+}
+
+fn drawn(panel: &Panel, curve: &Curve) -> Element {
+    let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
+        points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
+    };
+    let path = polyline(&spots(&curve.points))
+        .with("stroke", curve.color.as_str())
+        .at("stroke-width", 1.8)
+        .with("stroke-dasharray", curve.dashes)
+        .with("stroke-linejoin", "round");
+    let crosses = spots(&curve.crosses).into_iter().flat_map(|[x, y]| {
+        [1.0, -1.0].map(|s| line([x - 3.8, y - 3.8 * s], [x + 3.8, y + 3.8 * s], INK, 1.1))
+    });
+    Element::group("curve").containing([path]).containing(crosses)
+}
+
+fn legend(curve: &Curve, y: f64) -> Element {
+    let sample = line([MARGINS[0], y], [MARGINS[0] + 40.0, y], &curve.color, 2.2)
+        .with("stroke-dasharray", curve.dashes);
+    let name = label(&curve.name, [MARGINS[0] + 50.0, y + 4.0], 12.0, Anchor::Start);
+    Element::group("legend").containing([sample, name.with("fill", INK)])
+}
+
+/// A panel for each design, with axes of its own.
+fn panels(
+    name: &str,
+    text: &Text,
+    designs: &[Solved],
+    values: fn(&Solved) -> Option<Energies>,
+) -> Option<String> {
+    let solved: Vec<_> = designs.iter().filter_map(|d| Some((d, values(d)?))).collect();
+    if solved.is_empty() {
+        return None;
+    }
+    let columns = columns(solved.len()).min(3);
+    let [w, h] = [330.0, 300.0];
+    let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
+    for (k, (design, energies)) in solved.iter().enumerate() {
+        let (x, y) = axes(text, energies.iter().flat_map(|(_, points)| points));
+        let panel = Panel {
+            area: Area {
+                left: MARGINS[0] + (k % columns) as f64 * (w + 84.0),
+                top: 86.0 + (k / columns) as f64 * (h + 84.0),
+                width: w,
+                height: h,
+            },
+            x: &x,
+            y: &y,
+            title: format!("{}:  {}", design.number, geometry_label(design.design)),
+            x_labels: true,
+            y_labels: true,
+        };
+        inside.extend([panel.frame(), panel.x_name(), panel.y_name(58.0)]);
+        inside.extend(energies.iter().map(|(dashes, points)| {
+            let color = slant_color(design.design.slant_deg);
+            let (points, crosses) = (points.clone(), Vec::new());
+            drawn(&panel, &Curve { name: String::new(), color, dashes, points, crosses })
+        }));
+    }
+    let rows = solved.len().div_ceil(columns) as f64;
+    let title = format!("{name}: {}", text.title);
+    let paper = MARGINS[0] + columns as f64 * (w + 84.0) - 60.0;
+    let paper = paper.max(width(&title, 15.0) + 60.0);
+    Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
+}

@@ -1,0 +1,93 @@
+//! Drawings of a design, to scale.
+
+mod animation;
+mod bodies;
+mod contacts;
+mod row;
+mod strip;
+mod view;
+
+pub use bodies::overlaps;
+pub use row::Puncture;
+pub use strip::Flexure;
+
+use skin::Design;
+
+use crate::label::{Anchor, label, plain, width};
+use crate::palette::INK;
+use crate::svg::{Element, document};
+
+/// Width of a drawing, px.
+const WIDTH: f64 = 960.0;
+/// Air around it, px.
+const MARGIN: f64 = 24.0;
+/// Height of the title, px.
+const HEAD: f64 = 40.0;
+/// Height of the line above a panel, px.
+const CAPTION: f64 = 26.0;
+
+/// States of one design, drawn alike.
+struct Frames {
+    height: f64,
+    /// Caption and contents of each.
+    states: Vec<(String, Vec<Element>)>,
+}
+
+impl Frames {
+    fn new(panels: Vec<Panel>) -> Self {
+        let height = panels.iter().map(|panel| panel.height).fold(0.0, f64::max);
+        let states = panels.into_iter().map(|panel| (panel.caption, panel.inside)).collect();
+        Self { height, states }
+    }
+}
+
+/// A part of a drawing, drawn from its own upper left corner.
+struct Panel {
+    height: f64,
+    caption: String,
+    inside: Vec<Element>,
+}
+
+/// `panels` under each other under a title.
+fn stacked(title: &str, panels: Vec<Panel>) -> String {
+    let mut inside = vec![
+        label(title, [MARGIN, 28.0], 16.0, Anchor::Start)
+            .with("fill", INK)
+            .with("font-weight", "bold"),
+    ];
+    let mut top = HEAD;
+    for (k, panel) in panels.into_iter().enumerate() {
+        inside.push(placed(panel.caption, panel.inside, top, k));
+        top += CAPTION + panel.height;
+    }
+    document(WIDTH, top + 0.5 * MARGIN, &plain(title), inside)
+}
+
+/// A panel with its letter and caption at a height.
+fn placed(caption: String, inside: Vec<Element>, top: f64, number: usize) -> Element {
+    let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
+    let text = format!("({letter})  {caption}");
+    // A caption that would leave the paper is set smaller.
+    let size = (13.0 * (WIDTH - 2.0 * MARGIN) / width(&text, 13.0)).min(13.0);
+    let caption = label(&text, [MARGIN, 17.0], size, Anchor::Start).with("fill", INK);
+    let body = Element::group("body")
+        .with("transform", format!("translate(0 {CAPTION})"))
+        .containing(inside);
+    Element::group("panel")
+        .with("transform", format!("translate(0 {top})"))
+        .containing([caption, body])
+}
+
+/// The geometry of a design as labels have it.
+pub fn geometry_label(design: &Design) -> String {
+    format!("$d/t$ = {}, $L/t$ = {}, $α$ = {}°", design.gap, design.length, design.slant_deg)
+}
+
+/// `count` contacts, in words.
+fn contacts_label(count: usize) -> String {
+    match count {
+        0 => "no contact".to_owned(),
+        1 => "1 contact".to_owned(),
+        count => format!("{count} contacts"),
+    }
+}

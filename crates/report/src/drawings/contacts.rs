@@ -1,0 +1,70 @@
+//! Contacts: overlaps in red, a halo around each, forces along their lines of action.
+
+use std::fmt::Write as _;
+
+use skin::Contact;
+
+use super::view::View;
+use crate::palette::RED;
+use crate::svg::{Element, Spot, arrow, circle};
+
+/// Length of the arrow of the largest force, px.
+pub(super) const LONGEST: f64 = 64.0;
+/// Arrows shorter than this are left out, px.
+const SHORTEST: f64 = 2.5;
+
+/// The true overlaps. Nearly rigid scales overlap by a millionth of their thickness: coordinates are
+/// written with all their digits.
+pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Element {
+    let polygon = |(left, points): &(usize, Vec<[f64; 2]>)| {
+        Element::new("path")
+            .with("d", exact(&view.all(points)))
+            .with("fill", RED)
+            .with("data-left", left.to_string())
+    };
+    Element::group("overlaps").containing(polygons.iter().map(polygon))
+}
+
+fn exact(points: &[Spot]) -> String {
+    let mut data = String::new();
+    for (k, [x, y]) in points.iter().enumerate() {
+        let _ = write!(data, "{}{x} {y}", if k == 0 { "M" } else { " L" });
+    }
+    data.push_str(" Z");
+    data
+}
+
+/// A halo and a dot at each contact, so that it is seen however small its overlap.
+pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
+    let halo = |contact: &Contact| {
+        let center = view.place(contact.point);
+        [
+            circle(center, radius).with("fill", RED).with("fill-opacity", "0.22"),
+            circle(center, 0.3 * radius).with("fill", RED),
+        ]
+    };
+    Element::group("contacts").containing(contacts.iter().flat_map(halo))
+}
+
+/// The force on either scale of each contact, as arrows from where they touch; `unit` px for a force of 1.
+pub(super) fn forces(view: &View, contacts: &[Contact], unit: f64) -> Element {
+    let pair = |contact: &Contact| {
+        let from = view.place(contact.point);
+        [1.0, -1.0]
+            .map(|side| force(from, contact.force.map(|f| side * f), unit))
+            .into_iter()
+            .flatten()
+    };
+    Element::group("contact-forces").containing(contacts.iter().flat_map(pair))
+}
+
+fn force(from: Spot, force: [f64; 2], unit: f64) -> Option<Element> {
+    let to = [from[0] + unit * force[0], from[1] - unit * force[1]];
+    let long = unit * force[0].hypot(force[1]) > SHORTEST;
+    long.then(|| arrow(from, to, "#8f0013", 1.5))
+}
+
+/// The largest force.
+pub(super) fn largest(contacts: &[Contact]) -> f64 {
+    contacts.iter().map(|contact| contact.force[0].hypot(contact.force[1])).fold(0.0, f64::max)
+}

@@ -1,0 +1,381 @@
+//! A row of scales on its substrate, at rest and punctured.
+
+use contact::Pose;
+use geometry::{Corner, InvalidGeometry, Row};
+use skin::Design;
+use skin::puncture::{ScaleState, Snapshot};
+
+use super::bodies::{corners, overlaps};
+use super::contacts::{self, LONGEST};
+use super::view::View;
+use super::{Frames, MARGIN, Panel, WIDTH, contacts_label, geometry_label, stacked};
+use crate::label::{Anchor, label};
+use crate::palette::{FAINT, INK};
+use crate::svg::{Element, Spot, arrow, line, polygon, polyline};
+
+/// Px for a length of `t` at most.
+const LARGEST: f64 = 130.0;
+/// Lengths (over `t`) that a drawing spans at most.
+const WIDEST: f64 = 44.0;
+/// Scales that move by less than this part of the largest displacement may lie outside.
+const STILL: f64 = 0.01;
+/// Depth of substrate below the deepest corner, px.
+const SUBSTRATE: f64 = 26.0;
+/// Height of the bars of the reactions, px.
+const BARS: f64 = 62.0;
+/// Room above the scales for the load, px.
+const AIR: f64 = LONGEST + 24.0;
+
+/// A punctured design, to be drawn.
+#[derive(Clone, Debug)]
+pub struct Puncture<'a> {
+    /// What stands above, before the geometry: the name of the design.
+    pub name: &'a str,
+    /// The geometry.
+    pub design: &'a Design,
+    /// Place of the load on the top of the punctured scale.
+    pub load_position: f64,
+    /// The states, from the top; the row at rest is drawn above them.
+    pub states: &'a [Snapshot],
+}
+
+impl Puncture<'_> {
+    /// The drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
+    ///
+    /// # Errors
+    /// If the design is none.
+    pub fn svg(&self) -> Result<String, InvalidGeometry> {
+        let sheet = Sheet::new(self)?;
+        let states = self.states.iter().map(|state| sheet.state(state));
+        let panels: Vec<_> = std::iter::once(sheet.at_rest()).chain(states).collect();
+        Ok(stacked(&self.title(), panels))
+    }
+
+    pub(super) fn title(&self) -> String {
+        format!("{}: {}", self.name, geometry_label(self.design))
+    }
+
+    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
+        let sheet = Sheet::new(self)?;
+        Ok(Frames::new(self.states.iter().map(|state| sheet.state(state)).collect()))
+    }
+}
+
+/// What all panels of a drawing share.
+struct Sheet {
+    row: Row,
+    load_position: f64,
+    coverage: f64,
+    /// Numbers of the first and the last scale shown.
+    first: i64,
+    last: i64,
+    view: View,
+    /// Where the bars of the reactions stand, px.
+    bars: f64,
+    height: f64,
+    /// Px for a force of 1, over `E* t²`.
+    force: f64,
+    /// Largest and smallest reaction, over the load.
+    reactions: (f64, f64),
+    length: f64,
+}
+
+impl Sheet {
+    fn new(puncture: &Puncture) -> Result<Self, InvalidGeometry> {
+        let row = puncture.design.row()?;
+        let states = puncture.states;
+        let (first, last) = window(&row, states);
+        let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
+        let width = (last - first) as f64 * pitch + 2.0 * a + shift;
+        let scale = ((WIDTH - 4.0 * MARGIN) / width).min(LARGEST);
+        let deepest = states
+            .iter()
+            .flat_map(|state| &state.scales)
+            .map(|s| a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]);
+        let deepest = scale * deepest.fold(0.0, f64::max) + SUBSTRATE;
+        // The middle of what is shown stands in the middle of the paper.
+        let middle = first as f64 * pitch - a + 0.5 * width;
+        let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
+        let bars = AIR + scale + deepest + 18.0;
+        let load = |state: &Snapshot| state.force * puncture.design.length;
+        let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(s)));
+        let reactions = states.iter().flat_map(|state| {
+            let load = load(state);
+            state.scales.iter().filter(move |_| load > 0.0).map(move |s| s.reaction / load)
+        });
+        let reactions =
+            reactions.fold((0.0, 0.0), |(high, low): (f64, f64), r| (high.max(r), low.min(r)));
+        Ok(Self {
+            row,
+            load_position: puncture.load_position,
+            coverage: row.coverage(),
+            first,
+            last,
+            view,
+            bars,
+            height: bars + BARS + 18.0,
+            force: LONGEST / largest.fold(f64::MIN_POSITIVE, f64::max),
+            reactions,
+            length: puncture.design.length,
+        })
+    }
+
+    fn numbers(&self) -> impl Iterator<Item = i64> {
+        self.first..=self.last
+    }
+
+    fn place(&self, point: [f64; 2]) -> Spot {
+        self.view.place(point)
+    }
+
+    fn at_rest(&self) -> Panel {
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let poses: Vec<_> = self.numbers().map(|i| (i, rest)).collect();
+        let bottom = AIR + self.view.scale + SUBSTRATE;
+        let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
+        inside.extend(self.coverage_line());
+        let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
+        // Neither a load nor reactions: the panel needs less room.
+        let lifted = Element::group("rest")
+            .with("transform", format!("translate(0 {})", -(AIR - 14.0)))
+            .containing(inside);
+        Panel { height: self.view.scale + SUBSTRATE + 24.0, caption, inside: vec![lifted] }
+    }
+
+    fn state(&self, state: &Snapshot) -> Panel {
+        let shown: Vec<&ScaleState> =
+            state.scales.iter().filter(|s| (self.first..=self.last).contains(&s.scale)).collect();
+        let poses: Vec<_> = shown.iter().map(|s| (s.scale, pose(s))).collect();
+        let inside = vec![
+            self.substrate(&poses, self.bars - 18.0),
+            self.ghosts(),
+            self.scales(&poses),
+            self.overlaps(state),
+            self.contacts(state),
+            self.load(state),
+            self.tilt(state),
+            self.reactions(&shown, state.force * self.length),
+        ];
+        Panel { height: self.height, caption: self.caption(state), inside }
+    }
+
+    fn caption(&self, state: &Snapshot) -> String {
+        let load = state.force * self.length;
+        let largest = contacts::largest(&state.contacts);
+        let force = if largest > 0.0 && load > 0.0 {
+            format!(", the largest force {} $F$", short(largest / load))
+        } else {
+            String::new()
+        };
+        format!(
+            "$u^*$ = {},  $F^*$ = {},  tilt {:.2}°,  {}{force}",
+            short(state.displacement),
+            short(state.force),
+            state.tilt_deg + 0.0,
+            contacts_label(state.contacts.len())
+        )
+    }
+
+    /// The substrate, its surface bonded to the bases.
+    fn substrate(&self, poses: &[(i64, Pose)], bottom: f64) -> Element {
+        let surface = poses.iter().flat_map(|(i, pose)| {
+            let [left, right, ..] = corners(&self.row, *i as f64, pose);
+            [left, right]
+        });
+        let surface: Vec<Spot> = surface.map(|point| self.place(point)).collect();
+        let (left, right) = (MARGIN, WIDTH - MARGIN);
+        let ends = surface.first().zip(surface.last()).map_or((0.0, 0.0), |(a, b)| (a[1], b[1]));
+        let mut top = vec![[left, ends.0]];
+        top.extend(surface);
+        top.push([right, ends.1]);
+        let mut body = top.clone();
+        body.extend([[right, bottom], [left, bottom]]);
+        let fill = polygon(&body).with("fill", "#f3e3cc");
+        let edge = polyline(&top).with("stroke", "#a97f4b").at("stroke-width", 1.0);
+        Element::group("substrate").containing([fill, edge])
+    }
+
+    fn scales(&self, poses: &[(i64, Pose)]) -> Element {
+        let scale = |(i, pose): &(i64, Pose)| {
+            let fill = if *i == 0 { "#8fb3cf" } else { "#d5dee6" };
+            polygon(&self.view.all(&corners(&self.row, *i as f64, pose)))
+                .with("fill", fill)
+                .with("fill-opacity", "0.92")
+        };
+        Element::group("scales")
+            .with("stroke", "#33414d")
+            .at("stroke-width", self.outline())
+            .with("stroke-linejoin", "round")
+            .containing(poses.iter().map(scale))
+    }
+
+    /// Thinner around thin scales, so that their area is seen.
+    fn outline(&self) -> f64 {
+        let thickness = 2.0 * self.row.scale().half_base() * self.row.scale().slant().cos();
+        (0.12 * self.view.scale * thickness).clamp(0.25, 0.9)
+    }
+
+    /// The outlines at rest.
+    fn ghosts(&self) -> Element {
+        let rest = Pose::new(0.0, 0.0, 0.0);
+        let ghost = |i: i64| polygon(&self.view.all(&corners(&self.row, i as f64, &rest)));
+        Element::group("at-rest")
+            .with("fill", "none")
+            .with("stroke", "#9aa5ad")
+            .at("stroke-width", 0.7)
+            .with("stroke-dasharray", "3 3")
+            .containing(self.numbers().map(ghost))
+    }
+
+    fn overlaps(&self, state: &Snapshot) -> Element {
+        let poses: Vec<_> = state.scales.iter().map(pose).collect();
+        contacts::overlaps(&self.from_left(state), &overlaps(&self.row, &poses))
+    }
+
+    fn contacts(&self, state: &Snapshot) -> Element {
+        let view = self.from_left(state);
+        let radius = (0.09 * self.view.scale).clamp(4.0, 9.0);
+        let first = state.scales.first().map_or(0, |scale| scale.scale);
+        let shown = |contact: &&skin::Contact| {
+            let left = first + contact.left as i64;
+            self.first <= left && left < self.last
+        };
+        let shown: Vec<_> = state.contacts.iter().filter(shown).copied().collect();
+        Element::group("contact").containing([
+            contacts::halos(&view, &shown, radius),
+            contacts::forces(&view, &shown, self.force),
+        ])
+    }
+
+    /// The view of what is measured from the left end of the row.
+    fn from_left(&self, state: &Snapshot) -> View {
+        let first = state.scales.first().map_or(0, |scale| scale.scale);
+        View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
+    }
+
+    fn load(&self, state: &Snapshot) -> Element {
+        let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
+            return Element::group("load");
+        };
+        let scale = self.row.scale();
+        let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
+        let pose = pose(punctured);
+        let point = pose.displacement + pose.turn(left + self.load_position * (right - left));
+        let to = self.place(point.into());
+        let length = (self.force * state.force * self.length).max(9.0);
+        let from = [to[0], to[1] - length];
+        let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle).with("fill", INK);
+        Element::group("load").containing([arrow(from, to, INK, 2.2), name])
+    }
+
+    /// The angle between the base of the punctured scale and its place at rest.
+    fn tilt(&self, state: &Snapshot) -> Element {
+        let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
+            return Element::group("tilt");
+        };
+        let [left, right, ..] = corners(&self.row, 0.0, &pose(punctured)).map(|c| self.place(c));
+        let along = (right[0] - left[0]).hypot(right[1] - left[1]);
+        let reach = (1.25 * along).max(34.0);
+        let tilt = state.tilt_deg.to_radians();
+        let at = |angle: f64, r: f64| [left[0] + r * angle.cos(), left[1] + r * angle.sin()];
+        let arc: Vec<Spot> =
+            (0..=12).map(|k| at(tilt * f64::from(k) / 12.0, 0.8 * reach)).collect();
+        Element::group("tilt").containing([
+            line(left, at(0.0, reach), "#5b2a86", 1.0).with("stroke-dasharray", "4 2"),
+            line(left, at(tilt, reach), "#5b2a86", 1.0),
+            polyline(&arc).with("stroke", "#5b2a86").at("stroke-width", 1.6),
+        ])
+    }
+
+    /// The upward reactions of the substrate over the load, as bars under the scales.
+    fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
+        let (high, low) = self.reactions;
+        let unit = BARS / (high - low).max(1e-3);
+        let zero = self.bars + BARS + unit * low;
+        let width = (0.86 * 2.0 * self.row.scale().half_base() * self.view.scale).max(2.0);
+        let bar = |state: &&ScaleState| {
+            let x = self.place([state.scale as f64 * self.row.pitch(), 0.0])[0];
+            let height = if load > 0.0 { unit * state.reaction / load } else { 0.0 };
+            Element::new("rect")
+                .at("x", x - 0.5 * width)
+                .at("y", zero - height.max(0.0))
+                .at("width", width)
+                .at("height", height.abs())
+        };
+        let bars = Element::group("bars").with("fill", "#4a7a52").containing(shown.iter().map(bar));
+        let tick = |value: f64| {
+            let y = zero - unit * value;
+            [
+                line([MARGIN + 40.0, y], [WIDTH - MARGIN, y], "#c9c9c9", 0.7),
+                label(&short(value), [MARGIN + 36.0, y + 4.0], 11.0, Anchor::End)
+                    .with("fill", FAINT),
+            ]
+        };
+        let name =
+            label("$R/F$", [MARGIN, zero - BARS * 0.5], 11.0, Anchor::Start).with("fill", FAINT);
+        Element::group("reactions")
+            .containing([0.0, high].into_iter().flat_map(tick))
+            .containing([bars, name])
+    }
+
+    /// The line that measures the coverage: dropped from the top right corner of a scale, thick where
+    /// scales to the right cover the substrate.
+    fn coverage_line(&self) -> Option<Element> {
+        let (a, shift, pitch) =
+            (self.row.scale().half_base(), self.row.scale().shift(), self.row.pitch());
+        (shift > 1e-9).then(|| {
+            let x = a + shift;
+            let mut parts = vec![
+                line(self.place([x, 1.0]), self.place([x, 0.0]), "#b34700", 1.2)
+                    .with("stroke-dasharray", "4 3"),
+            ];
+            let neighbours = 1..=(shift / pitch).ceil() as i64 + 1;
+            parts.extend(neighbours.filter_map(|k| {
+                let low = ((shift - k as f64 * pitch) / shift).max(0.0);
+                let high = ((shift - k as f64 * pitch + 2.0 * a) / shift).min(1.0);
+                (high - low > 1e-9)
+                    .then(|| line(self.place([x, low]), self.place([x, high]), "#b34700", 4.0))
+            }));
+            Element::group("coverage").containing(parts)
+        })
+    }
+}
+
+fn pose(state: &ScaleState) -> Pose {
+    let [x, y] = state.displacement;
+    Pose::new(x, y, state.rotation_deg.to_radians())
+}
+
+/// First and last scale to be shown: those that touch or move, and two on either side.
+fn window(row: &Row, states: &[Snapshot]) -> (i64, i64) {
+    let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
+    let all = || states.iter().flat_map(|state| &state.scales);
+    let most = all().map(moved).fold(0.0, f64::max);
+    let moving = all().filter(|s| moved(s) > STILL * most).map(|s| s.scale);
+    let touching = states.iter().flat_map(|state| {
+        let first = state.scales.first().map_or(0, |scale| scale.scale);
+        state.contacts.iter().flat_map(move |contact| {
+            let left = first + contact.left as i64;
+            [left, left + 1]
+        })
+    });
+    let (first, last) =
+        moving.chain(touching).fold((0, 0), |(low, high), i| (low.min(i), high.max(i)));
+    let half = ((0.5 * WIDEST / row.pitch()) as i64).clamp(3, 150);
+    ((first - 2).clamp(-half, -3), (last + 2).clamp(3, half))
+}
+
+/// A number to three digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    // Rounded first: 0.09999 and 0.1 have the same digits.
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    let text = match 2 - rounded.abs().log10().floor() as i32 {
+        decimals @ 0..=6 => format!("{rounded:.0$}", decimals.unsigned_abs() as usize),
+        ..0 => format!("{rounded}"),
+        _ => format!("{rounded:.2e}"),
+    };
+    text.replace('-', "−")
+}

@@ -1,0 +1,244 @@
+//! A strip of membrane with scales, bent.
+
+use contact::Pose;
+use geometry::{InvalidGeometry, Row};
+use skin::flexure::Snapshot;
+use skin::{Contact, Design};
+
+use super::bodies::{corners, overlaps};
+use super::contacts::{self, LONGEST};
+use super::row::short;
+use super::view::{Extent, View};
+use super::{Frames, MARGIN, Panel, WIDTH, contacts_label, geometry_label, stacked};
+use crate::label::{Anchor, label};
+use crate::palette::{FAINT, INK};
+use crate::svg::{Element, Spot, arrow, polygon, polyline};
+
+/// Width of the part that shows one gap enlarged, px.
+const ENLARGED: f64 = 290.0;
+/// Height of that part, px.
+const HEIGHT: f64 = 250.0;
+/// Height of the part that shows the whole strip, at most, px.
+const TALLEST: f64 = 430.0;
+
+/// A bent design, to be drawn.
+#[derive(Clone, Debug)]
+pub struct Flexure<'a> {
+    /// What stands above, before the geometry: the name of the design.
+    pub name: &'a str,
+    /// The geometry.
+    pub design: &'a Design,
+    /// Thickness `h/t` of the membrane.
+    pub membrane_thickness: f64,
+    /// The states, from the top.
+    pub states: &'a [Snapshot],
+}
+
+impl Flexure<'_> {
+    /// The drawing as SVG: for each state the whole strip, and the gap in its middle enlarged.
+    ///
+    /// # Errors
+    /// If the design is none.
+    pub fn svg(&self) -> Result<String, InvalidGeometry> {
+        let row = self.design.row()?;
+        let panels = self.states.iter().map(|state| self.panel(&row, state)).collect();
+        Ok(stacked(&self.title(), panels))
+    }
+
+    pub(super) fn title(&self) -> String {
+        format!("{}, bending: {}", self.name, geometry_label(self.design))
+    }
+
+    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
+        let row = self.design.row()?;
+        Ok(Frames::new(self.states.iter().map(|state| self.panel(&row, state)).collect()))
+    }
+
+    fn panel(&self, row: &Row, state: &Snapshot) -> Panel {
+        let shape = Shape::upright(row, state);
+        let area = [WIDTH - ENLARGED - 3.0 * MARGIN, TALLEST];
+        let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
+            return Panel { height: 0.0, caption: String::new(), inside: Vec::new() };
+        };
+        let [width, height] = extent.size();
+        let scale = (area[0] / width).min(area[1] / height);
+        let tall = (scale * height + 24.0).max(HEIGHT + 12.0);
+        let middle = [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k]));
+        let view = View {
+            scale,
+            origin: [MARGIN + 0.5 * area[0] - scale * middle[0], 0.5 * tall + scale * middle[1]],
+        };
+        let whole = Element::group("strip").containing([
+            shape.membrane(&view, (scale * self.membrane_thickness).max(1.0)),
+            shape.scales(&view, 0.4),
+            contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
+        ]);
+        let cell = self.cell(row, state, tall);
+        Panel { height: tall + 8.0, caption: caption(state), inside: vec![whole, cell] }
+    }
+
+    /// The gap in the middle of the strip, enlarged, with the forces and the overlap.
+    fn cell(&self, row: &Row, state: &Snapshot, tall: f64) -> Element {
+        let left = (state.scales.len() - 1) / 2;
+        let shape = Shape::of_gap(row, state, left);
+        let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - HEIGHT)];
+        let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
+            return Element::group("gap");
+        };
+        let [width, height] = extent.size();
+        let scale = ((ENLARGED - 136.0) / width).min((HEIGHT - 96.0) / height);
+        let middle = [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k]));
+        let view = View {
+            scale,
+            origin: [
+                frame[0] + 0.5 * ENLARGED - scale * middle[0],
+                frame[1] + 0.5 * HEIGHT + scale * middle[1],
+            ],
+        };
+        let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
+        let border = Element::new("rect")
+            .at("x", frame[0])
+            .at("y", frame[1])
+            .at("width", ENLARGED)
+            .at("height", HEIGHT)
+            .at("rx", 4.0)
+            .with("fill", "#fbfbfb")
+            .with("stroke", "#bdbdbd");
+        let name = label(
+            "one gap, enlarged",
+            [frame[0] + 0.5 * ENLARGED, frame[1] + HEIGHT - 9.0],
+            11.0,
+            Anchor::Middle,
+        );
+        Element::group("gap").containing([
+            border,
+            shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
+            shape.scales(&view, 0.9),
+            contacts::overlaps(&view, &shape.overlaps),
+            contacts::halos(&view, &shape.contacts, 8.0),
+            contacts::forces(&view, &shape.contacts, unit),
+            moments(&view, &shape),
+            name.with("fill", FAINT),
+        ])
+    }
+}
+
+fn caption(state: &Snapshot) -> String {
+    format!(
+        "$κ^*$ = {},  $M^*$ = {},  each end turned by {:.2}°,  {}",
+        short(state.curvature),
+        short(state.moment),
+        state.end_rotation_deg + 0.0,
+        contacts_label(state.contacts.len())
+    )
+}
+
+/// What is drawn, turned so that both ends have turned alike.
+struct Shape {
+    bodies: Vec<[[f64; 2]; 4]>,
+    membrane: Vec<Vec<[f64; 2]>>,
+    contacts: Vec<Contact>,
+    overlaps: Vec<(usize, Vec<[f64; 2]>)>,
+}
+
+impl Shape {
+    fn upright(row: &Row, state: &Snapshot) -> Self {
+        let poses = poses(state);
+        let bodies = poses.iter().enumerate().map(|(i, pose)| corners(row, i as f64, pose));
+        let shape = Self {
+            bodies: bodies.collect(),
+            membrane: state.membrane.clone(),
+            contacts: state.contacts.clone(),
+            overlaps: Vec::new(),
+        };
+        let turned = |scale: Option<&[f64; 3]>| scale.map_or(0.0, |scale| scale[2]);
+        shape.turned(-0.5 * (turned(state.scales.first()) + turned(state.scales.last())))
+    }
+
+    /// The gap right of scale `left` and its two scales.
+    fn of_gap(row: &Row, state: &Snapshot, left: usize) -> Self {
+        let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
+        let along = left as f64 * row.pitch();
+        let bodies = (0..2).map(|i| corners(row, (left + i) as f64, &pair[i]));
+        let shift = |points: Vec<[f64; 2]>| points.iter().map(|p| [p[0] + along, p[1]]).collect();
+        let overlaps = overlaps(row, &pair).into_iter().map(|(_, points)| (left, shift(points)));
+        let contacts = state.contacts.iter().filter(|contact| contact.left == left);
+        let turn = -0.5 * (pair[0].rotation + pair[1].rotation);
+        let shape = Self {
+            bodies: bodies.collect(),
+            membrane: state.membrane.get(left).cloned().into_iter().collect(),
+            contacts: contacts.copied().collect(),
+            overlaps: overlaps.collect(),
+        };
+        shape.turned(turn)
+    }
+
+    fn turned(self, angle: f64) -> Self {
+        let pose = Pose::new(0.0, 0.0, angle);
+        let turn = |point: [f64; 2]| -> [f64; 2] { pose.turn(point.into()).into() };
+        let contact = |contact: Contact| Contact {
+            point: turn(contact.point),
+            force: turn(contact.force),
+            ..contact
+        };
+        let all = |points: Vec<[f64; 2]>| points.into_iter().map(turn).collect::<Vec<_>>();
+        Self {
+            bodies: self.bodies.into_iter().map(|body| body.map(turn)).collect(),
+            membrane: self.membrane.into_iter().map(all).collect(),
+            contacts: self.contacts.into_iter().map(contact).collect(),
+            overlaps: self.overlaps.into_iter().map(|(left, points)| (left, all(points))).collect(),
+        }
+    }
+
+    fn scales(&self, view: &View, stroke: f64) -> Element {
+        Element::group("scales")
+            .with("fill", "#c9d6e1")
+            .with("fill-opacity", "0.92")
+            .with("stroke", "#33414d")
+            .with("stroke-width", stroke.to_string())
+            .with("stroke-linejoin", "round")
+            .containing(self.bodies.iter().map(|body| polygon(&view.all(body))))
+    }
+
+    /// The axis of the membrane: bent in the gaps, straight where it is rigid.
+    fn membrane(&self, view: &View, width: f64) -> Element {
+        let bases = self.bodies.iter().map(|body| view.all(&body[..2]));
+        let gaps = self.membrane.iter().map(|axis| view.all(axis));
+        Element::group("membrane")
+            .with("stroke", "#c27f2c")
+            .at("stroke-width", width)
+            .containing(bases.chain(gaps).map(|points| polyline(&points)))
+    }
+}
+
+fn poses(state: &Snapshot) -> Vec<Pose> {
+    state.scales.iter().map(|&[x, y, rotation]| Pose::new(x, y, rotation)).collect()
+}
+
+/// The moments that bend the gap, as arrows round its two ends.
+fn moments(view: &View, shape: &Shape) -> Element {
+    let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
+        return Element::group("moments");
+    };
+    let around = |corner: &[f64; 2], start: f64, sweep: f64| -> Element {
+        let center = view.place(*corner);
+        let at = |angle: f64| -> Spot {
+            [center[0] + 22.0 * angle.cos(), center[1] - 22.0 * angle.sin()]
+        };
+        let arc: Vec<Spot> = (0..=16).map(|k| at(start + sweep * f64::from(k) / 16.0)).collect();
+        let tip = at(start + 1.12 * sweep);
+        let curve = polyline(&arc).with("stroke", INK).at("stroke-width", 1.8);
+        Element::group("moment").containing([curve, arrow(arc[14], tip, INK, 1.8)])
+    };
+    let turn = 2.1;
+    Element::group("moments").containing([
+        around(left, 4.6, -turn),
+        around(right, -1.46, turn),
+        label("$M$", shifted(view.place(*left), [-38.0, 18.0]), 13.0, Anchor::Middle),
+        label("$M$", shifted(view.place(*right), [38.0, 18.0]), 13.0, Anchor::Middle),
+    ])
+}
+
+fn shifted([x, y]: Spot, [dx, dy]: [f64; 2]) -> Spot {
+    [x + dx, y + dy]
+}

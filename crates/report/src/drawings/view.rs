@@ -1,0 +1,46 @@
+//! From the plane of the scales to paper.
+
+use crate::svg::Spot;
+
+/// Where points of the plane (over `t`, `y` up) stand on paper (px, `y` down).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct View {
+    /// Px for a length of `t`.
+    pub(super) scale: f64,
+    /// Where the origin stands.
+    pub(super) origin: Spot,
+}
+
+impl View {
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> Spot {
+        [self.origin[0] + self.scale * x, self.origin[1] - self.scale * y]
+    }
+
+    pub(super) fn all(&self, points: &[[f64; 2]]) -> Vec<Spot> {
+        points.iter().map(|&point| self.place(point)).collect()
+    }
+}
+
+/// A rectangle of the plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Extent {
+    pub(super) low: [f64; 2],
+    pub(super) high: [f64; 2],
+}
+
+impl Extent {
+    /// The least rectangle around `points`, `None` of none.
+    pub(super) fn around(points: impl IntoIterator<Item = [f64; 2]>) -> Option<Self> {
+        points.into_iter().fold(None, |extent: Option<Self>, point| {
+            let Extent { low, high } = extent.unwrap_or(Extent { low: point, high: point });
+            Some(Extent {
+                low: [0, 1].map(|k| low[k].min(point[k])),
+                high: [0, 1].map(|k| high[k].max(point[k])),
+            })
+        })
+    }
+
+    pub(super) fn size(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.high[k] - self.low[k])
+    }
+}

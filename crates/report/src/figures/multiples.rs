@@ -1,0 +1,156 @@
+//! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
+
+use super::{Quantity, columns, sheet};
+use crate::axis::Axis;
+use crate::chart::{Area, NAME, Panel, mark, slant_legend};
+use crate::designs::Designs;
+use crate::label::{Anchor, label, upright};
+use crate::palette::{INK, slant_color};
+use crate::svg::{Element, Spot, polyline};
+
+const WIDTH: f64 = 1000.0;
+const LEFT: f64 = 78.0;
+const RIGHT: f64 = 16.0;
+const TOP: f64 = 84.0;
+const BOTTOM: f64 = 54.0;
+/// Between panels, across and down.
+const BETWEEN: [f64; 2] = [12.0, 28.0];
+const HEIGHT: f64 = 190.0;
+/// Panels at most: of more gaps some are shown.
+const PANELS: usize = 15;
+
+/// The two lengths: one along the axis, one from panel to panel.
+struct Lengths {
+    along: &'static str,
+    along_label: &'static str,
+    across: &'static str,
+    across_symbol: &'static str,
+}
+
+/// The length with more values stands along the axis.
+fn lengths(designs: &Designs) -> Lengths {
+    let (gap, length) = ("gap_over_t", "length_over_t");
+    if designs.values(length).len() >= designs.values(gap).len() {
+        Lengths {
+            along: length,
+            along_label: "aspect ratio $L/t$, dimensionless",
+            across: gap,
+            across_symbol: "$d/t$",
+        }
+    } else {
+        Lengths {
+            along: gap,
+            along_label: "gap $d/t$, dimensionless",
+            across: length,
+            across_symbol: "$L/t$",
+        }
+    }
+}
+
+/// The figure of a quantity; dots are filled where the column `filled` says so.
+pub(super) fn figure(
+    name: &str,
+    designs: &Designs,
+    quantity: Quantity,
+    filled: Option<&str>,
+) -> String {
+    let lengths = lengths(designs);
+    let x = Axis::fit(lengths.along_label, designs.numbers(lengths.along));
+    let y = Axis::fit(quantity.label, designs.numbers(quantity.column));
+    let panels = some(designs.values(lengths.across));
+    let columns = columns(panels.len());
+    let rows = panels.len().div_ceil(columns);
+    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
+    let slants = designs.values("slant_deg");
+    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0])];
+    inside.extend(filled.map(|_| contact_legend([LEFT + 520.0, 50.0])));
+    for (k, &value) in panels.iter().enumerate() {
+        let (column, row) = (k % columns, k / columns);
+        let panel = Panel {
+            area: Area {
+                left: LEFT + column as f64 * (width + BETWEEN[0]),
+                top: TOP + row as f64 * (HEIGHT + BETWEEN[1]),
+                width,
+                height: HEIGHT,
+            },
+            x: &x,
+            y: &y,
+            title: format!("{} = {value}", lengths.across_symbol),
+            x_labels: k + columns >= panels.len(),
+            y_labels: column == 0,
+        };
+        inside.push(panel.frame());
+        let here = Here { designs, lengths: &lengths, value, quantity, filled };
+        inside.extend(slants.iter().map(|&slant| here.series(&panel, slant)));
+    }
+    let bottom = TOP + rows as f64 * (HEIGHT + BETWEEN[1]) - BETWEEN[1];
+    let middle = 0.5 * (LEFT + WIDTH - RIGHT);
+    inside.push(label(&x.label, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
+    inside.push(upright(&y.label, [18.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
+    let title = format!("{name}: {}", title(quantity.label));
+    sheet(WIDTH, bottom + BOTTOM, &title, inside)
+}
+
+/// The words of a label before its symbol.
+fn title(label: &str) -> String {
+    label.split(" $").next().unwrap_or(label).to_owned()
+}
+
+/// At most as many of `values` as there is room for, from end to end.
+fn some(values: Vec<f64>) -> Vec<f64> {
+    if values.len() <= PANELS {
+        return values;
+    }
+    (0..PANELS).map(|k| values[k * (values.len() - 1) / (PANELS - 1)]).collect()
+}
+
+/// What stands in one panel.
+struct Here<'a> {
+    designs: &'a Designs,
+    lengths: &'a Lengths,
+    value: f64,
+    quantity: Quantity,
+    filled: Option<&'a str>,
+}
+
+impl Here<'_> {
+    /// The designs of one slant: a line where each aspect ratio stands once, and their marks.
+    fn series(&self, panel: &Panel, slant: f64) -> Element {
+        let designs = self.designs;
+        let is_here = |row: &usize| {
+            designs.number(self.lengths.across, *row) == Some(self.value)
+                && designs.number("slant_deg", *row) == Some(slant)
+        };
+        let point = |row: usize| {
+            let along = designs.number(self.lengths.along, row)?;
+            let at = panel.place(along, designs.number(self.quantity.column, row)?)?;
+            Some((along, at, row))
+        };
+        let mut points: Vec<(f64, Spot, usize)> =
+            (0..designs.count()).filter(is_here).filter_map(point).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut series = Element::group("series").with("data-slant", slant.to_string());
+        if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
+            let spots: Vec<Spot> = points.iter().map(|point| point.1).collect();
+            series.add(polyline(&spots).with("stroke", slant_color(slant)).at("stroke-width", 1.2));
+        }
+        for (_, at, row) in points {
+            let filled = self.filled.is_none_or(|column| is_true(designs.text(column, row)));
+            series.add(mark(slant, at, 3.2, filled));
+        }
+        series
+    }
+}
+
+fn is_true(text: &str) -> bool {
+    matches!(text, "true" | "yes" | "1")
+}
+
+fn contact_legend([x, y]: Spot) -> Element {
+    Element::group("legend").containing([
+        mark(0.0, [x, y], 4.5, true),
+        label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
+        mark(0.0, [x + 76.0, y], 4.5, false),
+        label("no contact", [x + 86.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
+    ])
+}

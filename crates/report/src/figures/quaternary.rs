@@ -1,0 +1,259 @@
+//! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
+
+use geometry::{Parallelogram, Row};
+
+use super::sheet;
+use crate::criteria::{best, ranked, rescaled};
+use crate::designs::Designs;
+use crate::label::{Anchor, label};
+use crate::palette::{FAINT, INK, shaded, slant_color};
+use crate::svg::{Element, Spot, circle, line, polygon};
+
+const WIDTH: f64 = 1000.0;
+const HEIGHT: f64 = 640.0;
+/// Winners that are listed.
+const LISTED: usize = 9;
+/// Where the middle of the tetrahedron stands, and its size.
+const CENTER: Spot = [302.0, 366.0];
+const SIZE: f64 = 262.0;
+
+/// Corners of the tetrahedron: coverage, critical force, penetration resistance, compliance.
+const CORNERS: [[f64; 3]; 4] = [
+    [0.0, 1.0, 0.0],
+    [0.0, -0.333_333_333_333_333_3, 0.942_809_041_582_063_4],
+    [-0.816_496_580_927_726, -0.333_333_333_333_333_3, -0.471_404_520_791_031_7],
+    [0.816_496_580_927_726, -0.333_333_333_333_333_3, -0.471_404_520_791_031_7],
+];
+const NAMES: [&str; 4] = [
+    "coverage ($m$ = 1)",
+    "critical force ($n$ = 1)",
+    "penetration resistance ($k$ = 1)",
+    "compliance ($l$ = 1)",
+];
+
+/// The best design for every weight of a grid.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tetrahedron {
+    /// Steps of the grid along an edge.
+    pub resolution: usize,
+    /// Weights of the four criteria, with the row of the best design.
+    pub winners: Vec<([f64; 4], usize)>,
+}
+
+/// The weights for which one design is best.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region {
+    /// Its row.
+    pub row: usize,
+    /// Its part of the weights, from 0 to 1.
+    pub share: f64,
+}
+
+impl Tetrahedron {
+    /// The best of `designs` for every weight of a grid with `resolution` steps along an edge; `None` if
+    /// none can be ranked.
+    pub fn of(designs: &Designs, resolution: usize) -> Option<Self> {
+        let rescaled = rescaled(&ranked(designs));
+        let winner = |parts: [usize; 4]| {
+            let weights = parts.map(|part| part as f64 / resolution as f64);
+            Some((weights, best(&rescaled, weights)?))
+        };
+        let winners: Vec<_> = parts(resolution).into_iter().filter_map(winner).collect();
+        (!winners.is_empty()).then_some(Self { resolution, winners })
+    }
+
+    /// The row of the best design for each criterion alone, and for equal weights.
+    pub fn corners_and_middle(designs: &Designs) -> Vec<usize> {
+        let rescaled = rescaled(&ranked(designs));
+        let alone = (0..4).map(|k| std::array::from_fn(|i| f64::from(u8::from(i == k))));
+        let mut rows: Vec<usize> = std::iter::once([0.25; 4])
+            .chain(alone)
+            .filter_map(|weights| best(&rescaled, weights))
+            .collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    }
+
+    /// The designs that are best somewhere, the largest region first.
+    pub fn regions(&self) -> Vec<Region> {
+        let mut counts = std::collections::BTreeMap::<usize, usize>::new();
+        for (_, row) in &self.winners {
+            *counts.entry(*row).or_default() += 1;
+        }
+        let all = self.winners.len() as f64;
+        let region = |(row, count)| Region { row, share: count as f64 / all };
+        let mut regions: Vec<Region> = counts.into_iter().map(region).collect();
+        // Stable: among equals the first design comes first.
+        regions.sort_by(|a, b| b.share.total_cmp(&a.share));
+        regions
+    }
+}
+
+/// Every way to share `whole` parts among four.
+fn parts(whole: usize) -> Vec<[usize; 4]> {
+    let first = (0..=whole).flat_map(move |m| (0..=whole - m).map(move |n| (m, n)));
+    first
+        .flat_map(|(m, n)| (0..=whole - m - n).map(move |k| [m, n, k, whole - m - n - k]))
+        .collect()
+}
+
+pub(super) fn figure(name: &str, designs: &Designs, tetrahedron: &Tetrahedron) -> String {
+    let regions = tetrahedron.regions();
+    let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
+    inside.push(points(designs, tetrahedron, &regions));
+    inside.push(edges(&[[0, 1], [0, 2], [0, 3]], "none"));
+    inside.push(corner_names());
+    inside.push(letters(tetrahedron, &regions));
+    let colors = colors(designs, &regions);
+    inside.extend(regions.iter().zip(&colors).enumerate().map(|(k, (region, color))| {
+        entry(designs, region, color, &letter(k), [604.0, 78.0 + 58.0 * k as f64])
+    }));
+    if regions.len() > LISTED {
+        let rest: f64 = regions[LISTED..].iter().map(|region| region.share).sum();
+        let text = format!("{} more designs: {:.1} %", regions.len() - LISTED, 100.0 * rest);
+        let spot = [596.0, 78.0 + 58.0 * LISTED as f64];
+        inside.push(label(&text, spot, 12.0, Anchor::Start).with("fill", FAINT));
+    }
+    let title = format!("{name}: the best design for every weighting of the four criteria");
+    sheet(WIDTH, HEIGHT, &title, inside)
+}
+
+/// A point of the tetrahedron on paper, and how near it is.
+fn projected(weights: [f64; 4]) -> (Spot, f64) {
+    let [x, y, z] =
+        [0, 1, 2].map(|axis| (0..4).map(|k| weights[k] * CORNERS[k][axis]).sum::<f64>());
+    // Turned about the vertical and tipped towards the reader.
+    let (turn, tip) = (0.35_f64, 0.28_f64);
+    let (u, w) = (x * turn.cos() + z * turn.sin(), z * turn.cos() - x * turn.sin());
+    let (v, depth) = (y * tip.cos() - w * tip.sin(), w * tip.cos() + y * tip.sin());
+    ([CENTER[0] + SIZE * u, CENTER[1] - SIZE * v], depth)
+}
+
+fn corner(k: usize) -> Spot {
+    let mut weights = [0.0; 4];
+    weights[k] = 1.0;
+    projected(weights).0
+}
+
+fn edges(pairs: &[[usize; 2]], dashes: &str) -> Element {
+    let edge = |[a, b]: &[usize; 2]| {
+        line(corner(*a), corner(*b), FAINT, 1.0).with("stroke-dasharray", dashes)
+    };
+    Element::group("edges").containing(pairs.iter().map(edge))
+}
+
+fn corner_names() -> Element {
+    // Beside the dots: above, below, and outside of the base.
+    let shifts = [[-70.0, -16.0], [-60.0, 30.0], [-46.0, 52.0], [8.0, 26.0]];
+    let name = |k: usize| {
+        let [x, y] = corner(k);
+        label(NAMES[k], [x + shifts[k][0], y + shifts[k][1]], 13.0, Anchor::Start).with("fill", INK)
+    };
+    Element::group("corners").containing((0..4).map(name))
+}
+
+/// A dot for each weight in the colour of its best design, the far ones first.
+fn points(designs: &Designs, tetrahedron: &Tetrahedron, regions: &[Region]) -> Element {
+    let radius = 0.3 * SIZE * 1.63 / tetrahedron.resolution.max(4) as f64;
+    let colors = colors(designs, regions);
+    let mut dots: Vec<_> =
+        tetrahedron.winners.iter().map(|(weights, row)| (projected(*weights), *row)).collect();
+    dots.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
+    let dot = |((at, depth), row): &((Spot, f64), usize)| {
+        let listed = regions.iter().take(LISTED).position(|region| region.row == *row);
+        let color = listed.map_or("#d9d9d9", |k| colors[k].as_str());
+        // Far dots are smaller.
+        circle(*at, radius * (0.85 + 0.15 * depth)).with("fill", color)
+    };
+    Element::group("weights")
+        .with("stroke", "#fff")
+        .at("stroke-width", 0.5)
+        .containing(dots.iter().map(dot))
+}
+
+/// The colour of each listed region: that of its slant, lighter or darker for further ones of one slant.
+fn colors(designs: &Designs, regions: &[Region]) -> Vec<String> {
+    const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
+    let slant = |region: &Region| designs.number("slant_deg", region.row).unwrap_or(90.0);
+    let listed = &regions[..regions.len().min(LISTED)];
+    let color = |(k, region): (usize, &Region)| {
+        let before = listed[..k].iter().filter(|other| slant(other) == slant(region)).count();
+        shaded(&slant_color(slant(region)), SHADES[before % SHADES.len()])
+    };
+    listed.iter().enumerate().map(color).collect()
+}
+
+fn letter(k: usize) -> String {
+    char::from(b'A' + u8::try_from(k).unwrap_or(0)).to_string()
+}
+
+/// The letter of each listed design on the dot of its region that is nearest to the reader.
+fn letters(tetrahedron: &Tetrahedron, regions: &[Region]) -> Element {
+    let letter = |(k, region): (usize, &Region)| {
+        let own = tetrahedron.winners.iter().filter(|(_, row)| *row == region.row);
+        let nearest =
+            own.map(|(weights, _)| projected(*weights)).max_by(|a, b| a.1.total_cmp(&b.1));
+        Some(badge(&letter(k), nearest?.0))
+    };
+    Element::group("letters").containing(regions.iter().take(LISTED).enumerate().filter_map(letter))
+}
+
+fn badge(text: &str, [x, y]: Spot) -> Element {
+    Element::group("letter").containing([
+        circle([x, y], 9.0).with("fill", "#fff").with("stroke", INK),
+        label(text, [x, y + 4.2], 12.0, Anchor::Middle).with("fill", INK),
+    ])
+}
+
+/// A design of the list: its letter, parameters, share, and row at rest.
+fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: Spot) -> Element {
+    let value = |column| designs.text(column, region.row);
+    let text = format!(
+        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°",
+        value("design"),
+        value("gap_over_t"),
+        value("length_over_t"),
+        value("slant_deg")
+    );
+    let share = format!("best for {:.1} % of the weights", 100.0 * region.share);
+    let swatch = Element::new("rect")
+        .at("x", x + 14.0)
+        .at("y", y - 9.0)
+        .at("width", 12.0)
+        .at("height", 18.0)
+        .with("fill", color);
+    let entry = Element::group("entry").containing([
+        badge(letter, [x, y]),
+        swatch,
+        label(&text, [x + 34.0, y - 2.0], 12.5, Anchor::Start).with("fill", INK),
+        label(&share, [x + 34.0, y + 15.0], 12.0, Anchor::Start).with("fill", FAINT),
+    ]);
+    entry.containing(small_row(designs, region.row, [x + 276.0, y + 16.0]))
+}
+
+/// A few scales of a row, to scale, on 110 by 34 px.
+fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
+    let number = |column| designs.number(column, row);
+    let base = if designs.text("base", row) == "2L" { 1.0 } else { 0.5 };
+    let half = base * number("length_over_t")?;
+    let scale = Parallelogram::new(half, number("slant_deg")?).ok()?;
+    let pitch = Row::new(scale, number("gap_over_t")?).ok()?.pitch();
+    let room = 100.0;
+    let size = (room / (scale.shift() + 2.0 * half + (4.0 * pitch).max(1.0))).min(30.0);
+    let free = room / size - scale.shift() - 2.0 * half;
+    let count = ((free / pitch).floor() + 1.0).min(60.0);
+    let place = |i: usize, corner: geometry::Vec2| {
+        [x + size * (half + i as f64 * pitch + corner.x), y - size * corner.y]
+    };
+    let body = |i| polygon(&scale.corners().map(|corner| place(i, corner)));
+    // A small whole number.
+    let bodies = (0..count as usize).map(body);
+    Some(
+        Element::group("row")
+            .with("fill", "#d5dee6")
+            .with("stroke", "#33414d")
+            .at("stroke-width", 0.6)
+            .containing(bodies),
+    )
+}

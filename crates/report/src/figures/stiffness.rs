@@ -1,0 +1,54 @@
+//! Stiffness against critical force (Fig. 8).
+
+use super::{FORCE, sheet};
+use crate::axis::Axis;
+use crate::chart::{Area, Panel, mark, slant_legend};
+use crate::designs::Designs;
+
+const WIDTH: f64 = 1000.0;
+const HEIGHT: f64 = 520.0;
+
+/// The stiffnesses that a puncture has.
+const STIFFNESSES: [(&str, &str, &str); 2] = [
+    (
+        "max_stiffness",
+        "largest slope of the path",
+        "stiffness $K_{max}^*$ = $K_{max}$/($E_s t$), dimensionless",
+    ),
+    (
+        "secant_stiffness",
+        "secant at the critical tilt",
+        "stiffness $K_{sec}^*$ = $K_{sec}$/($E_s t$), dimensionless",
+    ),
+];
+
+pub(super) fn figure(name: &str, designs: &Designs) -> String {
+    let slants = designs.values("slant_deg");
+    let mut inside = vec![slant_legend(&slants, [78.0, 50.0])];
+    let x = Axis::fit(FORCE.label, designs.numbers(FORCE.column));
+    let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
+    for (k, (column, title, label)) in STIFFNESSES.into_iter().enumerate() {
+        let y = Axis::fit(label, designs.numbers(column));
+        let panel = Panel {
+            area: Area {
+                left: 78.0 + k as f64 * (width + 78.0),
+                top: 92.0,
+                width,
+                height: HEIGHT - 92.0 - 60.0,
+            },
+            x: &x,
+            y: &y,
+            title: title.to_owned(),
+            x_labels: true,
+            y_labels: true,
+        };
+        inside.extend([panel.frame(), panel.x_name(), panel.y_name(52.0)]);
+        inside.extend((0..designs.count()).filter_map(|row| {
+            let at =
+                panel.place(designs.number(FORCE.column, row)?, designs.number(column, row)?)?;
+            Some(mark(designs.number("slant_deg", row)?, at, 3.4, true))
+        }));
+    }
+    let title = format!("{name}: puncture stiffness against critical force");
+    sheet(WIDTH, HEIGHT, &title, inside)
+}

@@ -1,0 +1,170 @@
+//! Colours and marks: the same slant has the same everywhere.
+
+use std::f64::consts::PI;
+
+use crate::svg::{Element, Spot, circle, polygon, through};
+
+/// Ink of axes and labels.
+pub(crate) const INK: &str = "#222222";
+/// Ink of what matters less.
+pub(crate) const FAINT: &str = "#767676";
+/// Lines of a grid.
+pub(crate) const GRID: &str = "#e6e6e6";
+/// Contacts.
+pub(crate) const RED: &str = "#d0021b";
+
+/// Colours at every 15° from 0°, of Okabe and Ito's palette for the colour-blind.
+const SLANTS: [[u8; 3]; 7] = [
+    [0, 114, 178],
+    [86, 180, 233],
+    [0, 158, 115],
+    [230, 159, 0],
+    [213, 94, 0],
+    [204, 121, 167],
+    [60, 60, 60],
+];
+
+/// Steps of the sequential scale of maps: cividis, which the colour-blind see as others do.
+const SEQUENCE: [[u8; 3]; 9] = [
+    [0, 32, 77],
+    [0, 51, 111],
+    [57, 72, 107],
+    [87, 93, 109],
+    [112, 113, 115],
+    [138, 134, 120],
+    [166, 157, 117],
+    [196, 182, 108],
+    [255, 234, 70],
+];
+
+/// The colour of a slant; between the steps of 15° a mixture.
+pub fn slant_color(slant_deg: f64) -> String {
+    mixed(&SLANTS, slant_deg / 90.0)
+}
+
+/// The colour of a value from 0 to 1 in a map.
+pub(crate) fn map_color(fraction: f64) -> String {
+    mixed(&SEQUENCE, fraction)
+}
+
+/// A colour mixed with white, or, below 0, with black.
+pub(crate) fn shaded(color: &str, part: f64) -> String {
+    let channel = |k: usize| {
+        let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
+        let own = f64::from(u8::from_str_radix(text, 16).unwrap_or_default());
+        let other = if part > 0.0 { 255.0 } else { 0.0 };
+        (own + part.abs() * (other - own)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+}
+
+fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
+    let last = steps.len() - 1;
+    let place = fraction.clamp(0.0, 1.0) * last as f64;
+    // Between 0 and the last step.
+    let below = (place.floor() as usize).min(last - 1);
+    let part = place - below as f64;
+    let [r, g, b] = [0, 1, 2].map(|k| {
+        let (from, to) = (f64::from(steps[below][k]), f64::from(steps[below + 1][k]));
+        (from + part * (to - from)).round() as u8
+    });
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The shape that marks a slant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// At 0°.
+    Circle,
+    /// At 15°.
+    Square,
+    /// At 30°.
+    Diamond,
+    /// At 45°.
+    Up,
+    /// At 60°.
+    Down,
+    /// At 75°.
+    Star,
+    /// At 90°.
+    Hexagon,
+}
+
+impl Mark {
+    /// The mark of the step of 15° that is nearest to a slant.
+    pub fn of(slant_deg: f64) -> Self {
+        const MARKS: [Mark; 7] = [
+            Mark::Circle,
+            Mark::Square,
+            Mark::Diamond,
+            Mark::Up,
+            Mark::Down,
+            Mark::Star,
+            Mark::Hexagon,
+        ];
+        // Slants lie below 90°.
+        MARKS[((slant_deg / 15.0).round() as usize).min(MARKS.len() - 1)]
+    }
+
+    /// Its name in the charting library of the page.
+    pub(crate) fn plotly_symbol(self) -> &'static str {
+        match self {
+            Self::Circle => "circle",
+            Self::Square => "square",
+            Self::Diamond => "diamond",
+            Self::Up => "triangle-up",
+            Self::Down => "triangle-down",
+            Self::Star => "star",
+            Self::Hexagon => "hexagon",
+        }
+    }
+
+    /// The data of a path around the origin, some 10 px across.
+    pub(crate) fn path(self) -> String {
+        const CIRCLE: &str = "M-5 0 A5 5 0 1 1 5 0 A5 5 0 1 1 -5 0 Z";
+        let corners = self.corners([0.0, 0.0], 5.0);
+        corners.map_or_else(|| CIRCLE.to_owned(), |corners| through(&corners, true))
+    }
+
+    /// The mark at a place, about as large as a circle of `radius`.
+    pub(crate) fn draw(self, center: Spot, radius: f64) -> Element {
+        let corners = self.corners(center, radius);
+        corners.map_or_else(|| circle(center, radius), |corners| polygon(&corners))
+    }
+
+    /// Its corners; a circle has none.
+    fn corners(self, center: Spot, radius: f64) -> Option<Vec<Spot>> {
+        Some(match self {
+            Self::Circle => return None,
+            Self::Square => regular(center, 1.25 * radius, 4, PI / 4.0, 1.0),
+            Self::Diamond => regular(center, 1.35 * radius, 4, 0.0, 1.0),
+            Self::Up => regular(center, 1.4 * radius, 3, PI / 2.0, 1.0),
+            Self::Down => regular(center, 1.4 * radius, 3, -PI / 2.0, 1.0),
+            Self::Star => regular(center, 1.5 * radius, 5, PI / 2.0, 0.45),
+            Self::Hexagon => regular(center, 1.15 * radius, 6, 0.0, 1.0),
+        })
+    }
+}
+
+/// Corners of a polygon, the first at an angle; with `inner` below 1 those of a star.
+fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) -> Vec<Spot> {
+    let corner = |k: usize| {
+        let angle = start + k as f64 * PI / corners as f64;
+        let r = if k % 2 == 0 { radius } else { inner * radius };
+        [x + r * angle.cos(), y - r * angle.sin()]
+    };
+    (0..2 * corners).filter(|k| inner < 1.0 || k % 2 == 0).map(corner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Mark, slant_color};
+
+    #[test]
+    fn a_slant_has_one_colour_and_one_mark() {
+        assert_eq!(slant_color(0.0), "#0072b2");
+        assert_eq!(slant_color(45.0), "#e69f00");
+        assert_eq!(Mark::of(45.0), Mark::Up);
+        assert_eq!(Mark::of(89.0), Mark::Hexagon);
+    }
+}

@@ -1,0 +1,46 @@
+//! SVG to PNG, with the fonts that the program carries, so that every machine draws the same.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb};
+
+/// Pixels of the image for each px of the drawing.
+const SHARPNESS: f32 = 2.0;
+
+static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = fontdb::Database::new();
+    for font in [
+        include_bytes!("../assets/fonts/LiberationSans-Regular.ttf").as_slice(),
+        include_bytes!("../assets/fonts/LiberationSans-Italic.ttf"),
+        include_bytes!("../assets/fonts/LiberationSans-Bold.ttf"),
+    ] {
+        fonts.load_font_data(font.to_vec());
+    }
+    Arc::new(fonts)
+});
+
+/// A drawing that cannot become an image.
+#[derive(Debug, thiserror::Error)]
+#[error("drawing: cannot be made a PNG ({0}), expected a drawing of a size that fits in memory")]
+pub struct NoImage(String);
+
+/// `svg` as a PNG, twice as sharp.
+///
+/// # Errors
+/// If the text is no SVG or the image does not fit in memory.
+pub fn png(svg: &str) -> Result<Vec<u8>, NoImage> {
+    let options = Options {
+        fontdb: FONTS.clone(),
+        font_family: "Liberation Sans".into(),
+        ..Options::default()
+    };
+    let tree = Tree::from_str(svg, &options).map_err(|error| NoImage(error.to_string()))?;
+    let size = tree.size().to_int_size().scale_by(SHARPNESS);
+    let size = size.ok_or_else(|| NoImage("it has no size".to_owned()))?;
+    let pixels = Pixmap::new(size.width(), size.height());
+    let mut pixels = pixels.ok_or_else(|| NoImage("it is too large".to_owned()))?;
+    let sharpness = Transform::from_scale(SHARPNESS, SHARPNESS);
+    resvg::render(&tree, sharpness, &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| NoImage(error.to_string()))
+}

@@ -1,0 +1,174 @@
+//! Elements of an SVG drawing, written in the order in which they are made.
+
+use std::fmt::Write as _;
+
+/// Fonts of all drawings: the embedded one and those of the same widths.
+const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";
+
+/// A point on paper: to the right and down, px.
+pub(crate) type Spot = [f64; 2];
+
+/// An element with its attributes and what stands inside.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Element {
+    name: &'static str,
+    attributes: Vec<(&'static str, String)>,
+    inside: Vec<Node>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Node {
+    Element(Element),
+    Text(String),
+}
+
+impl Element {
+    pub(crate) fn new(name: &'static str) -> Self {
+        Self { name, attributes: Vec::new(), inside: Vec::new() }
+    }
+
+    /// A group with a class, which says what it shows.
+    pub(crate) fn group(class: &str) -> Self {
+        Self::new("g").with("class", class)
+    }
+
+    pub(crate) fn with(mut self, name: &'static str, value: impl Into<String>) -> Self {
+        self.attributes.push((name, value.into()));
+        self
+    }
+
+    /// An attribute in px.
+    pub(crate) fn at(self, name: &'static str, value: f64) -> Self {
+        self.with(name, px(value))
+    }
+
+    pub(crate) fn add(&mut self, element: Self) {
+        self.inside.push(Node::Element(element));
+    }
+
+    pub(crate) fn containing(mut self, elements: impl IntoIterator<Item = Self>) -> Self {
+        self.inside.extend(elements.into_iter().map(Node::Element));
+        self
+    }
+
+    pub(crate) fn text(mut self, text: &str) -> Self {
+        self.inside.push(Node::Text(text.to_owned()));
+        self
+    }
+
+    fn write(&self, out: &mut String, depth: usize) {
+        let _ = write!(out, "<{}", self.name);
+        for (name, value) in &self.attributes {
+            let _ = write!(out, " {name}=\"{}\"", escaped(value));
+        }
+        if self.inside.is_empty() {
+            out.push_str("/>");
+            return;
+        }
+        out.push('>');
+        // White space inside of a text would show.
+        let lines = self.name != "text" && self.name != "tspan";
+        for node in &self.inside {
+            match node {
+                Node::Element(element) => {
+                    if lines {
+                        new_line(out, depth + 1);
+                    }
+                    element.write(out, depth + 1);
+                }
+                Node::Text(text) => out.push_str(&escaped(text)),
+            }
+        }
+        if lines && self.inside.iter().any(|node| matches!(node, Node::Element(_))) {
+            new_line(out, depth);
+        }
+        let _ = write!(out, "</{}>", self.name);
+    }
+
+    /// The element as text.
+    pub(crate) fn to_text(&self) -> String {
+        let mut out = String::new();
+        self.write(&mut out, 0);
+        out
+    }
+}
+
+fn new_line(out: &mut String, depth: usize) {
+    out.push('\n');
+    out.extend(std::iter::repeat_n(' ', depth));
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// A coordinate to the hundredth of a pixel.
+pub(crate) fn px(value: f64) -> String {
+    let rounded = (value * 100.0).round() / 100.0;
+    // Negative zero is zero.
+    (rounded + 0.0).to_string()
+}
+
+/// A whole drawing of `width` by `height` px on white paper.
+pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
+    let paper = Element::new("rect").at("width", width).at("height", height).with("fill", "#fff");
+    let root = Element::new("svg")
+        .with("xmlns", "http://www.w3.org/2000/svg")
+        .at("width", width)
+        .at("height", height)
+        .with("viewBox", format!("0 0 {} {}", px(width), px(height)))
+        .with("font-family", FONTS)
+        .with("role", "img")
+        .containing([Element::new("title").text(title), paper])
+        .containing(inside);
+    format!("{}\n", root.to_text())
+}
+
+/// The data of a path through `points`.
+pub(crate) fn through(points: &[Spot], closed: bool) -> String {
+    let mut data = String::new();
+    for (k, [x, y]) in points.iter().enumerate() {
+        let command = if k == 0 { "M" } else { " L" };
+        let _ = write!(data, "{command}{} {}", px(*x), px(*y));
+    }
+    if closed {
+        data.push_str(" Z");
+    }
+    data
+}
+
+pub(crate) fn polygon(points: &[Spot]) -> Element {
+    Element::new("path").with("d", through(points, true))
+}
+
+pub(crate) fn polyline(points: &[Spot]) -> Element {
+    Element::new("path").with("d", through(points, false)).with("fill", "none")
+}
+
+pub(crate) fn line(from: Spot, to: Spot, stroke: &str, width: f64) -> Element {
+    Element::new("line")
+        .at("x1", from[0])
+        .at("y1", from[1])
+        .at("x2", to[0])
+        .at("y2", to[1])
+        .with("stroke", stroke)
+        .at("stroke-width", width)
+}
+
+pub(crate) fn circle(center: Spot, radius: f64) -> Element {
+    Element::new("circle").at("cx", center[0]).at("cy", center[1]).at("r", radius)
+}
+
+/// An arrow whose head ends in `to`; the head shrinks with a short arrow.
+pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
+    let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+    let length = dx.hypot(dy);
+    let head = (4.5 * width).min(0.7 * length);
+    let (along, across) = ([dx / length, dy / length], [-dy / length, dx / length]);
+    let back = |s: f64, side: f64| {
+        [0, 1].map(|k| to[k] - s * head * along[k] + side * 0.42 * head * across[k])
+    };
+    let shaft = line(from, back(0.8, 0.0), color, width);
+    let head = polygon(&[to, back(1.0, 1.0), back(0.75, 0.0), back(1.0, -1.0)]).with("fill", color);
+    Element::group("arrow").containing([shaft, head])
+}

@@ -1,0 +1,150 @@
+//! The red areas are the intersections of the deformed scales.
+
+use contact::Pose;
+use skin::Design;
+use skin::puncture::Snapshot;
+
+use crate::{design, punctured, svg};
+
+type Point = [f64; 2];
+
+fn area(polygon: &[Point]) -> f64 {
+    let next = polygon.iter().cycle().skip(1);
+    0.5 * polygon.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+}
+
+/// The part of a polygon to the left of the line from `a` to `b`.
+fn clipped(polygon: &[Point], a: Point, b: Point) -> Vec<Point> {
+    let side = |p: Point| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    let mut inside = Vec::new();
+    for (k, &p) in polygon.iter().enumerate() {
+        let q = polygon[(k + 1) % polygon.len()];
+        let (s, t) = (side(p), side(q));
+        if s >= 0.0 {
+            inside.push(p);
+        }
+        if (s > 0.0 && t < 0.0) || (s < 0.0 && t > 0.0) {
+            let f = s / (s - t);
+            inside.push([0, 1].map(|i| p[i] + f * (q[i] - p[i])));
+        }
+    }
+    inside
+}
+
+/// The area that two convex polygons share, by clipping one at each edge of the other.
+fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
+    let edges = (0..4).map(|k| (b[k], b[(k + 1) % 4]));
+    area(&edges.fold(a.to_vec(), |polygon, (from, to)| clipped(&polygon, from, to)))
+}
+
+/// Corners of every scale, from the node of the first.
+fn bodies(design: &Design, state: &Snapshot) -> Vec<[Point; 4]> {
+    let row = design.row().expect("a row");
+    let body = |(i, scale): (usize, &skin::puncture::ScaleState)| {
+        let [x, y] = scale.displacement;
+        let pose = Pose::new(x, y, scale.rotation_deg.to_radians());
+        row.scale().corners().map(|corner| {
+            let turned = pose.turn(corner);
+            [i as f64 * row.pitch() + x + turned.x, y + turned.y]
+        })
+    };
+    state.scales.iter().enumerate().map(body).collect()
+}
+
+/// Left scale and area, in px, of every red polygon of a drawing.
+fn red_areas(svg: &str) -> Vec<(usize, f64)> {
+    let paths = svg.split("<path d=\"").skip(1).filter(|path| path.contains("data-left=\""));
+    let parsed = paths.map(|path| {
+        let data = path.split('"').next().expect("data");
+        let points: Vec<Point> = data
+            .trim_end_matches(" Z")
+            .split(['M', 'L'])
+            .filter(|part| !part.trim().is_empty())
+            .map(|part| {
+                let mut numbers = part.split_whitespace().map(|n| n.parse().expect("a number"));
+                [numbers.next().expect("x"), numbers.next().expect("y")]
+            })
+            .collect();
+        let left = path.split("data-left=\"").nth(1).and_then(|rest| rest.split('"').next());
+        (left.expect("left").parse().expect("a number"), area(&points).abs())
+    });
+    parsed.collect()
+}
+
+/// Px for a length of `t`: the height of a scale at rest.
+fn scale(svg: &str) -> f64 {
+    let ghost =
+        svg.split("class=\"at-rest\"").nth(1).and_then(|rest| rest.split("<path d=\"").nth(1));
+    let numbers: Vec<f64> = ghost
+        .and_then(|path| path.split('"').next())
+        .expect("an outline")
+        .split([' ', 'M', 'L', 'Z'])
+        .filter_map(|part| part.parse().ok())
+        .collect();
+    numbers[1] - numbers[5]
+}
+
+fn agree(slant: f64, modulus: f64) {
+    let design = design(slant);
+    for state in punctured(&design, modulus) {
+        let drawn = svg(&design, std::slice::from_ref(&state));
+        let unit = scale(&drawn).powi(2);
+        let bodies = bodies(&design, &state);
+        let red = red_areas(&drawn);
+        for (left, pair) in bodies.windows(2).enumerate() {
+            let expected = shared(&pair[0], &pair[1]);
+            let own = red.iter().filter(|(l, _)| *l == left).map(|(_, area)| area / unit);
+            let found: f64 = own.sum();
+            // The height of a scale is written to the hundredth of a px.
+            assert!(
+                (found - expected).abs() <= 2e-3 * expected + 1e-13,
+                "slant {slant}, pair {left}: drawn {found:e}, expected {expected:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn soft_contacts_are_drawn_with_their_areas() {
+    for slant in [0.0, 45.0, 75.0] {
+        agree(slant, 2.0);
+    }
+}
+
+#[test]
+fn nearly_rigid_contacts_too() {
+    agree(45.0, 9677.0);
+}
+
+#[test]
+fn every_contact_has_a_halo_and_its_forces() {
+    let design = design(45.0);
+    let states = punctured(&design, 9677.0);
+    let state = &states[1];
+    assert!(!state.contacts.is_empty());
+    let drawn = svg(&design, std::slice::from_ref(state));
+    assert_eq!(drawn.matches("fill-opacity=\"0.22\"").count(), state.contacts.len());
+}
+
+#[test]
+fn snapshots_are_equilibria_at_the_places_asked_for() {
+    let states = punctured(&design(45.0), 9677.0);
+    assert!((states[0].displacement - 0.15).abs() < 1e-11);
+    assert!((states[1].tilt_deg - 10.0).abs() < 1e-10);
+    assert!((states[2].force - 0.05).abs() < 1e-11);
+    for state in states {
+        // The reactions of the substrate carry the load: L/t is 1.
+        let carried: f64 = state.scales.iter().map(|scale| scale.reaction).sum();
+        assert!((carried - state.force).abs() < 1e-8 * state.force, "{carried} {}", state.force);
+    }
+}
+
+#[test]
+fn a_drawing_is_the_same_every_time() {
+    let design = design(45.0);
+    let draw = || svg(&design, &punctured(&design, 9677.0));
+    let (first, second) = (draw(), draw());
+    assert_eq!(first, second);
+    let image = |svg: &str| report::png(svg).expect("an image");
+    assert!(image(&first) == image(&second));
+}

@@ -1,0 +1,92 @@
+//! Figures and page of a table.
+
+use report::{Designs, Page, Tetrahedron, figures};
+
+/// A table of 24 designs with made-up values.
+fn designs() -> Designs {
+    let mut text =
+        "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,\
+                    flexure_contact,max_stiffness,secant_stiffness\n"
+            .to_owned();
+    for k in 0..24_u32 {
+        let (gap, length, slant) =
+            ([0.1, 0.5][(k / 12) as usize], [0.2, 0.5, 1.0][(k / 4 % 3) as usize], 15 * (k % 4));
+        let value = 0.1 * f64::from(k + 1);
+        text += &format!(
+            "{:04},{gap},{length},{slant},{},{value},{},{},{},{value},{value}\n",
+            k + 1,
+            0.01 * f64::from(k),
+            1.0 / value,
+            0.5,
+            k % 2 == 0
+        );
+    }
+    Designs::parse(&text).expect("a table")
+}
+
+fn page(designs: Designs) -> Page {
+    Page {
+        name: "a </script> & more".to_owned(),
+        version: "1".to_owned(),
+        folder: "results/x".to_owned(),
+        columns: vec![("-".to_owned(), String::new()); designs.headers().len()],
+        designs,
+        ..Page::default()
+    }
+}
+
+#[test]
+fn figures_are_named_and_the_same_every_time() {
+    let tetrahedron = Tetrahedron {
+        resolution: 1,
+        winners: (0..4)
+            .map(|k| (std::array::from_fn(|i| f64::from(u8::from(i == k))), k))
+            .collect(),
+    };
+    let all = figures("x", &designs(), Some(&tetrahedron));
+    let names: Vec<_> = all.iter().map(|figure| figure.name).collect();
+    assert_eq!(
+        names,
+        [
+            "critical-force-by-gap-aspect-slant",
+            "penetration-by-gap-aspect-slant",
+            "compliance-by-gap-aspect-slant",
+            "stiffness-against-critical-force",
+            "coverage-maps-by-slant",
+            "pareto-front-pairwise",
+            "best-designs-by-weights-tetrahedron",
+        ]
+    );
+    assert_eq!(all, figures("x", &designs(), Some(&tetrahedron)));
+}
+
+#[test]
+fn what_was_not_measured_has_no_figure() {
+    let table =
+        "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force\n0001,1,1,0,0,\n";
+    let designs = Designs::parse(table).expect("a table");
+    let names: Vec<_> = figures("x", &designs, None).into_iter().map(|f| f.name).collect();
+    assert_eq!(names, ["coverage-maps-by-slant"]);
+}
+
+#[test]
+fn a_page_is_whole_and_the_same_every_time() {
+    let html = page(designs()).html();
+    assert_eq!(html, page(designs()).html());
+    assert!(!html.contains("{{"), "every place is filled");
+    for outside in ["src=\"http", "href=\"http", "@import"] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    // A name cannot end the script that holds the data.
+    assert!(!html.contains("a </script>"));
+}
+
+#[test]
+fn a_page_of_720_designs_is_below_5_mb() {
+    let table = designs();
+    let columns = table.headers().iter().map(|header| {
+        let cells = (0..720).map(|k| table.text(header, k % 24).to_owned() + "123456789012");
+        (header.clone(), cells.collect())
+    });
+    assert!(page(Designs::new(columns)).html().len() < 5_000_000);
+}

@@ -1,0 +1,48 @@
+//! Cost of punctures: the reference study, calibrations included, on all cores; and one design on rows
+//! of 41 to 4001 scales, which should grow with the row and no faster.
+
+#[path = "../tests/samples/mod.rs"]
+mod samples;
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use rayon::prelude::*;
+use skin::Base;
+use skin::puncture::{Parameters, solve};
+use substrate::Calibrations;
+
+fn reference_study(c: &mut Criterion) {
+    let designs = samples::reference_study(Base::L);
+    let mut group = c.benchmark_group("720 designs");
+    group.sample_size(10);
+    for (name, parameters) in [("41 scales", samples::on_row(41)), ("auto", Parameters::default())]
+    {
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let known = Calibrations::default();
+                designs.par_iter().for_each(|design| {
+                    black_box(samples::solve_with(&known, design, &parameters));
+                });
+            });
+        });
+    }
+    group.finish();
+}
+
+fn row_length(c: &mut Criterion) {
+    let design = samples::settled();
+    let springs = samples::springs(&design, &samples::on_row(1), &Calibrations::default());
+    let mut group = c.benchmark_group("row");
+    group.sample_size(10);
+    for scales in [41, 401, 4001] {
+        group.throughput(Throughput::Elements(scales as u64));
+        group.bench_function(BenchmarkId::from_parameter(scales), |b| {
+            b.iter(|| black_box(solve(&design, &springs, &samples::on_row(scales))));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, reference_study, row_length);
+criterion_main!(benches);

@@ -1,0 +1,55 @@
+//! The parameters of one design.
+
+use geometry::{InvalidGeometry, Parallelogram, Row};
+use substrate::{Footprint, InvalidFootprint};
+
+/// What the `L` of `L/t` is: the base of a scale, or half of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Base {
+    /// The base is `L` long (`a = L/2`).
+    L,
+    /// The base is `2L` long (`a = L`).
+    TwoL,
+}
+
+/// The geometry of one design, lengths over the scale thickness `t`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Design {
+    /// Gap `d/t` between neighbouring bases.
+    pub gap: f64,
+    /// Aspect ratio `L/t`.
+    pub length: f64,
+    /// Slant `α` of the scales, degrees.
+    pub slant_deg: f64,
+    /// What `L` is.
+    pub base: Base,
+    /// Out-of-plane width `b/t`.
+    pub width: f64,
+}
+
+impl Design {
+    /// Half-width `a/t` of a base.
+    pub fn half_base(&self) -> f64 {
+        match self.base {
+            Base::L => self.length / 2.0,
+            Base::TwoL => self.length,
+        }
+    }
+
+    /// The undeformed row.
+    ///
+    /// # Errors
+    /// If a length is not positive or the slant is outside `[0°, 90°)`.
+    pub fn row(&self) -> Result<Row, InvalidGeometry> {
+        Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
+    }
+
+    /// The bases as a substrate of this Poisson's ratio sees them.
+    ///
+    /// # Errors
+    /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.
+    pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, InvalidFootprint> {
+        let a = self.half_base();
+        Footprint::new(self.gap / a, self.width / a, poisson_ratio)
+    }
+}

@@ -1,0 +1,154 @@
+//! Pure bending of a membrane that carries scales.
+
+mod frame;
+mod measures;
+mod record;
+mod snapshot;
+mod strip;
+
+use contact::{ContactLaw, Law};
+use frame::{Frame, Step};
+use geometry::Row;
+use membrane::{GapMembrane, Section, Span};
+use solver::{Path, Settings, State, Stop};
+use strip::Strip;
+
+use crate::{Design, InvalidDesign};
+
+pub use measures::Measures;
+use record::Record;
+pub use record::{Event, Iteration, PathPoint};
+pub use snapshot::{Snapshot, snapshots};
+
+/// How the strip is solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// One gap: in pure bending every gap deforms alike.
+    UnitCell,
+    /// Every gap of the strip, assembled.
+    Chain,
+}
+
+/// What bending depends on besides the design.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Contact law between scales.
+    pub law: Law,
+    /// `E_ct / E_m`.
+    pub contact_modulus_over_membrane: f64,
+    /// One gap or all.
+    pub method: Method,
+    /// Length `L_whole/t` of the strip.
+    pub membrane_length: f64,
+    /// Thickness `h/t` of the membrane.
+    pub membrane_thickness: f64,
+    /// Depth of the membrane's axis below the bases of the scales, over `t`.
+    pub membrane_axis_offset: f64,
+    /// Beam elements per gap.
+    pub elements_per_gap: usize,
+    /// Rotation of each end at which bending ends, degrees.
+    pub max_end_rotation_deg: f64,
+    /// Path following.
+    pub solver: Settings,
+}
+
+/// How bending ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The ends reached the largest rotation, without interpenetration.
+    Complete,
+    /// The path stopped before.
+    Stopped(Stop),
+    /// Two scales overlap by more than their contact law allows.
+    Interpenetration,
+}
+
+/// A strip that was bent.
+#[derive(Clone, Debug)]
+pub struct Flexure {
+    /// How it ended.
+    pub status: Status,
+    /// What it measured.
+    pub measures: Measures,
+    /// Every equilibrium of the path, from rest.
+    pub path: Vec<PathPoint>,
+    /// Every contact event, in order.
+    pub events: Vec<Event>,
+    /// Every Newton iteration.
+    pub history: Vec<Iteration>,
+    /// Gaps of the strip.
+    pub gaps: usize,
+    /// The gaps that were solved for, at every point of the path.
+    steps: Vec<Vec<Step>>,
+    pitch: f64,
+}
+
+impl Flexure {
+    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
+    /// strip at a point of the path, the first scale at rest. `None` if there is no such point.
+    pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
+        let frames = Frame::strip(self.steps.get(point)?, self.gaps, self.pitch);
+        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, self.pitch);
+        Some(frames.iter().enumerate().map(displacement).collect())
+    }
+}
+
+/// Number of gaps `n = round(L_whole/p)` of a strip, at least 1.
+pub fn gaps(row: &Row, membrane_length: f64) -> usize {
+    // Saturates; a strip with more gaps than a machine word counts does not exist.
+    ((membrane_length / row.pitch()).round() as usize).max(1)
+}
+
+/// Bends the strip of a `design` from rest until its ends have turned by the largest rotation.
+///
+/// # Errors
+/// If a length, a modulus, or a constant of the contact law is not positive.
+pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, InvalidDesign> {
+    let SetUp { row, strip, gaps, bending_stiffness } = set_up(design, parameters)?;
+    let rest = State::at_rest(&strip);
+    let mut path = Path::new(strip, rest, parameters.solver);
+    let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
+    while let Some(point) = path.next() {
+        record.visit(&mut path, &point);
+    }
+    let interpenetrate = path.system().joints.neighbours_interpenetrate(&path.point().state.z);
+    let status = match path.stop() {
+        Some(Stop::Reached) | None if interpenetrate => Status::Interpenetration,
+        Some(Stop::Reached) | None => Status::Complete,
+        Some(stop) => Status::Stopped(stop),
+    };
+    Ok(record.finish(&mut path, status))
+}
+
+/// What is bent.
+struct SetUp {
+    row: Row,
+    strip: Strip,
+    /// Gaps of the whole strip.
+    gaps: usize,
+    /// `E_m I_m`, over `E_m t⁴`.
+    bending_stiffness: f64,
+}
+
+fn set_up(design: &Design, parameters: &Parameters) -> Result<SetUp, InvalidDesign> {
+    let row = design.row()?;
+    let section = Section::new(design.width, parameters.membrane_thickness)?;
+    let span = Span {
+        half_base: design.half_base(),
+        gap: design.gap,
+        axis_offset: parameters.membrane_axis_offset,
+    };
+    let membrane = GapMembrane::new(section, span, parameters.elements_per_gap)?;
+    let modulus = parameters.contact_modulus_over_membrane;
+    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+    let gaps = gaps(&row, parameters.membrane_length);
+    let solved = match parameters.method {
+        Method::UnitCell => 1,
+        Method::Chain => gaps,
+    };
+    let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
+    let rotation = whole * solved as f64 / gaps as f64;
+    let stiffness = [section.axial_stiffness(), section.bending_stiffness()];
+    let strip = Strip::new(&row, membrane, law, solved, rotation, stiffness);
+    Ok(SetUp { row, strip, gaps, bending_stiffness: section.bending_stiffness() })
+}

@@ -1,0 +1,177 @@
+//! What is written down while a strip is bent.
+
+use contact::{FORCES, Kind};
+use geometry::Row;
+use solver::{Path, Peak, Point, State};
+
+use super::frame::Step;
+use super::strip::Strip;
+use super::{Flexure, Measures, Status};
+use crate::Change;
+use crate::joints::{JOINTS, Joints};
+
+/// One equilibrium of the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// `κ*`.
+    pub curvature: f64,
+    /// `M*`.
+    pub moment: f64,
+    /// `dM*/dκ*` of the path that goes on from here.
+    pub stiffness: f64,
+    /// Rotation of each end, degrees.
+    pub end_rotation_deg: f64,
+    /// Bending energy of the membrane of the whole strip, over `E_m t³`.
+    pub bending_energy: f64,
+    /// Axial energy of the membrane, over `E_m t³`.
+    pub axial_energy: f64,
+    /// Energy of the contacts, over `E_m t³`.
+    pub contact_energy: f64,
+    /// Closed contacts of the whole strip.
+    pub contacts: usize,
+}
+
+/// A contact that opens, closes or passes a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Event {
+    /// Path point at which it happens.
+    pub point: PathPoint,
+    /// Gap, from 0; `None` where every gap does the same.
+    pub gap: Option<usize>,
+    /// Which corner meets which edge.
+    pub kind: Kind,
+    /// What the contact does.
+    pub change: Change,
+}
+
+/// One Newton iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// Point of the path that it led to, from 1.
+    pub step: usize,
+    /// Iteration within the step, from 0.
+    pub iteration: usize,
+    /// Largest scaled residual.
+    pub residual: f64,
+    /// Rotation of each end at the point, degrees.
+    pub end_rotation_deg: f64,
+}
+
+/// Collects path, events and measures while a strip is bent.
+pub(crate) struct Record {
+    pitch: f64,
+    gaps: usize,
+    /// `E_m I_m`, over `E_m t⁴`.
+    bending_stiffness: f64,
+    path: Vec<PathPoint>,
+    events: Vec<Event>,
+    history: Vec<Iteration>,
+    steps: Vec<Vec<Step>>,
+    stiffness: Peak<Strip>,
+}
+
+impl Record {
+    pub(crate) fn new(
+        path: &mut Path<Strip>,
+        row: Row,
+        gaps: usize,
+        bending_stiffness: f64,
+    ) -> Self {
+        let mut record = Self {
+            pitch: row.pitch(),
+            gaps,
+            bending_stiffness,
+            path: Vec::new(),
+            events: Vec::new(),
+            history: Vec::new(),
+            steps: Vec::new(),
+            stiffness: Peak::default(),
+        };
+        record.add(path);
+        record
+    }
+
+    pub(crate) fn visit(&mut self, path: &mut Path<Strip>, point: &Point) {
+        let residuals = path.take_history();
+        let step = self.path.len();
+        let here = self.add(path);
+        self.history.extend(residuals.into_iter().enumerate().map(|(iteration, residual)| {
+            Iteration { step, iteration, residual, end_rotation_deg: here.end_rotation_deg }
+        }));
+        if let Some(solver::Event::Changed(changes)) = &point.event {
+            let strip = path.system();
+            self.events.extend(changes.iter().filter_map(|change| {
+                let joint = change.constraint / FORCES;
+                let gap = (strip.gaps() == self.gaps).then_some(joint / JOINTS);
+                let kind = strip.joints.joint(joint).kind()?;
+                Some(Event { point: here, gap, kind, change: Change::of(&point.state, *change) })
+            }));
+        }
+    }
+
+    fn add(&mut self, path: &Path<Strip>) -> PathPoint {
+        let (strip, point) = (path.system(), path.point());
+        let here = self.point(strip, &point.state, &point.leaving);
+        self.path.push(here);
+        self.steps.push(strip.steps(&point.state.z));
+        self.stiffness.visit(path, |strip, _, direction| strip.stiffness(direction));
+        here
+    }
+
+    /// Gaps of the strip for each gap that is solved for.
+    fn repeats(&self, strip: &Strip) -> usize {
+        self.gaps / strip.gaps()
+    }
+
+    /// From `dM/dΦ` of the gaps that are solved for to `dM*/dκ*`: `M* = M/(E_m I_m)` and
+    /// `κ* = Φ/(n p)`, in units of `t`.
+    fn normalised(&self, strip: &Strip, stiffness: f64) -> f64 {
+        stiffness * strip.gaps() as f64 * self.pitch / self.bending_stiffness
+    }
+
+    fn point(&self, strip: &Strip, state: &State, direction: &[f64]) -> PathPoint {
+        let repeats = self.repeats(strip);
+        let rotation = strip.rotation(&state.z);
+        let [bending_energy, axial_energy, contact_energy] =
+            strip.energies(state).map(|energy| energy * repeats as f64);
+        PathPoint {
+            curvature: rotation / (strip.gaps() as f64 * self.pitch),
+            moment: strip.moment(&state.z) / self.bending_stiffness,
+            stiffness: self.normalised(strip, strip.stiffness(direction)),
+            end_rotation_deg: 0.5 * (rotation * repeats as f64).to_degrees(),
+            bending_energy,
+            axial_energy,
+            contact_energy,
+            contacts: repeats * Joints::closed(state).filter(|closed| *closed).count(),
+        }
+    }
+
+    pub(crate) fn finish(self, path: &mut Path<Strip>, status: Status) -> Flexure {
+        let mut measures = self.measures(path);
+        if status != Status::Complete {
+            measures = measures.without_final_values();
+        }
+        let Self { pitch, gaps, path, events, history, steps, .. } = self;
+        Flexure { status, measures, path, events, history, gaps, steps, pitch }
+    }
+
+    fn measures(&self, path: &mut Path<Strip>) -> Measures {
+        let strip = path.system();
+        let stiffest =
+            self.stiffness.refined(path, |strip, _, direction| strip.stiffness(direction));
+        let first = self.events.iter().find(|event| event.change == Change::Closed);
+        let end = self.path.last();
+        let share = end.map(|end| {
+            end.axial_energy / (end.bending_energy + end.axial_energy + end.contact_energy)
+        });
+        Measures {
+            compliance: stiffest.map(|stiffness| self.normalised(strip, stiffness).recip()),
+            initial_compliance: self.path.first().map(|start| start.stiffness.recip()),
+            contact: Some(first.is_some()),
+            first_contact_curvature: first.map(|event| event.point.curvature),
+            max_moment: self.path.iter().map(|point| point.moment).reduce(f64::max),
+            axial_energy_share: share.filter(|share| share.is_finite()),
+            gaps: self.gaps,
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! A strip of membrane with scales as it stands at chosen curvatures.
+
+use solver::{Path, State};
+
+use super::frame::Frame;
+use super::strip::Strip;
+use super::{Parameters, SetUp, set_up};
+use crate::crossing::{Crossing, follow};
+use crate::joints::Contact;
+use crate::{Design, InvalidDesign};
+
+/// Points of the membrane's axis that are kept of each element.
+const INTERVALS: usize = 12;
+
+/// A strip in equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// `κ*`.
+    pub curvature: f64,
+    /// `M*`.
+    pub moment: f64,
+    /// Rotation of each end, degrees.
+    pub end_rotation_deg: f64,
+    /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
+    /// strip, the first at rest.
+    pub scales: Vec<[f64; 3]>,
+    /// Axis of the membrane in every gap, deformed, from the node of the first scale; over `t`.
+    pub membrane: Vec<Vec<[f64; 2]>>,
+    /// Every closed contact; forces over `E_m t²`.
+    pub contacts: Vec<Contact>,
+}
+
+/// Solves the bending of `design` where each end has turned by each of the angles
+/// `end_rotations_deg`; `None` where the path does not get there. Each is an equilibrium of its own, not
+/// interpolated.
+///
+/// # Errors
+/// If a length, a modulus, or a constant of the contact law is not positive.
+pub fn snapshots(
+    design: &Design,
+    parameters: &Parameters,
+    end_rotations_deg: &[f64],
+) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
+    let SetUp { row, strip, gaps, bending_stiffness } = set_up(design, parameters)?;
+    let look = Look { pitch: row.pitch(), repeats: gaps / strip.gaps(), bending_stiffness };
+    let crossing = |&degrees: &f64| Crossing {
+        quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
+        value: 2.0 * degrees.to_radians() / look.repeats as f64,
+    };
+    let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
+    let mut snapshots = vec![None; crossings.len()];
+    let rest = State::at_rest(&strip);
+    let mut path = Path::new(strip, rest, parameters.solver);
+    follow(&mut path, &crossings, |k, strip, state| {
+        snapshots[k] = Some(look.at(strip, state));
+    });
+    Ok(snapshots)
+}
+
+/// What turns a state of the solved gaps into a snapshot of the whole strip.
+struct Look {
+    pitch: f64,
+    /// Gaps of the strip for each gap that is solved for.
+    repeats: usize,
+    bending_stiffness: f64,
+}
+
+impl Look {
+    fn at(&self, strip: &Strip, state: &State) -> Snapshot {
+        let (solved, gaps) = (strip.gaps(), strip.gaps() * self.repeats);
+        let rotation = strip.rotation(&state.z);
+        let frames = Frame::strip(&strip.steps(&state.z), gaps, self.pitch);
+        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, self.pitch);
+        let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
+        let axis = |(i, frame): (usize, &Frame)| {
+            axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
+        };
+        let contacts = strip.joints.contacts(state);
+        let copies = (0..self.repeats).flat_map(|copy| {
+            let left = move |contact: &Contact| copy * solved + contact.left;
+            contacts.iter().map(move |contact| (left(contact), contact))
+        });
+        let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
+        Snapshot {
+            curvature: rotation / (solved as f64 * self.pitch),
+            moment: strip.moment(&state.z) / self.bending_stiffness,
+            end_rotation_deg: 0.5 * (rotation * self.repeats as f64).to_degrees(),
+            scales: frames.iter().enumerate().map(displacement).collect(),
+            membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
+            contacts: copies.map(placed).collect(),
+        }
+    }
+}
+
+/// A contact that is known in the frame of its left scale, in the frame of the strip.
+fn placed(frame: &Frame, left: usize, contact: &Contact) -> Contact {
+    Contact {
+        left,
+        point: frame.place(contact.point.into()).into(),
+        force: frame.turn(contact.force.into()).into(),
+        ..*contact
+    }
+}

@@ -1,0 +1,244 @@
+//! A strip of membrane with scales, bent by a moment, as a mixed complementarity system.
+
+use contact::ContactLaw;
+use geometry::{Row, Vec2};
+use membrane::{Ends, GapMembrane, Response};
+use nalgebra::DVector;
+use solver::{BandMatrix, Control, Residual, State, System};
+
+use super::frame::Step;
+use crate::joints::{Entry, Joints, PAIR_FORCES};
+
+/// Where the unknowns of a strip of `n` gaps of `m` elements stand. The first scale is held.
+///
+/// ```text
+/// λ λ' λ λ' · node 1 … node m−1 · x y φ | … | λ λ' λ λ' · nodes · x y φ · M
+/// └──────── gap 0 and scale 1 ────────┘     └──── gap n − 1 and scale n ──┘
+/// ```
+///
+/// Positions `x y`, and the nodes, are those in the frame of the scale to the left of the gap; the
+/// rotation `φ` of a scale is counted from the first scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Layout {
+    gaps: usize,
+    elements: usize,
+}
+
+impl Layout {
+    fn block(self) -> usize {
+        PAIR_FORCES + 3 * self.elements
+    }
+
+    fn size(self) -> usize {
+        self.gaps * self.block() + 1
+    }
+
+    /// First unknown of a scale; the first scale has none.
+    fn scale(self, scale: usize) -> Option<usize> {
+        Some(self.block() * scale.checked_sub(1)? + self.block() - 3)
+    }
+
+    /// Rotation of a scale; the first scale has none.
+    fn rotation(self, scale: usize) -> Option<usize> {
+        Some(self.scale(scale)? + 2)
+    }
+
+    /// First unknown of the `i`-th pose of a gap's membrane: its interior nodes, its right scale. The
+    /// left scale is the frame, and has none.
+    fn node(self, gap: usize, i: usize) -> Option<usize> {
+        Some(self.block() * gap + PAIR_FORCES + 3 * i.checked_sub(1)?)
+    }
+
+    fn force(self, force: usize) -> usize {
+        self.block() * (force / PAIR_FORCES) + force % PAIR_FORCES
+    }
+
+    fn moment(self) -> usize {
+        self.size() - 1
+    }
+}
+
+/// A strip of gaps in pure bending, the first scale held, a moment on the last.
+///
+/// One gap is the unit cell: every cut of a strip in pure bending carries the same moment and no
+/// force, so every gap deforms alike. Unknowns are in `t` and radians, the moment and the contact forces in
+/// `E_m t³` and `E_m t²`.
+#[derive(Clone, Debug)]
+pub(crate) struct Strip {
+    layout: Layout,
+    membrane: GapMembrane,
+    pub(crate) joints: Joints,
+    controls: [Control; 3],
+    units: Vec<f64>,
+}
+
+impl Strip {
+    /// A strip of `gaps` gaps, to be bent until its ends have turned by `rotation` (radians) against each other.
+    pub(crate) fn new(
+        row: &Row,
+        membrane: GapMembrane,
+        law: ContactLaw,
+        gaps: usize,
+        rotation: f64,
+        stiffness: [f64; 2],
+    ) -> Self {
+        let layout = Layout { gaps, elements: membrane.elements() };
+        let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
+        let forces = (0..PAIR_FORCES * gaps).map(|force| layout.force(force)).collect();
+        let [axial, bending] = stiffness.map(|stiffness| stiffness / row.gap());
+        let mut units = vec![1.0; layout.size()];
+        for gap in 0..gaps {
+            for node in (1..=membrane.elements()).filter_map(|node| layout.node(gap, node)) {
+                units[node..node + 3].copy_from_slice(&[axial, axial, bending]);
+            }
+        }
+        let last = layout.moment() - 3;
+        let control = |k: usize, scale| Control { index: last + k, scale };
+        Self {
+            layout,
+            membrane,
+            joints: Joints::relative(row, law, scales, forces),
+            controls: [control(2, rotation), control(0, row.pitch()), control(1, row.pitch())],
+            units,
+        }
+    }
+
+    /// Number of gaps.
+    pub(crate) fn gaps(&self) -> usize {
+        self.layout.gaps
+    }
+
+    /// Rotation of the last scale against the first, radians.
+    pub(crate) fn rotation(&self, z: &[f64]) -> f64 {
+        z[self.controls[0].index]
+    }
+
+    /// The moment `M`, over `E_m t³`.
+    pub(crate) fn moment(&self, z: &[f64]) -> f64 {
+        z[self.layout.moment()]
+    }
+
+    /// `dM/dΦ` along a direction of the path.
+    pub(crate) fn stiffness(&self, direction: &[f64]) -> f64 {
+        direction[self.layout.moment()] / direction[self.controls[0].index]
+    }
+
+    /// Displacement and rotation of the right scale of each gap, seen from the left one.
+    pub(crate) fn steps(&self, z: &[f64]) -> Vec<Step> {
+        let poses = (1..=self.layout.gaps).map(|scale| self.joints.pose(z, scale));
+        poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
+    }
+
+    /// Bending and axial energy of the membrane and energy of the contacts, over `E_m t³`.
+    pub(crate) fn energies(&self, state: &State) -> [f64; 3] {
+        let mut energies = [0.0, 0.0, self.joints.energy(&state.z)];
+        for (gap, element) in self.all_elements() {
+            let response = self.response(&state.z, gap, element);
+            energies[0] += response.bending_energy;
+            energies[1] += response.axial_energy;
+        }
+        energies
+    }
+
+    /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
+    /// left scale and seen from it.
+    pub(crate) fn axis(&self, z: &[f64], gap: usize, intervals: usize) -> Vec<Vec2> {
+        let mut state = DVector::zeros(self.membrane.unknowns());
+        for element in 0..self.layout.elements {
+            state.fixed_rows_mut::<6>(3 * element).copy_from(&self.ends(z, gap, element));
+        }
+        self.membrane.axis(&state, intervals)
+    }
+
+    fn all_elements(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let elements = self.layout.elements;
+        (0..self.layout.gaps).flat_map(move |gap| (0..elements).map(move |element| (gap, element)))
+    }
+
+    fn response(&self, z: &[f64], gap: usize, element: usize) -> Response {
+        self.membrane.element_response(element, &self.ends(z, gap, element))
+    }
+
+    /// Displacements of the ends of an element.
+    fn ends(&self, z: &[f64], gap: usize, element: usize) -> Ends {
+        let mut ends = Ends::zeros();
+        for Entry { unknown, coordinate, sign } in self.entries(gap, element).into_iter().flatten()
+        {
+            ends[coordinate] += sign * z[unknown];
+        }
+        ends
+    }
+
+    /// What the six displacements of an element are made of: unknowns of its nodes and, where it
+    /// ends at the right scale, the rotation of the left one.
+    fn entries(&self, gap: usize, element: usize) -> [Option<Entry>; 7] {
+        let layout = self.layout;
+        let [first, second] = [element, element + 1].map(|node| layout.node(gap, node));
+        let frame = layout.rotation(gap).filter(|_| element + 1 == layout.elements);
+        std::array::from_fn(|k| match k {
+            0..3 => Some(Entry::new(first? + k, k)),
+            3..6 => Some(Entry::new(second? + k - 3, k)),
+            _ => Some(Entry::new(frame?, 5).opposite()),
+        })
+    }
+}
+
+impl System for Strip {
+    fn size(&self) -> usize {
+        self.layout.size()
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        // From φ of a scale to φ of the next.
+        self.layout.block()
+    }
+
+    fn load(&self) -> usize {
+        self.layout.moment()
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        self.joints.forces()
+    }
+
+    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+        residual.clear(&self.units);
+        for (gap, element) in self.all_elements() {
+            let force = self.response(z, gap, element).force;
+            for Entry { unknown, coordinate, sign } in
+                self.entries(gap, element).into_iter().flatten()
+            {
+                residual.add(unknown, sign * force[coordinate]);
+            }
+        }
+        residual.add(self.controls[0].index, -z[self.layout.moment()]);
+        self.joints.add_residual(z, active, residual);
+    }
+
+    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        for (gap, element) in self.all_elements() {
+            let tangent = self.response(z, gap, element).tangent;
+            let entries = self.entries(gap, element);
+            for row in entries.iter().flatten() {
+                for column in entries.iter().flatten() {
+                    let value = tangent[(row.coordinate, column.coordinate)];
+                    matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+                }
+            }
+        }
+        matrix.add(self.controls[0].index, self.layout.moment(), -1.0);
+        self.joints.add_tangent(z, active, matrix);
+    }
+
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        self.joints.slope(state, constraint, direction)
+    }
+
+    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
+        self.joints.exchange(state, constraint)
+    }
+}

@@ -1,0 +1,335 @@
+//! The contacts of a row of scales, assembled.
+
+mod contacts;
+
+pub use contacts::Contact;
+
+use contact::{COUPLED, ContactLaw, FORCES, Joint, JointResponse, Level, Overlap, Pair, Pose};
+use geometry::{Row, Vec2};
+use solver::{BandMatrix, Residual, State};
+
+/// Contacts of a pair of neighbours: an upper and a lower one.
+pub(crate) const JOINTS: usize = 2;
+
+/// Contact forces between neighbours.
+pub(crate) const PAIR_FORCES: usize = JOINTS * FORCES;
+
+/// Overlap (over `t`) by which the audit may differ from the contact law: round-off of the
+/// collision query.
+const AUDIT_TOLERANCE: f64 = 1e-8;
+
+/// What a contact does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// It closes.
+    Closed,
+    /// It opens.
+    Opened,
+    /// The corner reaches the end of its edge and stays at the other corner.
+    ReachedCorner,
+    /// It leaves the corner on the edge on which it came.
+    LeftCorner,
+    /// It leaves the corner, or passes it, as the partner's kind: the corners have changed their parts.
+    HandedOver,
+}
+
+impl Change {
+    /// Short name, as in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Closed => "closed",
+            Self::Opened => "opened",
+            Self::ReachedCorner => "reached corner",
+            Self::LeftCorner => "left corner",
+            Self::HandedOver => "handed over",
+        }
+    }
+
+    /// What a contact has done where one of its forces has changed sides, from the state after.
+    pub(crate) fn of(state: &State, change: solver::Change) -> Self {
+        let own = change.constraint.is_multiple_of(FORCES);
+        let active = state.active[change.constraint];
+        match (own, change.activated) {
+            (true, true) => Self::Closed,
+            (true, false) if active => Self::HandedOver,
+            (true, false) => Self::Opened,
+            (false, true) if active => Self::ReachedCorner,
+            (false, true) => Self::HandedOver,
+            (false, false) => Self::LeftCorner,
+        }
+    }
+}
+
+/// The contacts between the neighbours of a row, and where their unknowns stand.
+///
+/// Joint `2 i` is the upper, `2 i + 1` the lower contact of the scales `i`, `i + 1`. Their forces are the
+/// constraints of the system: number `2 j` is the force of joint `j`, `2 j + 1` its partner's.
+#[derive(Clone, Debug)]
+pub(crate) struct Joints {
+    pair: Pair,
+    law: ContactLaw,
+    joints: Vec<Joint>,
+    /// First of the three unknowns of each scale; `None` for a scale that is held.
+    scales: Vec<Option<usize>>,
+    /// Whether each scale is placed in the frame of its left neighbour.
+    relative: bool,
+    /// Unknown of each force.
+    forces: Vec<usize>,
+}
+
+impl Joints {
+    pub(crate) fn new(
+        row: &Row,
+        law: ContactLaw,
+        scales: Vec<Option<usize>>,
+        forces: Vec<usize>,
+    ) -> Self {
+        let pairs = scales.len().saturating_sub(1);
+        debug_assert_eq!(forces.len(), PAIR_FORCES * pairs);
+        Self {
+            pair: Pair::new(*row.scale(), row.pitch()),
+            law,
+            joints: [Joint::new(Level::Upper), Joint::new(Level::Lower)].repeat(pairs),
+            scales,
+            relative: false,
+            forces,
+        }
+    }
+
+    /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
+    /// Rotations are measured from the first scale.
+    pub(crate) fn relative(
+        row: &Row,
+        law: ContactLaw,
+        scales: Vec<Option<usize>>,
+        forces: Vec<usize>,
+    ) -> Self {
+        Self { relative: true, ..Self::new(row, law, scales, forces) }
+    }
+
+    /// Unknowns of the forces, which are the constraints of the system.
+    pub(crate) fn forces(&self) -> &[usize] {
+        &self.forces
+    }
+
+    /// One of the joints.
+    pub(crate) fn joint(&self, joint: usize) -> Joint {
+        self.joints[joint]
+    }
+
+    /// Pose of a scale, in the frame in which it is placed.
+    pub(crate) fn pose(&self, z: &[f64], scale: usize) -> Pose {
+        let frame = self.frame(scale).map_or(0.0, |rotation| z[rotation]);
+        match self.scales[scale] {
+            Some(at) => Pose::new(z[at], z[at + 1], z[at + 2] - frame),
+            None => Pose::new(0.0, 0.0, 0.0),
+        }
+    }
+
+    /// Poses of all scales, each in the frame in which it is placed.
+    pub(crate) fn poses(&self, z: &[f64]) -> Vec<Pose> {
+        (0..self.scales.len()).map(|scale| self.pose(z, scale)).collect()
+    }
+
+    /// Rotation of the frame in which a scale is placed; `None` if it does not turn.
+    fn frame(&self, scale: usize) -> Option<usize> {
+        let neighbour = scale.checked_sub(1).filter(|_| self.relative)?;
+        Some(self.scales[neighbour]? + 2)
+    }
+
+    /// Whether a joint is closed.
+    pub(crate) fn is_closed(state: &State, joint: usize) -> bool {
+        state.active.get(FORCES * joint) == Some(&true)
+    }
+
+    /// Whether each joint is closed, along the row.
+    pub(crate) fn closed(state: &State) -> impl Iterator<Item = bool> + '_ {
+        state.active.iter().step_by(FORCES).copied()
+    }
+
+    /// Force of a joint on the left scale of its pair.
+    pub(crate) fn force(&self, z: &[f64], joint: usize) -> Vec2 {
+        let [left, right] = self.pair_poses(z, joint);
+        self.joints[joint].force(&self.pair, [&left, &right], self.pair_forces(z, joint))
+    }
+
+    /// Elastic energy of all contacts.
+    pub(crate) fn energy(&self, z: &[f64]) -> f64 {
+        (0..self.joints.len()).map(|joint| self.law.energy(self.force(z, joint).norm())).sum()
+    }
+
+    /// Whether any two scales overlap by more than the approach of their contacts.
+    pub(crate) fn interpenetrate(&self, z: &[f64]) -> bool {
+        self.overlaps(&self.poses(z)).iter().any(|overlap| {
+            let neighbours = overlap.right == overlap.left + 1;
+            let allowed = if neighbours { self.approach(z, overlap.left) } else { 0.0 };
+            overlap.depth > allowed + AUDIT_TOLERANCE
+        })
+    }
+
+    /// Whether any two neighbours do. A strip that is bent to a ring may meet its own other end.
+    pub(crate) fn neighbours_interpenetrate(&self, z: &[f64]) -> bool {
+        self.pairs(z).any(|(left, poses)| {
+            let allowed = self.approach(z, left) + AUDIT_TOLERANCE;
+            self.overlaps(&poses).iter().any(|overlap| overlap.depth > allowed)
+        })
+    }
+
+    fn overlaps(&self, poses: &[Pose]) -> Vec<Overlap> {
+        contact::overlaps(self.pair.scale(), self.pair.pitch(), poses)
+    }
+
+    /// The larger approach of the two contacts of a pair.
+    fn approach(&self, z: &[f64], left: usize) -> f64 {
+        let approach = |joint| self.law.approach(self.force(z, joint).norm()).value;
+        approach(JOINTS * left).max(approach(JOINTS * left + 1))
+    }
+
+    pub(crate) fn add_residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+        for (left, poses) in self.pairs(z) {
+            for joint in [JOINTS * left, JOINTS * left + 1] {
+                let rows = if active[FORCES * joint] {
+                    self.response(joint, &poses, z, active).residual
+                } else {
+                    let [gap, short] = self.joints[joint].open(&self.pair, poses.each_ref());
+                    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, gap, short]
+                };
+                for Entry { unknown, coordinate, sign } in self.entries(joint).into_iter().flatten()
+                {
+                    residual.add(unknown, sign * rows[coordinate]);
+                }
+            }
+        }
+    }
+
+    pub(crate) fn add_tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        for (left, poses) in self.pairs(z) {
+            for joint in [JOINTS * left, JOINTS * left + 1] {
+                if !active[FORCES * joint] {
+                    continue;
+                }
+                let tangent = self.response(joint, &poses, z, active).tangent;
+                let entries = self.entries(joint);
+                for row in entries.iter().flatten() {
+                    for column in entries.iter().flatten() {
+                        let value = tangent[row.coordinate][column.coordinate];
+                        matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Derivative of the condition of a force along a direction, its partner at rest.
+    pub(crate) fn slope(&self, state: &State, force: usize, direction: &[f64]) -> f64 {
+        let joint = force / FORCES;
+        let [left, right] = self.pair_poses(&state.z, joint);
+        let poses = [&left, &right];
+        let facing = if Self::is_closed(state, joint) {
+            self.joints[joint]
+        } else {
+            self.joints[joint].facing(&self.pair, poses)
+        };
+        let forces = self.pair_forces(&state.z, joint);
+        let response = facing.response(&self.pair, &self.law, poses, forces, false);
+        let row = response.tangent[6 + force % FORCES];
+        let entries = self.entries(joint).into_iter().flatten();
+        entries.map(|entry| entry.sign * row[entry.coordinate] * direction[entry.unknown]).sum()
+    }
+
+    /// Where a force has just changed sides: fixes the kind of a joint that closes, and passes the
+    /// contact on to the partner's kind where its own force has vanished, or where the edges are flush.
+    /// Returns the force whose condition has to stay valid.
+    pub(crate) fn exchange(&mut self, state: &mut State, force: usize) -> usize {
+        let joint = force / FORCES;
+        let (own, partner) = (FORCES * joint, FORCES * joint + 1);
+        let [left, right] = self.pair_poses(&state.z, joint);
+        let poses = [&left, &right];
+        let passed_on = force == own && state.active[partner];
+        let flush = force == partner && state.active[partner] && Joint::is_flush(poses);
+        if passed_on || flush {
+            self.joints[joint].hand_over();
+            if passed_on {
+                state.z.swap(self.forces[own], self.forces[partner]);
+                state.active[own] = true;
+            }
+            state.active[partner] = false;
+            return partner;
+        }
+        if force == own && state.active[own] {
+            self.joints[joint] = self.joints[joint].facing(&self.pair, poses);
+        }
+        force
+    }
+
+    fn response(
+        &self,
+        joint: usize,
+        [left, right]: &[Pose; 2],
+        z: &[f64],
+        active: &[bool],
+    ) -> JointResponse {
+        let at_corner = active[FORCES * joint + 1];
+        let forces = self.pair_forces(z, joint);
+        self.joints[joint].response(&self.pair, &self.law, [left, right], forces, at_corner)
+    }
+
+    /// The two forces of a joint.
+    fn pair_forces(&self, z: &[f64], joint: usize) -> [f64; FORCES] {
+        std::array::from_fn(|k| z[self.forces[FORCES * joint + k]])
+    }
+
+    /// Poses of a pair, in the frame in which the left scale is placed or, in a row of relative
+    /// poses, in the frame of the left scale.
+    fn pair_poses(&self, z: &[f64], joint: usize) -> [Pose; 2] {
+        let left = joint / JOINTS;
+        [self.left_pose(z, left), self.pose(z, left + 1)]
+    }
+
+    fn left_pose(&self, z: &[f64], scale: usize) -> Pose {
+        if self.relative { Pose::new(0.0, 0.0, 0.0) } else { self.pose(z, scale) }
+    }
+
+    /// Poses of the scales `i`, `i + 1` for every pair, in order.
+    fn pairs<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, [Pose; 2])> + 'a {
+        let mut left = self.left_pose(z, 0);
+        (1..self.scales.len()).map(move |i| {
+            let right = self.pose(z, i);
+            let next = if self.relative { left } else { right };
+            (i - 1, [std::mem::replace(&mut left, next), right])
+        })
+    }
+
+    /// What the coordinates of a pair, and its two forces, are made of.
+    fn entries(&self, joint: usize) -> [Option<Entry>; COUPLED + 1] {
+        let pair = joint / JOINTS;
+        let left = self.scales[pair].filter(|_| !self.relative);
+        let right = self.scales[pair + 1];
+        std::array::from_fn(|k| match k {
+            0..3 => Some(Entry::new(left? + k, k)),
+            3..6 => Some(Entry::new(right? + k - 3, k)),
+            6..COUPLED => Some(Entry::new(self.forces[FORCES * joint + k - 6], k)),
+            _ => Some(Entry::new(self.frame(pair + 1)?, 5).opposite()),
+        })
+    }
+}
+
+/// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
+#[derive(Clone, Copy)]
+pub(crate) struct Entry {
+    pub(crate) unknown: usize,
+    pub(crate) coordinate: usize,
+    /// 1 or −1.
+    pub(crate) sign: f64,
+}
+
+impl Entry {
+    pub(crate) fn new(unknown: usize, coordinate: usize) -> Self {
+        Self { unknown, coordinate, sign: 1.0 }
+    }
+
+    /// The same, taken away instead of added.
+    pub(crate) fn opposite(self) -> Self {
+        Self { sign: -self.sign, ..self }
+    }
+}

@@ -1,0 +1,48 @@
+//! The contacts of a state, for those who look at them.
+
+use contact::Kind;
+use geometry::Vec2;
+use solver::State;
+
+use super::{JOINTS, Joints};
+
+/// A closed contact between neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The left scale of the pair, from 0 at the left end of the row.
+    pub left: usize,
+    /// Which corner meets which edge.
+    pub kind: Kind,
+    /// The corner that touches, deformed, from the node of the first scale at rest; over `t`.
+    pub point: [f64; 2],
+    /// Force on the left scale; the right one takes its opposite.
+    pub force: [f64; 2],
+    /// Approach `δ` of the scales, over `t`.
+    pub approach: f64,
+}
+
+impl Joints {
+    /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
+    /// sees it.
+    pub(crate) fn contacts(&self, state: &State) -> Vec<Contact> {
+        let closed = Self::closed(state).enumerate().filter(|(_, closed)| *closed);
+        closed.filter_map(|(joint, _)| self.contact(&state.z, joint)).collect()
+    }
+
+    fn contact(&self, z: &[f64], joint: usize) -> Option<Contact> {
+        let kind = self.joint(joint).kind()?;
+        let left = joint / JOINTS;
+        let point = self.corner(z, joint, kind);
+        let force = self.force(z, joint);
+        let approach = self.law.approach(force.norm()).value;
+        Some(Contact { left, kind, point: point.into(), force: force.into(), approach })
+    }
+
+    fn corner(&self, z: &[f64], joint: usize, kind: Kind) -> Vec2 {
+        let of_right = usize::from(!kind.corner_is_left());
+        let pose = self.pair_poses(z, joint)[of_right];
+        let arm = pose.turn(self.pair.scale().corner(kind.corner()));
+        let passed = if self.relative { of_right } else { joint / JOINTS + of_right };
+        Vec2::new(passed as f64 * self.pair.pitch(), 0.0) + pose.displacement + arm
+    }
+}

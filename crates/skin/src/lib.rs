@@ -1,0 +1,51 @@
+//! Scaled skins under load: puncture of scales on a soft substrate, bending of scales on a membrane.
+//!
+//! Rigid parallelogram scales stand in a row. Their bases are bonded to something soft, and their sides
+//! meet in contacts that give way by a power law. Here the parts come together: shape ([`geometry`]),
+//! substrate springs ([`substrate`]), membrane ([`membrane`]) and contacts ([`contact`]) make a mixed
+//! complementarity system, whose equilibrium path ([`solver`]) is followed from rest to a critical
+//! tilt or rotation, and comes down to a few measures.
+//!
+//! Lengths are in units of the scale thickness `t`. Forces on the substrate are in units of `E* t²` with
+//! `E* = E_s/(1−ν²)`, those in the membrane in units of `E_m t²`.
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`Design`], [`Base`] | the geometry of one design |
+//! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
+//! | [`puncture::Parameters`] | contact law, moduli, row length, load, critical tilt |
+//! | [`puncture::Puncture`], [`puncture::Measures`] | its path, events, scales and what they come down to |
+//! | [`puncture::snapshots`] | the row at chosen places of the path |
+//! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
+//! | [`flexure::Parameters`] | contact law, moduli, strip, largest rotation |
+//! | [`flexure::Flexure`], [`flexure::Measures`] | its path, events and what they come down to |
+//! | [`Change`], [`Contact`] | what a contact does, and how it stands |
+//! | [`InvalidDesign`] | a parameter without mechanical meaning |
+//!
+//! ```
+//! use skin::puncture::{self, Parameters, Status};
+//! use skin::{Base, Design};
+//!
+//! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
+//! let parameters = Parameters::default();
+//! let springs = substrate::calibrate(&design.footprint(parameters.poisson_ratio)?)?;
+//! let puncture = puncture::solve(&design, &springs, &parameters)?;
+//! assert_eq!(puncture.status, Status::Complete);
+//!
+//! // More scales share the load than the one that carries it.
+//! assert!(puncture.measures.engaged_scales > Some(2));
+//! // The load at the critical tilt is the largest: no instability before.
+//! assert_eq!(puncture.measures.peak_force, puncture.measures.critical_force);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod crossing;
+mod design;
+pub mod flexure;
+mod invalid;
+mod joints;
+pub mod puncture;
+
+pub use design::{Base, Design};
+pub use invalid::InvalidDesign;
+pub use joints::{Change, Contact};

@@ -1,0 +1,253 @@
+//! Puncture of a row of scales on an elastic half-space.
+
+mod measures;
+mod record;
+mod snapshot;
+mod system;
+#[cfg(test)]
+mod tests;
+
+use contact::{ContactLaw, Law};
+use geometry::Row;
+use solver::{Path, Settings, State, Stop};
+use substrate::Springs;
+use system::{Chain, Layout};
+
+use crate::joints::Joints;
+use crate::{Design, InvalidDesign};
+
+pub use measures::Measures;
+use record::Record;
+pub use record::{Event, Iteration, PathPoint, ScaleState};
+pub use snapshot::{At, Snapshot, Snapshots, snapshots};
+
+/// Longest row that [`RowLength::Auto`] takes.
+pub const LONGEST_ROW: usize = 4001;
+
+/// An end scale of a row that is long enough has moved by less than this (over `t`; radians).
+const STILL: f64 = 1e-6;
+
+/// How many scales stand in the row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RowLength {
+    /// As many as the deformation needs: on the whole path no end scale touches its neighbour
+    /// or moves by more than `1e-6`.
+    Auto,
+    /// This many, the middle one (of an even number the left of the two) punctured.
+    Scales(usize),
+}
+
+/// What a puncture depends on besides the design and its substrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parameters {
+    /// Poisson's ratio `ν` of the substrate.
+    pub poisson_ratio: f64,
+    /// Contact law between scales.
+    pub law: Law,
+    /// `E_ct / E_s`.
+    pub contact_modulus_over_substrate: f64,
+    /// Row length.
+    pub scales: RowLength,
+    /// Place of the load on the top of the punctured scale: 0 its left, 1 its right corner.
+    pub load_position: f64,
+    /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
+    pub critical_tilt_deg: f64,
+    /// Path following.
+    pub solver: Settings,
+}
+
+impl Default for Parameters {
+    /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
+    fn default() -> Self {
+        Self {
+            poisson_ratio: 0.5,
+            law: Law::PRINTED,
+            contact_modulus_over_substrate: 9677.0,
+            scales: RowLength::Auto,
+            load_position: 1.0,
+            critical_tilt_deg: 10.0,
+            solver: Settings::default(),
+        }
+    }
+}
+
+/// How a puncture ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The critical tilt was reached, on a row that is long enough, without interpenetration.
+    Complete,
+    /// The path stopped before the critical tilt.
+    Stopped(Stop),
+    /// `auto` needs a longer row than it may take.
+    RowLimit,
+    /// Two scales overlap by more than their contact law allows.
+    Interpenetration,
+}
+
+/// A solved puncture.
+#[derive(Clone, Debug)]
+pub struct Puncture {
+    /// How it ended.
+    pub status: Status,
+    /// What it measured.
+    pub measures: Measures,
+    /// Every equilibrium of the path, from rest.
+    pub path: Vec<PathPoint>,
+    /// Every contact event, in order.
+    pub events: Vec<Event>,
+    /// Every scale at the end of the path.
+    pub scales: Vec<ScaleState>,
+    /// Every Newton iteration.
+    pub history: Vec<Iteration>,
+}
+
+/// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt.
+///
+/// # Errors
+/// If a length, a modulus or a constant of the contact law is not positive, or another parameter
+/// is out of its range.
+pub fn solve(
+    design: &Design,
+    springs: &Springs,
+    parameters: &Parameters,
+) -> Result<Puncture, InvalidDesign> {
+    parameters.check()?;
+    let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
+    let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
+    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+    let problem = Problem { row: design.row()?, design, springs, law, parameters };
+    Ok(match parameters.scales {
+        RowLength::Scales(scales) => {
+            let left = (scales - 1) / 2;
+            let layout = Layout { left, right: scales - 1 - left };
+            problem.follow(layout, |_| false).0
+        }
+        RowLength::Auto => problem.grow(LONGEST_ROW),
+    })
+}
+
+/// A number that no puncture can have.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("{quantity} is {value}, expected {expected}")]
+pub struct InvalidPuncture {
+    /// Which quantity.
+    pub quantity: &'static str,
+    /// What was given.
+    pub value: f64,
+    /// What would be right.
+    pub expected: &'static str,
+}
+
+impl Parameters {
+    fn check(&self) -> Result<(), InvalidPuncture> {
+        let scales = match self.scales {
+            RowLength::Auto => 1.0,
+            RowLength::Scales(scales) => scales as f64,
+        };
+        let tilt = self.critical_tilt_deg;
+        let (ratio, position) = (self.poisson_ratio, self.load_position);
+        let rules = [
+            (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
+            ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
+            (position.is_finite(), "load position", position, "a number"),
+            (scales >= 1.0, "number of scales", scales, "at least 1"),
+        ];
+        match rules.into_iter().find(|(holds, ..)| !holds) {
+            Some((_, quantity, value, expected)) => {
+                Err(InvalidPuncture { quantity, value, expected })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// The ends of a row that the deformation has reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Reached {
+    left: bool,
+    right: bool,
+}
+
+impl Reached {
+    fn any(self) -> bool {
+        self.left || self.right
+    }
+}
+
+struct Problem<'a> {
+    row: Row,
+    design: &'a Design,
+    springs: &'a Springs,
+    law: ContactLaw,
+    parameters: &'a Parameters,
+}
+
+impl Problem<'_> {
+    /// Lengthens the row on the sides that the deformation reaches until it reaches neither, or the
+    /// row is as long as the `longest`.
+    fn grow(&self, longest: usize) -> Puncture {
+        let mut layout = self.first_layout();
+        loop {
+            let (mut puncture, reached) = self.follow(layout, Reached::any);
+            if !reached.any() {
+                return puncture;
+            }
+            let longer = layout.doubled(reached.left, reached.right, longest);
+            if longer == layout {
+                puncture.status = Status::RowLimit;
+                puncture.measures = puncture.measures.without_final_values();
+                return puncture;
+            }
+            layout = longer;
+        }
+    }
+
+    /// The row that suffices while no scales touch: a displacement of the punctured scale decays
+    /// along the chain by the root below 1 of `β (r + 1/r) = α`.
+    fn first_layout(&self) -> Layout {
+        let slowest = (0..3)
+            .map(|k| 2.0 * (self.springs.coupling[k] / self.springs.direct[k]).abs())
+            .fold(0.0, f64::max);
+        let decay = (1.0 - (1.0 - slowest.min(1.0).powi(2)).sqrt()) / slowest;
+        // A coupling so strong that the estimate fails starts from a long row.
+        let side = (4_u8..100).find(|&n| decay.powi(i32::from(n)) <= 0.1 * STILL);
+        let side = side.map_or(100, usize::from);
+        Layout { left: side, right: side }
+    }
+
+    /// Follows the path on a given row until it ends, or until `give_up` says so of the ends reached.
+    fn follow(&self, layout: Layout, give_up: impl Fn(Reached) -> bool) -> (Puncture, Reached) {
+        let tilt = self.parameters.critical_tilt_deg.to_radians();
+        let position = self.parameters.load_position;
+        let chain = Chain::new(&self.row, self.springs, self.law, layout, position, tilt);
+        let rest = State::at_rest(&chain);
+        let mut path = Path::new(chain, rest, self.parameters.solver);
+        let mut record = Record::new(&mut path, self.design.length);
+        let mut reached = Reached::default();
+        while let Some(point) = path.next() {
+            record.visit(&mut path, &point);
+            reached = reached_ends(path.system(), &point.state);
+            if give_up(reached) {
+                break;
+            }
+        }
+        let stop = path.stop().unwrap_or(Stop::Reached);
+        let status = match stop {
+            Stop::Reached if path.system().joints.interpenetrate(&path.point().state.z) => {
+                Status::Interpenetration
+            }
+            Stop::Reached => Status::Complete,
+            stop => Status::Stopped(stop),
+        };
+        (record.finish(&mut path, status, self.parameters.poisson_ratio), reached)
+    }
+}
+
+fn reached_ends(chain: &Chain, state: &State) -> Reached {
+    let last = chain.layout.scales() - 1;
+    let moved = |scale| chain.displacement(&state.z, scale).iter().any(|u| u.abs() > STILL);
+    let touches = |pair: usize| {
+        [2 * pair, 2 * pair + 1].into_iter().any(|joint| Joints::is_closed(state, joint))
+    };
+    Reached { left: moved(0) || touches(0), right: moved(last) || touches(last.saturating_sub(1)) }
+}

@@ -1,0 +1,137 @@
+//! A row of scales as it stands at chosen places of its path.
+
+use contact::ContactLaw;
+use solver::{Path, State};
+
+use super::system::{Chain, Layout};
+use super::{InvalidDesign, Parameters, PathPoint, Puncture, ScaleState, Springs, Status};
+use crate::Design;
+use crate::crossing::{Crossing, follow};
+use crate::joints::Contact;
+
+/// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
+const STEEPEST_DEG: f64 = 80.0;
+
+/// A place of the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum At {
+    /// Where the punctured point has first moved down by `u*`.
+    Displacement(f64),
+    /// Where the load has first grown to this `F*`.
+    Force(f64),
+    /// Where the punctured scale has first tilted by this angle, clockwise, degrees.
+    Tilt(f64),
+}
+
+/// A row of scales in equilibrium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snapshot {
+    /// `u*` of the punctured point, downward.
+    pub displacement: f64,
+    /// `F*`.
+    pub force: f64,
+    /// Tilt of the punctured scale, clockwise, degrees.
+    pub tilt_deg: f64,
+    /// Every scale, from the left.
+    pub scales: Vec<ScaleState>,
+    /// Every closed contact; forces over `E* t²`.
+    pub contacts: Vec<Contact>,
+}
+
+/// A puncture with snapshots.
+#[derive(Clone, Debug)]
+pub struct Snapshots {
+    /// The puncture, followed as far as the snapshots need.
+    pub puncture: Puncture,
+    /// A snapshot for each place; `None` where the path does not get there.
+    pub at: Vec<Option<Snapshot>>,
+}
+
+/// Solves the puncture of `design` at the places `at`: each is an equilibrium of its own, not
+/// interpolated. The path goes on beyond the critical tilt if a place lies there.
+///
+/// # Errors
+/// If a length, a modulus or a constant of the contact law is not positive.
+pub fn snapshots(
+    design: &Design,
+    springs: &Springs,
+    parameters: &Parameters,
+    at: &[At],
+) -> Result<Snapshots, InvalidDesign> {
+    let mut parameters = *parameters;
+    let mut puncture = super::solve(design, springs, &parameters)?;
+    while reaches_short(&puncture, at) && parameters.critical_tilt_deg < STEEPEST_DEG {
+        parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
+        puncture = super::solve(design, springs, &parameters)?;
+    }
+    let chain = chain(design, springs, &parameters, &puncture)?;
+    let at = along(chain, design.length, &parameters, at);
+    Ok(Snapshots { puncture, at })
+}
+
+/// Whether a path that came to its end has not come to every place.
+fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
+    let largest =
+        |value: fn(&PathPoint) -> f64| puncture.path.iter().map(value).fold(0.0, f64::max);
+    let beyond = |at: &At| match *at {
+        At::Displacement(u) => u > largest(|point| point.displacement),
+        At::Force(force) => force > largest(|point| point.force),
+        // The path ends at its tilt but for round-off.
+        At::Tilt(tilt) => tilt > largest(|point| point.tilt_deg) + 1e-9,
+    };
+    puncture.status == Status::Complete && at.iter().any(beyond)
+}
+
+/// The chain of the row that `puncture` was solved on.
+fn chain(
+    design: &Design,
+    springs: &Springs,
+    parameters: &Parameters,
+    puncture: &Puncture,
+) -> Result<Chain, InvalidDesign> {
+    let left = puncture.scales.iter().filter(|state| state.scale < 0).count();
+    let layout = Layout { left, right: puncture.scales.len().saturating_sub(left + 1) };
+    let modulus =
+        parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
+    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+    let tilt = parameters.critical_tilt_deg.to_radians();
+    Ok(Chain::new(&design.row()?, springs, law, layout, parameters.load_position, tilt))
+}
+
+fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<Option<Snapshot>> {
+    let crossing = |&at: &At| {
+        let quantity = move |chain: &Chain, state: &State| match at {
+            At::Displacement(_) => chain.depth(&state.z),
+            At::Force(_) => force(chain, state, length),
+            At::Tilt(_) => tilt_deg(chain, state),
+        };
+        let (At::Displacement(value) | At::Force(value) | At::Tilt(value)) = at;
+        Crossing { quantity, value }
+    };
+    let crossings: Vec<_> = at.iter().map(crossing).collect();
+    let mut snapshots = vec![None; at.len()];
+    let rest = State::at_rest(&chain);
+    let mut path = Path::new(chain, rest, parameters.solver);
+    follow(&mut path, &crossings, |k, chain, state| {
+        snapshots[k] = Some(snapshot(chain, state, length));
+    });
+    snapshots
+}
+
+fn force(chain: &Chain, state: &State, length: f64) -> f64 {
+    state.z[chain.layout.load()] / length
+}
+
+fn tilt_deg(chain: &Chain, state: &State) -> f64 {
+    -chain.displacement(&state.z, chain.layout.left)[2].to_degrees()
+}
+
+fn snapshot(chain: &Chain, state: &State, length: f64) -> Snapshot {
+    Snapshot {
+        displacement: chain.depth(&state.z),
+        force: force(chain, state, length),
+        tilt_deg: tilt_deg(chain, state),
+        scales: super::record::scales(chain, state),
+        contacts: chain.joints.contacts(state),
+    }
+}

@@ -1,0 +1,247 @@
+//! A row of scales on springs under a dead load, as a mixed complementarity system.
+
+use contact::ContactLaw;
+use geometry::{Corner, Row, Vec2};
+use solver::{BandMatrix, Control, Residual, State, System};
+use substrate::Springs;
+
+use crate::joints::{Joints, PAIR_FORCES};
+
+/// Unknowns of a scale and of its contacts with the next one.
+const BLOCK: usize = 3 + PAIR_FORCES;
+
+/// Where scales and contacts stand among the unknowns.
+///
+/// ```text
+/// x y φ · λ λ' λ λ' | … | x y φ · F · λ λ' λ λ' | … | x y φ
+/// scale 0 upper lower     punctured                   last
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// Scales to the left of the punctured one.
+    pub(crate) left: usize,
+    /// Scales to the right of the punctured one.
+    pub(crate) right: usize,
+}
+
+impl Layout {
+    pub(crate) fn scales(self) -> usize {
+        self.left + 1 + self.right
+    }
+
+    /// Number of a scale as people count them: 0 is the punctured one, positive to the right.
+    pub(crate) fn number(self, scale: usize) -> i64 {
+        (scale.cast_signed() - self.left.cast_signed()) as i64
+    }
+
+    /// Twice as many scales on the given sides, as far as a row of the `longest` length has room.
+    pub(crate) fn doubled(self, left: bool, right: bool, longest: usize) -> Self {
+        let room = longest.saturating_sub(self.scales());
+        let more_right = if right { self.right.min(room) } else { 0 };
+        let more_left = if left { self.left.min(room - more_right) } else { 0 };
+        Self { left: self.left + more_left, right: self.right + more_right }
+    }
+
+    fn size(self) -> usize {
+        BLOCK * self.scales() - PAIR_FORCES + 1
+    }
+
+    /// First of the three unknowns of a scale.
+    pub(crate) fn scale(self, scale: usize) -> usize {
+        BLOCK * scale + usize::from(scale > self.left)
+    }
+
+    pub(crate) fn load(self) -> usize {
+        BLOCK * self.left + 3
+    }
+
+    /// Unknown of a contact force. Forces are numbered along the row: those of the pair
+    /// `i`, `i + 1` from `4 i`, the upper joint's two before the lower's.
+    fn force(self, force: usize) -> usize {
+        let left = force / PAIR_FORCES;
+        BLOCK * left + 3 + force % PAIR_FORCES + usize::from(left >= self.left)
+    }
+}
+
+/// A row of scales on springs, the load on one of them, as [`System`].
+///
+/// Unknowns are the displacements and rotations, the force of each contact, and the load `F`.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    pub(crate) layout: Layout,
+    pub(crate) joints: Joints,
+    half_base: f64,
+    /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
+    direct: [f64; 3],
+    /// `a β_x, a β_y, a³ β_φ`.
+    coupling: [f64; 3],
+    /// From the node of the punctured scale to the loaded point.
+    load_arm: Vec2,
+    controls: [Control; 3],
+    units: Vec<f64>,
+}
+
+impl Chain {
+    pub(crate) fn new(
+        row: &Row,
+        springs: &Springs,
+        law: ContactLaw,
+        layout: Layout,
+        load_position: f64,
+        critical_tilt: f64,
+    ) -> Self {
+        let scale = row.scale();
+        let a = scale.half_base();
+        let powers = [a, a, a.powi(3)];
+        let direct: [f64; 3] = std::array::from_fn(|k| powers[k] * springs.direct[k]);
+        let coupling = std::array::from_fn(|k| powers[k] * springs.coupling[k]);
+        let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
+        let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
+        let mut units = vec![1.0; layout.size()];
+        for i in 0..layout.scales() {
+            units[layout.scale(i)..layout.scale(i) + 3].copy_from_slice(&direct);
+        }
+        let punctured = layout.scale(layout.left);
+        let control = |k: usize, scale| Control { index: punctured + k, scale };
+        let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
+        Self {
+            layout,
+            joints: Joints::new(row, law, scales, forces),
+            half_base: a,
+            direct,
+            coupling,
+            load_arm: left + load_position * (right - left),
+            // The tilt is clockwise: it decreases the rotation.
+            controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
+            units,
+        }
+    }
+
+    /// The three displacements of a scale.
+    pub(crate) fn displacement(&self, z: &[f64], scale: usize) -> [f64; 3] {
+        let at = self.layout.scale(scale);
+        [z[at], z[at + 1], z[at + 2]]
+    }
+
+    /// Depth of the loaded point below its place at rest.
+    pub(crate) fn depth(&self, z: &[f64]) -> f64 {
+        let pose = self.joints.pose(z, self.layout.left);
+        -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
+    }
+
+    /// Derivative of [`Chain::depth`] along a direction.
+    pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
+        let at = self.layout.scale(self.layout.left);
+        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        -(direction[at + 1] + arm.x * direction[at + 2])
+    }
+
+    /// Depth of the deeper base corner of a scale below its place at rest.
+    pub(crate) fn base_depth(&self, z: &[f64], scale: usize) -> f64 {
+        let [_, y, rotation] = self.displacement(z, scale);
+        self.half_base * rotation.sin().abs() - y
+    }
+
+    /// Reaction of the springs on a scale (force and moment), opposed to its displacement: minus
+    /// the `F_x, F_y, M` of Eq. (1).
+    pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
+        let own = self.displacement(z, scale);
+        let at = |neighbour: Option<usize>| {
+            let neighbour = neighbour.filter(|&i| i < self.layout.scales());
+            neighbour.map_or([0.0; 3], |i| self.displacement(z, i))
+        };
+        let (left, right) = (at(scale.checked_sub(1)), at(Some(scale + 1)));
+        std::array::from_fn(|k| self.coupling[k] * (left[k] + right[k]) - self.direct[k] * own[k])
+    }
+
+    /// Elastic energy of the springs and of the contacts, over `E* t³`.
+    pub(crate) fn energies(&self, state: &State) -> (f64, f64) {
+        let springs = (0..self.layout.scales())
+            .map(|i| {
+                let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
+                -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
+            })
+            .sum();
+        (springs, self.joints.energy(&state.z))
+    }
+
+    fn add_springs(&self, z: &[f64], residual: &mut Residual) {
+        for i in 0..self.layout.scales() {
+            let at = self.layout.scale(i);
+            for k in 0..3 {
+                residual.add(at + k, self.direct[k] * z[at + k]);
+                if i > 0 {
+                    let before = self.layout.scale(i - 1);
+                    residual.add(at + k, -self.coupling[k] * z[before + k]);
+                    residual.add(before + k, -self.coupling[k] * z[at + k]);
+                }
+            }
+        }
+    }
+
+    fn add_load(&self, z: &[f64], residual: &mut Residual) {
+        let at = self.layout.scale(self.layout.left);
+        let load = z[self.layout.load()];
+        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        residual.add(at + 1, load);
+        residual.add(at + 2, load * arm.x);
+    }
+}
+
+impl System for Chain {
+    fn size(&self) -> usize {
+        self.layout.size()
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        // From x of a scale to φ of the next, with the load between them.
+        BLOCK + 3
+    }
+
+    fn load(&self) -> usize {
+        self.layout.load()
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        self.joints.forces()
+    }
+
+    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+        residual.clear(&self.units);
+        self.add_springs(z, residual);
+        self.add_load(z, residual);
+        self.joints.add_residual(z, active, residual);
+    }
+
+    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        for i in 0..self.layout.scales() {
+            let at = self.layout.scale(i);
+            for k in 0..3 {
+                matrix.add(at + k, at + k, self.direct[k]);
+                if i > 0 {
+                    let before = self.layout.scale(i - 1);
+                    matrix.add(at + k, before + k, -self.coupling[k]);
+                    matrix.add(before + k, at + k, -self.coupling[k]);
+                }
+            }
+        }
+        let at = self.layout.scale(self.layout.left);
+        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        matrix.add(at + 1, self.layout.load(), 1.0);
+        matrix.add(at + 2, self.layout.load(), arm.x);
+        matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
+        self.joints.add_tangent(z, active, matrix);
+    }
+
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        self.joints.slope(state, constraint, direction)
+    }
+
+    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
+        self.joints.exchange(state, constraint)
+    }
+}

@@ -1,0 +1,248 @@
+//! What only the inside of the model shows: its tangent, its energy balance, the limit of `Auto`.
+
+use approx::assert_relative_eq;
+use contact::{ContactLaw, FORCES, Law};
+use solver::{BandMatrix, Path, Point, Residual, Settings, State, System};
+use substrate::calibrate;
+
+use super::system::{Chain, Layout};
+use super::{Parameters, Problem, Status};
+use crate::{Base, Design};
+
+/// A steep row in which contacts open, close, slide to corners and change their parts.
+const LIVELY: Design =
+    Design { gap: 0.1, length: 1.0, slant_deg: 75.0, base: Base::TwoL, width: 1.0 };
+
+const BLOCKS: Design = Design { gap: 0.1, length: 1.0, slant_deg: 0.0, base: Base::L, width: 1.0 };
+
+const DOMINO: Design = Design { gap: 0.1, length: 0.1, slant_deg: 75.0, base: Base::L, width: 1.0 };
+
+/// `E_ct/E*` of the reference study.
+const HARD: f64 = 9677.0 * 0.75;
+
+fn law(design: &Design, law: Law, modulus: f64) -> ContactLaw {
+    ContactLaw::new(law, design.length, design.width, modulus).unwrap()
+}
+
+/// The path of a row of 21 scales to a tilt of 10°.
+fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
+    let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
+    let layout = Layout { left: 10, right: 10 };
+    let tilt = 10.0_f64.to_radians();
+    let row = design.row().unwrap();
+    let chain = Chain::new(&row, &springs, law, layout, load_position, tilt);
+    let rest = State::at_rest(&chain);
+    Path::new(chain, rest, Settings::default())
+}
+
+/// Shows every segment of a path, and the path as it was at its beginning.
+fn for_segments(mut path: Path<Chain>, mut show: impl FnMut(&mut Path<Chain>, &Point, &Point)) {
+    loop {
+        let mut before = path.clone();
+        let from = before.point().clone();
+        let Some(to) = path.next() else { return };
+        show(&mut before, &from, &to);
+    }
+}
+
+fn residual(chain: &Chain, z: &[f64], active: &[bool]) -> Vec<f64> {
+    let mut residual = Residual::new(chain.size());
+    chain.residual(z, active, &mut residual);
+    residual.value
+}
+
+/// Rows that the solver uses: all but the one of the load and those of forces known to vanish.
+fn rows(chain: &Chain, active: &[bool]) -> Vec<usize> {
+    let unused: Vec<usize> = chain
+        .constraints()
+        .iter()
+        .zip(active)
+        .filter(|(_, active)| !**active)
+        .map(|(&index, _)| index)
+        .chain([chain.load()])
+        .collect();
+    (0..chain.size()).filter(|row| !unused.contains(row)).collect()
+}
+
+/// Compares every column of the tangent with central differences, each row by its largest entry.
+fn check_tangent(chain: &Chain, state: &State) {
+    let State { z, active } = state;
+    let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
+    chain.tangent(z, active, &mut tangent);
+    for column in 0..chain.size() {
+        let step = if z[column] == 0.0 { 1e-6 } else { 1e-5 * z[column].abs() };
+        let at = |shift: f64| {
+            let mut z = z.clone();
+            z[column] += shift;
+            residual(chain, &z, active)
+        };
+        let (low, high) = (at(-step), at(step));
+        for &row in &rows(chain, active) {
+            let difference = (high[row] - low[row]) / (2.0 * step);
+            let inside = tangent.columns(row).contains(&column);
+            let ours = if inside { tangent.get(row, column) } else { 0.0 };
+            let size = tangent.columns(row).map(|c| tangent.get(row, c).abs()).fold(0.0, f64::max);
+            assert_relative_eq!(ours, difference, epsilon = 1e-6 * size, max_relative = 1e-6);
+        }
+    }
+}
+
+#[test]
+fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
+    // Open, on an edge, at a corner: the number of closed forces of a joint.
+    let mut seen = [false; FORCES + 1];
+    for constants in [Law::PRINTED, Law::EXCHANGED] {
+        // Half-way between the points: at events forces vanish, where the law has a kink.
+        for_segments(path(&LIVELY, law(&LIVELY, constants, HARD), 1.0), |before, from, to| {
+            let state = before.between(from, to, 0.5).unwrap().state;
+            for joint in state.active.chunks(FORCES) {
+                seen[joint.iter().filter(|active| **active).count()] = true;
+            }
+            check_tangent(before.system(), &state);
+        });
+    }
+    assert_eq!(seen, [true; 3]);
+}
+
+#[test]
+fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
+    let mut path = path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0);
+    let mut compared = 0;
+    while let Some(Point { state, leaving, .. }) = path.next() {
+        let chain = path.system();
+        let at = |shift: f64| {
+            let z: Vec<f64> = state.z.iter().zip(&leaving).map(|(z, d)| z + shift * d).collect();
+            residual(chain, &z, &state.active)
+        };
+        let (low, high) = (at(-1e-7), at(1e-7));
+        for (constraint, &index) in chain.constraints().iter().enumerate().step_by(FORCES) {
+            if !state.active[constraint] {
+                let difference = (high[index] - low[index]) / 2e-7;
+                let slope = chain.slope(&state, constraint, &leaving);
+                assert_relative_eq!(slope, difference, epsilon = 1e-6, max_relative = 1e-6);
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 1000);
+}
+
+/// `∫ F du` between two points: the rule of Boole on five equilibria, `u'` by their polynomial.
+fn work(before: &mut Path<Chain>, from: &Point, to: &Point) -> f64 {
+    let inner = [0.25, 0.5, 0.75].map(|x| before.between(from, to, x).unwrap().state);
+    let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
+    let chain = before.system();
+    let u = states.map(|state| chain.depth(&state.z));
+    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
+    let slopes = [
+        [-25.0, 48.0, -36.0, 16.0, -3.0],
+        [-3.0, -10.0, 18.0, -6.0, 1.0],
+        [1.0, -8.0, 0.0, 8.0, -1.0],
+        [-1.0, 6.0, -18.0, 10.0, 3.0],
+        [3.0, -16.0, 36.0, -48.0, 25.0],
+    ]
+    .map(slope);
+    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
+    (0..5).map(|k| weights[k] * states[k].z[chain.load()] * slopes[k]).sum::<f64>() / 90.0
+}
+
+/// Work and energy along a path.
+#[derive(Default)]
+struct Balance {
+    work: f64,
+    springs: f64,
+    contacts: f64,
+    /// Largest difference so far.
+    off: f64,
+}
+
+fn balance(path: Path<Chain>) -> Balance {
+    let mut balance = Balance::default();
+    for_segments(path, |before, from, to| {
+        balance.work += work(before, from, to);
+        (balance.springs, balance.contacts) = before.system().energies(&to.state);
+        let off = (balance.work - balance.springs - balance.contacts).abs();
+        balance.off = balance.off.max(off);
+    });
+    balance
+}
+
+#[test]
+fn the_work_of_the_load_is_stored() {
+    for design in [LIVELY, BLOCKS, DOMINO] {
+        for constants in [Law::PRINTED, Law::EXCHANGED] {
+            for load_position in [1.0, 0.9] {
+                let law = law(&design, constants, HARD);
+                let Balance { work, off, .. } = balance(path(&design, law, load_position));
+                assert!(off < 1e-6 * work, "{:e} {design:?} {constants:?}", off / work);
+            }
+        }
+    }
+}
+
+/// So soft that the contacts take a good part of the energy.
+#[test]
+fn soft_contacts_store_their_part_of_the_work() {
+    for (constants, modulus) in [(Law::PRINTED, 3.0), (Law::EXCHANGED, 30.0)] {
+        let law = law(&LIVELY, constants, modulus);
+        let Balance { work, contacts, off, .. } = balance(path(&LIVELY, law, 1.0));
+        assert!(contacts > 0.05 * work, "{:e}", contacts / work);
+        assert!(off < 1e-6 * work, "{:e} {constants:?}", off / work);
+    }
+}
+
+#[test]
+fn rows_double_as_far_as_there_is_room() {
+    let layout = Layout { left: 4, right: 6 };
+    let doubled = |left, right, longest| {
+        let Layout { left, right } = layout.doubled(left, right, longest);
+        [left, right]
+    };
+    assert_eq!(doubled(true, false, 100), [8, 6]);
+    assert_eq!(doubled(false, true, 100), [4, 12]);
+    assert_eq!(doubled(true, true, 100), [8, 12]);
+    assert_eq!(doubled(true, true, 18), [5, 12]);
+    assert_eq!(doubled(true, true, 13), [4, 8]);
+    assert_eq!(doubled(true, true, 11), [4, 6]);
+    assert_eq!(doubled(true, true, 5), [4, 6]);
+}
+
+#[test]
+fn a_domino_longer_than_the_longest_row_has_no_final_values() {
+    let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
+    let parameters = &Parameters::default();
+    let (row, law) = (DOMINO.row().unwrap(), law(&DOMINO, Law::PRINTED, HARD));
+    let problem = Problem { row, design: &DOMINO, springs: &springs, law, parameters };
+    let cut = problem.grow(60);
+    assert_eq!(cut.status, Status::RowLimit);
+    assert_eq!(cut.measures.scales, 60);
+    assert!(cut.measures.first_contact_displacement.is_some());
+    assert!(cut.measures.initial_stiffness.is_some());
+    assert_eq!(cut.measures.critical_force.or(cut.measures.peak_force), None);
+    assert!(cut.path.last().unwrap().tilt_deg < 10.0);
+    let whole = problem.grow(4001);
+    assert_eq!(whole.status, Status::Complete);
+    assert!(whole.measures.scales > 60);
+}
+
+#[test]
+fn parameters_out_of_their_range_are_refused() {
+    let springs = calibrate(&BLOCKS.footprint(0.5).unwrap()).unwrap();
+    let refused = |change: fn(&mut Parameters)| {
+        let mut parameters = Parameters::default();
+        change(&mut parameters);
+        super::solve(&BLOCKS, &springs, &parameters).unwrap_err().to_string()
+    };
+    let text = refused(|p| p.critical_tilt_deg = 0.0);
+    assert_eq!(text, "critical tilt is 0, expected an angle between 0° and 90°");
+    let text = refused(|p| p.critical_tilt_deg = f64::NAN);
+    assert_eq!(text, "critical tilt is NaN, expected an angle between 0° and 90°");
+    let text = refused(|p| p.scales = super::RowLength::Scales(0));
+    assert_eq!(text, "number of scales is 0, expected at least 1");
+    let text = refused(|p| p.poisson_ratio = 0.6);
+    assert_eq!(text, "poisson's ratio is 0.6, expected a ratio from 0 to 0.5");
+    let text = refused(|p| p.load_position = f64::INFINITY);
+    assert_eq!(text, "load position is inf, expected a number");
+    let text = refused(|p| p.contact_modulus_over_substrate = -1.0);
+    assert_eq!(text, "modulus of the contact law is -0.75, expected a positive number");
+}

@@ -1,0 +1,62 @@
+//! What the puncture model must show.
+//!
+//! | File | Against |
+//! |---|---|
+//! | `isolated_scale` | the closed form of one scale without neighbours |
+//! | `first_contact` | the linear chain before contact, in closed form |
+//! | `two_blocks` | the kink of Fig. 3 of Shafiei et al. (2021) |
+//! | `steps` | the same path with steps a tenth as long |
+//! | `rows` | rows of any length, and those that `Auto` chooses |
+//! | `scaling` | changes of units that must change nothing |
+//! | `outputs` | what the measures, events and scales mean |
+//! | `robustness` | the 720 designs of the reference study and random ones |
+
+mod first_contact;
+mod isolated_scale;
+mod outputs;
+mod robustness;
+mod rows;
+#[path = "../samples/mod.rs"]
+mod samples;
+mod scaling;
+mod steps;
+mod two_blocks;
+
+use approx::assert_relative_eq;
+use skin::puncture::{Measures, PathPoint, Puncture, Status};
+
+/// The measures of a puncture that went all the way.
+fn complete(puncture: &Puncture) -> Measures {
+    assert_eq!(puncture.status, Status::Complete);
+    puncture.measures
+}
+
+/// The end of a path.
+fn end(puncture: &Puncture) -> PathPoint {
+    *puncture.path.last().unwrap()
+}
+
+/// Compares all measures but the length of the row.
+fn assert_same_measures(ours: &Measures, theirs: &Measures, max_relative: f64) {
+    let numbers = |m: &Measures| {
+        [
+            m.critical_force,
+            m.peak_force,
+            m.critical_displacement,
+            m.penetration,
+            m.sink,
+            m.initial_stiffness,
+            m.max_stiffness,
+            m.secant_stiffness,
+            m.first_contact_displacement,
+        ]
+    };
+    for (ours, theirs) in numbers(ours).into_iter().zip(numbers(theirs)) {
+        assert_eq!(ours.is_some(), theirs.is_some());
+        if let (Some(ours), Some(theirs)) = (ours, theirs) {
+            assert_relative_eq!(ours, theirs, max_relative = max_relative);
+        }
+    }
+    assert_eq!(ours.contacts, theirs.contacts);
+    assert_eq!(ours.engaged_scales, theirs.engaged_scales);
+}

@@ -1,0 +1,115 @@
+//! What the outputs mean.
+
+use std::collections::HashSet;
+
+use approx::assert_relative_eq;
+use contact::Law;
+use skin::Change;
+use skin::puncture::{Event, Parameters, Puncture, Status};
+use solver::{Settings, Stop};
+use substrate::Calibrations;
+
+use crate::samples::{domino, on_row, solve, solve_with, spread};
+use crate::{complete, end};
+
+fn solved() -> Vec<(skin::Design, Puncture)> {
+    let known = Calibrations::default();
+    spread().into_iter().map(|d| (d, solve_with(&known, &d, &on_row(41)))).collect()
+}
+
+#[test]
+fn measures_are_those_of_the_end_of_the_path() {
+    for (design, puncture) in solved() {
+        let (measures, end) = (complete(&puncture), end(&puncture));
+        assert_relative_eq!(end.tilt_deg, 10.0, max_relative = 1e-12);
+        assert_eq!(measures.critical_force, Some(end.force));
+        assert_eq!(measures.critical_displacement, Some(end.displacement));
+        assert_eq!(measures.contacts, Some(end.contacts));
+        let peak = puncture.path.iter().map(|point| point.force).fold(0.0, f64::max);
+        assert_eq!(measures.peak_force, Some(peak));
+        let secant = 4.0 / 3.0 * end.force * design.length / end.displacement;
+        assert_relative_eq!(measures.secant_stiffness.unwrap(), secant, max_relative = 1e-14);
+    }
+}
+
+/// Depth of the deeper end of a base: by the sine of the rotation below the node, or above.
+#[test]
+fn penetration_is_the_depth_of_the_deepest_base_corner() {
+    for (design, puncture) in solved() {
+        let measures = complete(&puncture);
+        let corners = puncture.scales.iter().flat_map(|scale| {
+            let rise = design.half_base() * scale.rotation_deg.to_radians().sin();
+            [rise, -rise].map(|rise| -(scale.displacement[1] + rise))
+        });
+        let deepest = corners.fold(f64::NEG_INFINITY, f64::max);
+        assert_relative_eq!(measures.penetration.unwrap(), deepest, max_relative = 1e-12);
+        let nodes = puncture.scales.iter().map(|scale| -scale.displacement[1]);
+        assert_eq!(measures.sink, Some(nodes.fold(f64::NEG_INFINITY, f64::max)));
+    }
+}
+
+/// The substrate carries what contacts do not pass on: all of the load, together.
+#[test]
+fn reactions_add_up_to_the_load() {
+    for (design, puncture) in solved() {
+        let sum: f64 = puncture.scales.iter().map(|scale| scale.reaction).sum();
+        assert_relative_eq!(sum, end(&puncture).force * design.length, max_relative = 1e-9);
+    }
+}
+
+/// Joints that the events leave closed: the pair and whether it is the upper contact.
+fn closed_by(events: &[Event]) -> HashSet<(i64, bool)> {
+    let mut closed = HashSet::new();
+    for event in events {
+        let joint = (event.left_scale, event.kind.name().starts_with('T'));
+        match event.change {
+            Change::Closed => assert!(closed.insert(joint), "closed twice: {event:?}"),
+            Change::Opened => assert!(closed.remove(&joint), "opened while open: {event:?}"),
+            _ => assert!(closed.contains(&joint), "turned while open: {event:?}"),
+        }
+    }
+    closed
+}
+
+#[test]
+fn events_account_for_the_contacts_and_the_scales_engaged() {
+    for (_, puncture) in solved() {
+        let (measures, closed) = (complete(&puncture), closed_by(&puncture.events));
+        assert_eq!(measures.contacts, Some(closed.len()));
+        let engaged: HashSet<i64> = closed.iter().flat_map(|&(left, _)| [left, left + 1]).collect();
+        assert_eq!(measures.engaged_scales, Some(engaged.len()));
+        let first = puncture.events.iter().find(|event| event.change == Change::Closed);
+        assert_eq!(measures.first_contact_displacement, first.map(|e| e.point.displacement));
+        assert!(puncture.events.iter().all(|event| puncture.path.contains(&event.point)));
+    }
+}
+
+#[test]
+fn every_point_of_the_path_has_its_iterations() {
+    for (_, puncture) in solved() {
+        let steps: HashSet<usize> = puncture.history.iter().map(|i| i.step).collect();
+        assert_eq!(steps, (1..puncture.path.len()).collect());
+        for step in puncture.history.chunk_by(|a, b| a.step == b.step) {
+            assert!(step.iter().enumerate().all(|(k, iteration)| iteration.iteration == k));
+        }
+    }
+}
+
+/// What is left of a path that stops is how it began.
+#[test]
+fn a_path_that_stops_keeps_how_it_began() {
+    let solver = Settings { max_points: 20, ..Settings::default() };
+    let parameters = Parameters { solver, law: Law::PRINTED, ..on_row(41) };
+    let (cut, whole) = (solve(&domino(), &parameters), solve(&domino(), &on_row(41)));
+    assert_eq!(cut.status, Status::Stopped(Stop::TooManyPoints));
+    assert_eq!(cut.path.len(), 21);
+    assert_eq!(cut.path[..], whole.path[..21]);
+    let (cut, whole) = (cut.measures, complete(&whole));
+    assert!(cut.first_contact_displacement.is_some());
+    assert_eq!(cut.first_contact_displacement, whole.first_contact_displacement);
+    assert_eq!(cut.initial_stiffness, whole.initial_stiffness);
+    assert_eq!(cut.scales, 41);
+    assert_eq!(cut.critical_force.or(cut.peak_force).or(cut.critical_displacement), None);
+    assert_eq!(cut.penetration.or(cut.sink).or(cut.max_stiffness).or(cut.secant_stiffness), None);
+    assert_eq!(cut.contacts.or(cut.engaged_scales), None);
+}

@@ -1,0 +1,89 @@
+//! Every design of the reference study, and random ones, reach the critical tilt.
+//!
+//! `cargo run --release -p skin --example robustness` solves the complete sets.
+
+use contact::Law;
+use rayon::prelude::*;
+use skin::Design;
+use skin::puncture::{Parameters, Puncture, Status};
+use substrate::Calibrations;
+
+use crate::end;
+use crate::samples::{BASES, fold_deg, on_row, random, reference_study, solve_with};
+
+const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
+
+fn solve_all(designs: &[Design], parameters: &Parameters, known: &Calibrations) -> Vec<Puncture> {
+    designs.par_iter().map(|design| solve_with(known, design, parameters)).collect()
+}
+
+fn both_studies() -> Vec<Design> {
+    BASES.map(reference_study).concat()
+}
+
+#[test]
+fn the_reference_study_is_solved_with_either_law() {
+    let known = Calibrations::default();
+    for law in LAWS {
+        let parameters = Parameters { law, ..on_row(41) };
+        let designs = both_studies();
+        for (design, puncture) in designs.iter().zip(solve_all(&designs, &parameters, &known)) {
+            assert_eq!(puncture.status, Status::Complete, "{design:?}");
+        }
+    }
+}
+
+/// Every seventh design: all gaps, lengths and slants occur, since 7 divides none of their numbers.
+#[test]
+fn hard_and_soft_contacts_are_solved() {
+    let known = Calibrations::default();
+    let designs: Vec<Design> = both_studies().into_iter().step_by(7).collect();
+    for law in LAWS {
+        for factor in [1e-2, 1e2, 1e4] {
+            let mut parameters = Parameters { law, ..on_row(41) };
+            parameters.contact_modulus_over_substrate *= factor;
+            for (design, puncture) in designs.iter().zip(solve_all(&designs, &parameters, &known)) {
+                assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
+                // Scales as soft as these are pushed through each other, and the audit tells.
+                let may_pass_through = factor < 1.0 && law == Law::EXCHANGED;
+                let fine = puncture.status == Status::Complete
+                    || may_pass_through && puncture.status == Status::Interpenetration;
+                assert!(fine, "{:?} {design:?}", puncture.status);
+            }
+        }
+    }
+}
+
+/// At 1/100 of the reference modulus the exchanged law lets an approach of more than a thickness.
+#[test]
+fn scales_too_soft_to_carry_the_load_fail_the_audit() {
+    let design = crate::samples::design(0.1, 0.5, 75.0, skin::Base::L);
+    let mut parameters = Parameters { law: Law::EXCHANGED, ..on_row(41) };
+    parameters.contact_modulus_over_substrate *= 1e-2;
+    let puncture = crate::samples::solve(&design, &parameters);
+    assert_eq!(puncture.status, Status::Interpenetration);
+    assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9);
+    assert_eq!(puncture.measures.critical_force, None);
+}
+
+/// All reach the critical tilt. The audit fails those in which the left side of a scale turns past
+/// the base of its left neighbour, so that its corner enters from below: the contacts of Fig. 2e
+/// are between sides alone. It takes a slant near 80°.
+#[test]
+fn random_designs_are_solved() {
+    let known = Calibrations::default();
+    let designs = random(2000, 1);
+    for law in LAWS {
+        let solved = solve_all(&designs, &Parameters { law, ..on_row(41) }, &known);
+        let mut folded = 0;
+        for (design, puncture) in designs.iter().zip(&solved) {
+            assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
+            if puncture.status != Status::Complete {
+                assert_eq!(puncture.status, Status::Interpenetration, "{design:?}");
+                assert!(fold_deg(design, puncture) > 0.0, "{design:?}");
+                folded += 1;
+            }
+        }
+        assert!(folded <= 4, "{folded}");
+    }
+}

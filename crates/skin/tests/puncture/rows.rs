@@ -1,0 +1,80 @@
+//! Rows of any length.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use skin::puncture::{Parameters, RowLength};
+use skin::{Base, Design};
+use substrate::Calibrations;
+
+use crate::samples::{blocks, design, domino, on_row, settled, solve, solve_with};
+use crate::{assert_same_measures, complete};
+
+fn automatic() -> Parameters {
+    Parameters { scales: RowLength::Auto, ..Parameters::default() }
+}
+
+#[test]
+fn automatic_rows_measure_what_longer_rows_do() {
+    let known = Calibrations::default();
+    let designs = [blocks(), settled(), domino(), design(1.0, 0.025, 75.0, Base::TwoL)];
+    for design in designs {
+        for law in [Law::PRINTED, Law::EXCHANGED] {
+            let ours = solve_with(&known, &design, &Parameters { law, ..automatic() });
+            let longer = 2 * ours.measures.scales + 301;
+            let theirs = solve_with(&known, &design, &Parameters { law, ..on_row(longer) });
+            assert_same_measures(&complete(&ours), &complete(&theirs), 1e-6);
+        }
+    }
+}
+
+#[test]
+fn automatic_rows_grow_where_scales_touch() {
+    let row = |design: &Design| {
+        let puncture = solve(design, &automatic());
+        complete(&puncture);
+        let [first, last] = [puncture.scales[0].scale, puncture.scales.last().unwrap().scale];
+        assert_eq!(puncture.scales.len(), puncture.measures.scales);
+        [-first, last]
+    };
+    // Without contact the row is the estimate from the coupling of the springs, and symmetric.
+    let [left, right] = row(&design(1.0, 0.5, 0.0, Base::L));
+    assert_eq!(left, right);
+    assert!(left < 30);
+    // The domino runs to the right.
+    let [left, right] = row(&domino());
+    assert!(right >= 4 * left, "{left} {right}");
+}
+
+#[test]
+fn the_ends_of_automatic_rows_are_at_rest() {
+    for design in [blocks(), settled(), domino()] {
+        let puncture = solve(&design, &automatic());
+        for end in [puncture.scales[0], *puncture.scales.last().unwrap()] {
+            assert!(end.displacement.iter().all(|u| u.abs() <= 1e-6));
+            assert!(end.rotation_deg.to_radians().abs() <= 1e-6);
+        }
+        let last = puncture.scales.last().unwrap().scale - 1;
+        let first = puncture.scales[0].scale;
+        assert!(puncture.events.iter().all(|e| e.left_scale != last && e.left_scale != first));
+    }
+}
+
+/// The domino does not end on a short row, and the force is then not that of a long one.
+#[test]
+fn a_row_that_is_too_short_matters() {
+    let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
+    assert!(force(11) < 0.5 * force(201));
+    assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
+}
+
+#[test]
+fn the_left_of_two_middle_scales_is_punctured() {
+    for (scales, first, last) in [(1, 0, 0), (2, 0, 1), (3, -1, 1), (4, -1, 2), (5, -2, 2)] {
+        let puncture = solve(&settled(), &on_row(scales));
+        assert_eq!(complete(&puncture).scales, scales);
+        let numbers: Vec<i64> = puncture.scales.iter().map(|state| state.scale).collect();
+        assert_eq!(numbers, (first..=last).collect::<Vec<_>>());
+        let tilt = puncture.scales.iter().find(|state| state.scale == 0).unwrap().rotation_deg;
+        assert_relative_eq!(tilt, -10.0, max_relative = 1e-12);
+    }
+}

@@ -1,0 +1,79 @@
+//! Changes of units, which must change nothing.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use skin::puncture::{self, Measures, Parameters};
+use skin::{Base, Design};
+use substrate::Calibrations;
+
+use crate::complete;
+use crate::samples::{on_row, settled, solve, springs};
+
+/// Round-off, and what the tolerance of the equilibria leaves.
+const SAME: f64 = 1e-9;
+
+/// Measures on the springs of an incompressible substrate, whatever the Poisson's ratio says.
+fn measured(design: &Design, parameters: &Parameters) -> Measures {
+    let springs = springs(&settled(), &on_row(1), &Calibrations::default());
+    complete(&puncture::solve(design, &springs, parameters).unwrap())
+}
+
+/// Forces are measured in `E*`, and so is the contact modulus inside; stiffness in `E_s`.
+#[test]
+fn contact_and_plane_modulus_count_by_their_ratio() {
+    let rubber = on_row(41);
+    let mut cork = Parameters { poisson_ratio: 0.0, ..rubber };
+    cork.contact_modulus_over_substrate *= 0.75;
+    let [rubber, cork] = [rubber, cork].map(|parameters| measured(&settled(), &parameters));
+    let same = |a: Option<f64>, b: Option<f64>, factor: f64| {
+        assert_relative_eq!(a.unwrap(), factor * b.unwrap(), max_relative = SAME);
+    };
+    same(rubber.critical_force, cork.critical_force, 1.0);
+    same(rubber.critical_displacement, cork.critical_displacement, 1.0);
+    same(rubber.penetration, cork.penetration, 1.0);
+    same(rubber.initial_stiffness, cork.initial_stiffness, 4.0 / 3.0);
+    same(rubber.max_stiffness, cork.max_stiffness, 4.0 / 3.0);
+    same(rubber.secant_stiffness, cork.secant_stiffness, 4.0 / 3.0);
+}
+
+/// The contact law knows the width of a scale only as a factor of its modulus.
+#[test]
+fn a_wider_scale_of_a_softer_material_is_the_same() {
+    let mut softer = on_row(41);
+    softer.contact_modulus_over_substrate /= 3.0;
+    let wider = Design { width: 3.0, ..settled() };
+    let ours = measured(&wider, &softer);
+    crate::assert_same_measures(&ours, &measured(&settled(), &on_row(41)), SAME);
+}
+
+/// The two meanings of `L` give one geometry its two names. The law (Eq. 5) measures the approach in
+/// `L`, which its prefactor can make good, and `F*` the force.
+#[test]
+fn a_base_of_2l_is_a_base_of_l_by_another_name() {
+    let ours = settled();
+    let theirs = Design { length: 0.5 * ours.length, base: Base::TwoL, ..ours };
+    for law in [Law::PRINTED, Law::EXCHANGED] {
+        let renamed = Law { c1: law.c1 * 2.0_f64.powf(1.0 - law.c2), ..law };
+        let ours = complete(&solve(&ours, &Parameters { law, ..on_row(41) }));
+        let theirs = complete(&solve(&theirs, &Parameters { law: renamed, ..on_row(41) }));
+        let [force, twice] = [ours, theirs].map(|measures| measures.critical_force.unwrap());
+        assert_relative_eq!(2.0 * force, twice, max_relative = SAME);
+        let [u, v] = [ours, theirs].map(|measures| measures.critical_displacement.unwrap());
+        assert_relative_eq!(u, v, max_relative = SAME);
+    }
+}
+
+/// Contacts that are ever harder settle to rigid ones.
+#[test]
+fn harder_contacts_settle_to_rigid_ones() {
+    for law in [Law::PRINTED, Law::EXCHANGED] {
+        let force = |factor: f64| {
+            let mut parameters = Parameters { law, ..on_row(41) };
+            parameters.contact_modulus_over_substrate *= factor;
+            measured(&settled(), &parameters).critical_force.unwrap()
+        };
+        let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(force);
+        assert!((hard - rigid).abs() < 1e-2 * (reference - rigid).abs());
+        assert_relative_eq!(hard, rigid, max_relative = 1e-5);
+    }
+}

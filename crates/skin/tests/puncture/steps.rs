@@ -1,0 +1,35 @@
+//! The path does not depend on the steps with which it is followed.
+
+use contact::Law;
+use skin::puncture::Parameters;
+use solver::Settings;
+use substrate::Calibrations;
+
+use crate::samples::{on_row, solve_with, spread};
+
+#[test]
+fn steps_ten_times_smaller_give_the_same_measures() {
+    let known = Calibrations::default();
+    let coarse = Settings::default();
+    let fine = Settings {
+        first_step: coarse.first_step / 10.0,
+        max_step: coarse.max_step / 10.0,
+        ..coarse
+    };
+    for design in spread() {
+        for law in [Law::PRINTED, Law::EXCHANGED] {
+            let with = |solver| {
+                let parameters = Parameters { law, solver, ..on_row(41) };
+                solve_with(&known, &design, &parameters)
+            };
+            let [ours, theirs] = [with(coarse), with(fine)];
+            assert!(theirs.path.len() > 3 * ours.path.len());
+            crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);
+            let story = |puncture: &skin::puncture::Puncture| {
+                let events = puncture.events.iter();
+                events.map(|e| (e.left_scale, e.kind.name(), e.change)).collect::<Vec<_>>()
+            };
+            assert_eq!(story(&ours), story(&theirs), "{design:?}");
+        }
+    }
+}

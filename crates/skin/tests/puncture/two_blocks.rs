@@ -1,0 +1,44 @@
+//! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve where they touch.
+
+use skin::puncture::{Parameters, PathPoint, Puncture};
+use skin::{Base, Change};
+use solver::Settings;
+
+use crate::samples::{blocks, design, on_row, solve};
+
+fn finely(scales: usize) -> Parameters {
+    let solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
+    Parameters { solver, ..on_row(scales) }
+}
+
+/// Mean stiffness between two points, in units of that of the force.
+fn stiffness(points: &[PathPoint]) -> f64 {
+    (points[1].force - points[0].force) / (points[1].displacement - points[0].displacement)
+}
+
+/// Stiffness just after over just before the first contact.
+fn kink(puncture: &Puncture) -> f64 {
+    let at = puncture.path.iter().position(|point| point.contacts > 0).unwrap();
+    stiffness(&puncture.path[at..]) / stiffness(&puncture.path[at - 1..])
+}
+
+#[test]
+fn the_stiffness_jumps_up_where_they_touch() {
+    let puncture = solve(&blocks(), &finely(2));
+    crate::complete(&puncture);
+    assert_eq!(puncture.events[0].change, Change::Closed);
+    let kink = kink(&puncture);
+    println!("two blocks, L/t = 1, d/t = 0.1: stiffness after over before contact {kink:.3}");
+    assert!(kink > 1.5, "{kink}");
+    // It is the only kink: elsewhere stiffness changes by little from step to step.
+    let slopes: Vec<f64> = puncture.path.windows(2).map(stiffness).collect();
+    let jumps = slopes.windows(2).filter(|pair| (pair[1] / pair[0] - 1.0).abs() > 0.05).count();
+    assert_eq!(jumps, 1);
+}
+
+#[test]
+fn blocks_far_apart_do_not_touch() {
+    let puncture = solve(&design(1.0, 1.0, 0.0, Base::L), &finely(2));
+    assert_eq!(crate::complete(&puncture).first_contact_displacement, None);
+    assert!(puncture.events.is_empty());
+}

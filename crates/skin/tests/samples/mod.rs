@@ -1,0 +1,120 @@
+//! Designs with known traits, for the tests, benches and examples of this crate.
+
+// Each of them takes what it needs.
+#![allow(dead_code)]
+
+use skin::puncture::{self, Parameters, Puncture, RowLength};
+use skin::{Base, Design};
+use substrate::{Calibrations, Springs};
+
+/// Both meanings of the length of a scale.
+pub const BASES: [Base; 2] = [Base::L, Base::TwoL];
+
+/// Aspect ratios of the reference study.
+const LENGTHS: [f64; 12] = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+
+/// A design of unit width.
+pub fn design(gap: f64, length: f64, slant_deg: f64, base: Base) -> Design {
+    Design { gap, length, slant_deg, base, width: 1.0 }
+}
+
+/// Blocks as long as they are thick and close together: one contact, which slides.
+pub fn blocks() -> Design {
+    design(0.1, 1.0, 0.0, Base::L)
+}
+
+/// The longest domino of the reference study: dozens of slender, steep scales touch.
+pub fn domino() -> Design {
+    design(0.1, 0.1, 75.0, Base::L)
+}
+
+/// A design whose contacts end a dozen scales from the load, and whose path is the same on
+/// longer rows.
+pub fn settled() -> Design {
+    design(0.2, 0.5, 60.0, Base::L)
+}
+
+/// A few designs that differ in all that matters: contacts none to many, open, at edges and at
+/// corners, with loads that rise, fall and turn back.
+pub fn spread() -> Vec<Design> {
+    vec![
+        blocks(),
+        settled(),
+        design(0.1, 1.0, 75.0, Base::L),
+        design(0.1, 1.0, 45.0, Base::TwoL),
+        design(0.3, 0.1, 75.0, Base::L),
+        design(0.05, 0.3, 30.0, Base::TwoL),
+        design(0.4, 0.05, 60.0, Base::TwoL),
+        design(1.0, 0.025, 75.0, Base::L),
+        design(1.0, 0.5, 45.0, Base::L),
+    ]
+}
+
+/// The 720 designs of the reference study.
+pub fn reference_study(base: Base) -> Vec<Design> {
+    let mut designs = Vec::with_capacity(720);
+    for gap in 1..=10 {
+        for length in LENGTHS {
+            for slant in 0..6 {
+                let gap = f64::from(gap) / 10.0;
+                designs.push(design(gap, length, 15.0 * f64::from(slant), base));
+            }
+        }
+    }
+    designs
+}
+
+/// Designs drawn evenly from `d/t` 0.05 to 2, `L/t` 0.02 to 3, slants from 0° to 80° and both bases.
+pub fn random(count: usize, seed: u64) -> Vec<Design> {
+    let mut random = SplitMix64(seed);
+    let mut draw = |low: f64, high: f64| low + (high - low) * random.next();
+    (0..count)
+        .map(|_| {
+            let (gap, length, slant) = (draw(0.05, 2.0), draw(0.02, 3.0), draw(0.0, 80.0));
+            let base = BASES[usize::from(draw(0.0, 1.0) >= 0.5)];
+            design(gap, length, slant, base)
+        })
+        .collect()
+}
+
+/// By how much the left side of a scale has turned past the base of its left neighbour, degrees:
+/// the most along the row. Where this is positive the corner between side and base, which is as
+/// sharp as the scales are slanted, may point into the neighbour from below.
+pub fn fold_deg(design: &Design, puncture: &Puncture) -> f64 {
+    let turned = puncture.scales.windows(2).map(|pair| pair[0].rotation_deg - pair[1].rotation_deg);
+    turned.fold(0.0, f64::max) - (90.0 - design.slant_deg)
+}
+
+/// The generator of Steele, Lea & Flood 2014 (doi 10.1145/2660193.2660195).
+struct SplitMix64(u64);
+
+impl SplitMix64 {
+    /// Evenly distributed in `[0, 1)`.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// The reference parameters on a row of this many scales.
+pub fn on_row(scales: usize) -> Parameters {
+    Parameters { scales: RowLength::Scales(scales), ..Parameters::default() }
+}
+
+/// Springs under a design.
+pub fn springs(design: &Design, parameters: &Parameters, known: &Calibrations) -> Springs {
+    known.get(&design.footprint(parameters.poisson_ratio).unwrap()).unwrap()
+}
+
+/// Solves a design whose springs may be known.
+pub fn solve_with(known: &Calibrations, design: &Design, parameters: &Parameters) -> Puncture {
+    puncture::solve(design, &springs(design, parameters, known), parameters).unwrap()
+}
+
+/// Solves a design.
+pub fn solve(design: &Design, parameters: &Parameters) -> Puncture {
+    solve_with(&Calibrations::default(), design, parameters)
+}

@@ -1,0 +1,342 @@
+//! Events on the path: constraints that change sides, and extrema of the load.
+
+use std::sync::Arc;
+
+use crate::newton::{ActiveSet, Condition, FLOOR, NewtonFailure, guard_slope};
+use crate::path::{Candidate, Path, Point, interpolated};
+use crate::stop::Stop;
+use crate::system::{State, System};
+
+/// An event may lie this far before the point reached: constraints that change sides together are
+/// found one after the other, and each only to round-off.
+const BACKWARD: f64 = 1e-9;
+
+/// Guards as close to zero as this at an event may change sides with the one that was located.
+const TOGETHER: f64 = 1e-10;
+
+/// Events at least this far apart happen one after the other: where edges are nearly parallel forces
+/// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
+const APART: f64 = 1e-10;
+
+/// The place of a load extremum is known to this part of its bracket, after at most so many rounds.
+const CLOSE: f64 = 1e-9;
+const MAX_ROUNDS: usize = 100;
+
+/// What happens at a point of the path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// Constraints change sides: several where symmetry makes them do so together.
+    Changed(Vec<Change>),
+    /// The load has a maximum or a minimum.
+    LoadExtremum,
+    /// The driving coordinate has reached its target.
+    Target,
+}
+
+/// A constraint that changes sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    /// Its number.
+    pub constraint: usize,
+    /// Whether it becomes active.
+    pub activated: bool,
+}
+
+impl Event {
+    /// Whether a constraint changes sides here.
+    fn changes(&self, constraint: usize) -> bool {
+        matches!(self, Self::Changed(changes) if changes.iter().any(|c| c.constraint == constraint))
+    }
+}
+
+impl<S: System> Path<S> {
+    /// The first event between the point reached and `candidate`, or `candidate` where there is none.
+    pub(crate) fn first_event(
+        &mut self,
+        from: &Point,
+        candidate: Candidate,
+    ) -> Result<Candidate, NewtonFailure> {
+        let guards = self.newton.guards(&*self.system, &candidate.state);
+        if let Some(constraint) = self.first_violated(&guards) {
+            return self.event(from, candidate, constraint);
+        }
+        for fraction in self.dips(from, &candidate, &guards) {
+            let condition = self.condition(from);
+            let distance = condition.of(&candidate.state.z) - condition.value;
+            let inside = self.trial(from, fraction * distance)?;
+            let guards = self.newton.guards(&*self.system, &inside.state);
+            if let Some(constraint) = self.first_violated(&guards) {
+                return self.event(from, inside, constraint);
+            }
+        }
+        Ok(candidate)
+    }
+
+    /// The constraint that is violated first on the way from the point reached to where the guards are `after`.
+    fn first_violated(&self, after: &[f64]) -> Option<usize> {
+        let mut first = (f64::INFINITY, None);
+        for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
+            if after < -FLOOR {
+                let fraction = before.max(0.0) / (before.max(0.0) - after);
+                if fraction < first.0 {
+                    first = (fraction, Some(c));
+                }
+            }
+        }
+        first.1
+    }
+
+    /// Where, on the way from the point reached to `candidate`, a guard seems to fall below zero and to rise
+    /// again: two events within a step, of which its ends show nothing.
+    fn dips(&mut self, from: &Point, candidate: &Candidate, after: &[f64]) -> Vec<f64> {
+        let condition = self.condition(from);
+        let distance = condition.of(&candidate.state.z) - condition.value;
+        let span = distance / condition.of(&from.leaving);
+        let falls =
+            |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
+        let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
+        let arriving = distance / condition.of(&candidate.direction);
+        let dips = falling.into_iter().filter_map(|c| {
+            let slope = guard_slope(&*self.system, &candidate.state, c, &candidate.direction);
+            let ends = [self.guards[c], after[c]];
+            dip(ends, [self.slopes[c] * span, slope * arriving])
+        });
+        dips.collect()
+    }
+
+    /// The first event between the point reached and `beyond`, where `constraint` is violated.
+    fn event(
+        &mut self,
+        from: &Point,
+        mut beyond: Candidate,
+        mut constraint: usize,
+    ) -> Result<Candidate, NewtonFailure> {
+        if from.event.as_ref().is_some_and(|event| event.changes(constraint)) {
+            // It has just changed sides, and the path leaves in the direction in which it stays
+            // valid: a step that ends otherwise was too long.
+            return Err(NewtonFailure::TooManyIterations);
+        }
+        // Each round finds an event before the last one, so as many rounds as constraints do.
+        for _ in 0..=self.guards.len() {
+            let located = self.locate(from, &beyond, constraint)?;
+            let guards = self.newton.guards(&*self.system, &located.state);
+            match self.first_violated(&guards) {
+                Some(earlier) if earlier != constraint => constraint = earlier,
+                _ => return Ok(self.changed(located, constraint, &guards)),
+            }
+            beyond = located;
+        }
+        Err(NewtonFailure::TooManyIterations)
+    }
+
+    /// The place between the point reached and `beyond` where the guard of a constraint vanishes.
+    fn locate(
+        &mut self,
+        from: &Point,
+        beyond: &Candidate,
+        constraint: usize,
+    ) -> Result<Candidate, NewtonFailure> {
+        let condition = self.condition(from);
+        let before = self.guards[constraint].max(0.0);
+        let after = self.newton.guards(&*self.system, &beyond.state)[constraint];
+        let mut state = interpolated(&from.state, &beyond.state, before / (before - after));
+        let direction = self.newton.locate(
+            &*self.system,
+            &mut state,
+            &condition,
+            constraint,
+            &self.settings,
+        )?;
+        let span = condition.of(&beyond.state.z) - condition.value;
+        let reached = condition.of(&state.z) - condition.value;
+        if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
+            return Err(NewtonFailure::TooManyIterations);
+        }
+        Ok(Candidate { state, direction: self.normalised(direction), event: None })
+    }
+
+    /// The candidate as an event: one constraint changes sides, others may do so with it.
+    fn changed(&self, located: Candidate, constraint: usize, guards: &[f64]) -> Candidate {
+        let Candidate { state, direction, .. } = located;
+        let closing = |c: usize| {
+            guards[c].abs() <= TOGETHER && guard_slope(&*self.system, &state, c, &direction) < 0.0
+        };
+        let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
+        let changes = std::iter::once(constraint)
+            .chain(others)
+            .map(|constraint| Change { constraint, activated: !state.active[constraint] })
+            .collect();
+        Candidate { state, direction, event: Some(Event::Changed(changes)) }
+    }
+
+    /// Whether the load has an extremum between the point and the candidate.
+    pub(crate) fn turns(&self, from: &Point, candidate: &Candidate) -> bool {
+        let load = self.system.load();
+        from.event != Some(Event::LoadExtremum)
+            && from.leaving[load] * candidate.direction[load] < 0.0
+    }
+
+    /// The point where the load turns, by the Illinois variant of the false position
+    /// (Dowell & Jarratt 1971, doi 10.1007/BF01934364).
+    pub(crate) fn extremum(
+        &mut self,
+        from: &Point,
+        beyond: &Candidate,
+    ) -> Result<Candidate, NewtonFailure> {
+        let load = self.system.load();
+        let condition = self.condition(from);
+        let (mut low, mut high) = (0.0, condition.of(&beyond.state.z) - condition.value);
+        let (mut f_low, mut f_high) = (from.leaving[load], beyond.direction[load]);
+        let span = high;
+        for _ in 0..MAX_ROUNDS {
+            let distance = (low * f_high - high * f_low) / (f_high - f_low);
+            let mut candidate = self.trial(from, distance)?;
+            let f = candidate.direction[load];
+            if (high - low).abs() <= CLOSE * span || f.abs() <= CLOSE * from.leaving[load].abs() {
+                candidate.event = Some(Event::LoadExtremum);
+                return Ok(candidate);
+            }
+            if f * f_high < 0.0 {
+                (low, f_low) = (high, f_high);
+            } else {
+                f_low *= 0.5;
+            }
+            (high, f_high) = (distance, f);
+        }
+        Err(NewtonFailure::TooManyIterations)
+    }
+
+    /// Lets constraints change sides, and returns the direction in which the path goes on.
+    ///
+    /// The first of `changes` does for certain. The others are about to, but may not be once the path
+    /// has turned, and one that has may have to change back: while the direction violates one of
+    /// them, it changes sides and the path turns to where it stays valid. This is the path
+    /// through events that follow each other at no distance. `changes` is left with what has changed.
+    pub(crate) fn turn(
+        &mut self,
+        state: &mut State,
+        arriving: &[f64],
+        changes: &mut Vec<Change>,
+    ) -> Result<Vec<f64>, Stop> {
+        let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
+        let mut next = changes[0];
+        changes.clear();
+        self.count_idle(state)?;
+        for _ in 0..self.most_changes() {
+            let valid = self.change(state, next);
+            if !meeting.contains(&valid) {
+                meeting.push(valid);
+            }
+            note(changes, next);
+            let leaving = self.leave(state, arriving, valid)?;
+            let Some(constraint) = self.most_violated(state, &leaving, &meeting) else {
+                return Ok(leaving);
+            };
+            next = Change { constraint, activated: !state.active[constraint] };
+        }
+        Err(Stop::Cycling)
+    }
+
+    /// The constraint that a direction violates fastest, of those that it violates at no distance.
+    fn most_violated(
+        &mut self,
+        state: &State,
+        direction: &[f64],
+        constraints: &[usize],
+    ) -> Option<usize> {
+        let guards = self.newton.guards(&*self.system, state);
+        let slopes =
+            constraints.iter().map(|&c| (c, guard_slope(&*self.system, state, c, direction)));
+        slopes
+            .filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(c, _)| c)
+    }
+
+    /// Lets a constraint change sides; returns the one that has to stay valid.
+    fn change(&mut self, state: &mut State, Change { constraint, activated }: Change) -> usize {
+        state.active[constraint] = activated;
+        state.z[self.system.constraints()[constraint]] = 0.0;
+        Arc::make_mut(&mut self.system).exchange(state, constraint)
+    }
+
+    /// Direction in which the path goes on where a constraint has changed sides: the one in which
+    /// the constraint stays valid. Restores equilibrium first, which an exchange may have disturbed.
+    fn leave(
+        &mut self,
+        state: &mut State,
+        arriving: &[f64],
+        constraint: usize,
+    ) -> Result<Vec<f64>, Stop> {
+        for condition in self.measures(state, arriving) {
+            let mut trial = state.clone();
+            let Ok(direction) = self.newton.solve(
+                &*self.system,
+                &mut trial,
+                &condition,
+                &self.settings,
+                ActiveSet::Held,
+            ) else {
+                continue;
+            };
+            let mut direction = self.normalised(direction);
+            let slope = guard_slope(&*self.system, &trial, constraint, &direction);
+            if slope < 0.0 {
+                for x in &mut direction {
+                    *x = -*x;
+                }
+            }
+            if slope != 0.0 && direction.iter().all(|x| x.is_finite()) {
+                *state = trial;
+                return Ok(direction);
+            }
+        }
+        Err(Stop::Singular)
+    }
+
+    /// Ways to measure distance, the likeliest to increase along the path first.
+    fn measures(&self, state: &State, direction: &[f64]) -> Vec<Condition> {
+        let controls = self.system.controls();
+        let arc =
+            controls.iter().map(|c| (c.index, direction[c.index] / c.scale.powi(2))).collect();
+        let single = controls.iter().map(|c| vec![(c.index, 1.0 / c.scale)]);
+        let rows = std::iter::once(arc).chain(single);
+        rows.map(|row| Condition::through(row, &state.z)).collect()
+    }
+
+    /// Counts events at one and the same place.
+    fn count_idle(&mut self, state: &State) -> Result<(), Stop> {
+        let controls = self.system.controls();
+        let moved = controls
+            .iter()
+            .any(|c| ((state.z[c.index] - self.point.state.z[c.index]) / c.scale).abs() > FLOOR);
+        self.idle = if moved { 0 } else { self.idle + 1 };
+        if self.idle > self.most_changes() { Err(Stop::Cycling) } else { Ok(()) }
+    }
+
+    /// More constraints than this do not change sides at one place.
+    fn most_changes(&self) -> usize {
+        2 * self.guards.len() + 8
+    }
+}
+
+/// Adds a change to those made, or takes it off them if it undoes one.
+fn note(changes: &mut Vec<Change>, change: Change) {
+    match changes.iter().position(|made| made.constraint == change.constraint) {
+        Some(undone) => drop(changes.remove(undone)),
+        None => changes.push(change),
+    }
+}
+
+/// Where, as a part of the way, the cubic through two values with two slopes dips below zero.
+fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
+    if !(falling < 0.0 && rising > 0.0) {
+        return None;
+    }
+    // start + falling x + square x² + cube x³
+    let square = 3.0 * (end - start) - 2.0 * falling - rising;
+    let cube = 2.0 * (start - end) + falling + rising;
+    let x = -falling / (square + (square * square - 3.0 * cube * falling).sqrt());
+    let lowest = start + x * (falling + x * (square + x * cube));
+    (lowest < 0.0 && 0.0 < x && x < 1.0).then_some(x)
+}

@@ -1,0 +1,348 @@
+//! Linear solves: LU factorisation of a band matrix.
+//!
+//! The unknowns of a row of scales are numbered along the row, so that every equation couples
+//! unknowns at most a dozen places apart and one factorisation costs time proportional to the length of the
+//! row. A general sparse LU needs two to four times as long on these matrices
+//! (`benches/linear.rs` compares them).
+
+use std::ops::Range;
+
+/// A matrix has no LU factorisation in floating point: a column without a usable pivot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the matrix is singular: no pivot in column {column} of {size}")]
+pub struct SingularMatrix {
+    /// Column, from 0.
+    pub column: usize,
+    /// Number of columns.
+    pub size: usize,
+}
+
+/// A square matrix with non-zeros only within `half` places of the diagonal.
+#[derive(Clone, Debug)]
+pub struct BandMatrix {
+    size: usize,
+    half: usize,
+    /// Row `i` holds the columns `i − half ..= i + half`.
+    rows: Vec<f64>,
+    /// First place of each row that has been written to, and one past the last: outside them it is zero.
+    used: Vec<[usize; 2]>,
+}
+
+impl BandMatrix {
+    /// A zero matrix of `size` rows with half-bandwidth `half`.
+    pub fn new(size: usize, half: usize) -> Self {
+        Self {
+            size,
+            half,
+            rows: vec![0.0; size * (2 * half + 1)],
+            used: vec![[2 * half + 1, 0]; size],
+        }
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Half-bandwidth.
+    pub fn half_bandwidth(&self) -> usize {
+        self.half
+    }
+
+    /// Sets every entry to zero.
+    pub fn clear(&mut self) {
+        for row in 0..self.size {
+            self.clear_row(row);
+        }
+    }
+
+    /// Adds `value` to the entry at (`row`, `column`).
+    ///
+    /// # Panics
+    /// If the entry lies outside the band.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let place = self.place(row, column);
+        let start = row * self.width();
+        self.rows[start + place] += value;
+        let [first, end] = self.used[row];
+        self.used[row] = [first.min(place), end.max(place + 1)];
+    }
+
+    /// The entry at (`row`, `column`), which must lie within the band.
+    ///
+    /// # Panics
+    /// If the entry lies outside the band.
+    pub fn get(&self, row: usize, column: usize) -> f64 {
+        self.rows[row * self.width() + self.place(row, column)]
+    }
+
+    /// Replaces a row by zeros.
+    pub fn clear_row(&mut self, row: usize) {
+        let start = row * self.width();
+        let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
+        if first < end {
+            self.rows[start + first..start + end].fill(0.0);
+        }
+    }
+
+    /// The columns that a row may use.
+    pub fn columns(&self, row: usize) -> Range<usize> {
+        row.saturating_sub(self.half)..(row + self.half + 1).min(self.size)
+    }
+
+    /// The product with a vector.
+    pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        (0..self.size)
+            .map(|row| self.columns(row).map(|column| self.get(row, column) * x[column]).sum())
+            .collect()
+    }
+
+    fn width(&self) -> usize {
+        2 * self.half + 1
+    }
+
+    /// Where a column stands in a row.
+    fn place(&self, row: usize, column: usize) -> usize {
+        assert!(
+            row.abs_diff(column) <= self.half && column < self.size,
+            "entry ({row}, {column}) lies outside the band of half-width {}",
+            self.half
+        );
+        column + self.half - row
+    }
+}
+
+/// LU factors of a [`BandMatrix`], with rows scaled to equal size and exchanged for the largest
+/// pivot. The storage is reused from one factorisation to the next.
+///
+/// Unknowns that are known to vanish, such as the forces of open contacts, are left out: what remains
+/// is a band matrix again, a smaller and a narrower one.
+///
+/// Row exchanges widen the upper factor to twice the half-bandwidth (Golub & Van Loan, *Matrix
+/// Computations*, 4th ed. 2013, §4.3.5, isbn 978-1-4214-0794-4). Most rows need less, and each is worked on
+/// up to its last non-zero only.
+#[derive(Clone, Debug)]
+pub struct BandLu {
+    size: usize,
+    half: usize,
+    /// The unknowns that are solved for, in order. Rows and columns below are numbered among them.
+    kept: Vec<usize>,
+    /// Row `i` of the upper factor: columns `i − half ..= i + 2 half`, of which those from the
+    /// diagonal to `ends[i]` are in use.
+    upper: Vec<f64>,
+    /// One past the last column of each row that may be non-zero.
+    ends: Vec<usize>,
+    /// The last row that reaches each column.
+    reach: Vec<usize>,
+    /// Row `k`: the multipliers that column `k` was eliminated with, rows `k + 1 ..= reach[k]`.
+    lower: Vec<f64>,
+    pivots: Vec<usize>,
+    /// One over the diagonal of the upper factor.
+    inverses: Vec<f64>,
+    scales: Vec<f64>,
+}
+
+impl BandLu {
+    /// Storage for the factors of matrices of `size` rows and half-bandwidth `half`.
+    pub fn new(size: usize, half: usize) -> Self {
+        Self {
+            size,
+            half,
+            kept: Vec::with_capacity(size),
+            upper: vec![0.0; size * (3 * half + 1)],
+            ends: vec![0; size],
+            reach: Vec::with_capacity(size),
+            lower: vec![0.0; size * half],
+            pivots: vec![0; size],
+            inverses: vec![1.0; size],
+            scales: vec![1.0; size],
+        }
+    }
+
+    /// Factorises `matrix`, forgetting the factors held before.
+    ///
+    /// # Errors
+    /// If a column has no finite, non-zero pivot.
+    pub fn factorise(&mut self, matrix: &BandMatrix) -> Result<(), SingularMatrix> {
+        self.factorise_without(matrix, &[])
+    }
+
+    /// Factorises what remains of `matrix` without the rows and columns of the unknowns `zero` (in
+    /// ascending order), which are known to vanish.
+    ///
+    /// # Errors
+    /// If a column has no finite, non-zero pivot.
+    pub fn factorise_without(
+        &mut self,
+        matrix: &BandMatrix,
+        zero: &[usize],
+    ) -> Result<(), SingularMatrix> {
+        debug_assert!(matrix.size == self.size && matrix.half == self.half);
+        let mut zero = zero.iter().copied().peekable();
+        self.kept.clear();
+        self.kept.extend((0..self.size).filter(|&i| zero.next_if_eq(&i).is_none()));
+        self.load(matrix)?;
+        for k in 0..self.kept.len() {
+            self.pivot(k)?;
+            self.eliminate(k);
+        }
+        Ok(())
+    }
+
+    /// Solves in place: `x` holds the right-hand side, then the solution. Where an unknown was left out, the
+    /// right-hand side does not count and the solution is zero.
+    pub fn solve(&self, x: &mut [f64]) {
+        let count = self.kept.len();
+        for (i, &kept) in self.kept.iter().enumerate() {
+            x[i] = x[kept] * self.scales[i];
+        }
+        self.solve_kept(&mut x[..count]);
+        let mut end = self.size;
+        for (i, &kept) in self.kept.iter().enumerate().rev() {
+            x.swap(i, kept);
+            x[kept + 1..end].fill(0.0);
+            end = kept;
+        }
+        x[..end].fill(0.0);
+    }
+
+    fn solve_kept(&self, x: &mut [f64]) {
+        for k in 0..x.len() {
+            x.swap(k, self.pivots[k]);
+            let factor = x[k];
+            if factor != 0.0 {
+                let multipliers = &self.lower[k * self.half..][..self.reach[k] - k];
+                subtract(&mut x[k + 1..], factor, multipliers);
+            }
+        }
+        for k in (0..x.len()).rev() {
+            let row = &self.upper[self.diagonal(k) + 1..][..self.ends[k] - k - 1];
+            let sum: f64 = x[k + 1..].iter().zip(row).map(|(x, u)| x * u).sum();
+            x[k] = (x[k] - sum) * self.inverses[k];
+        }
+    }
+
+    /// Copies the rows of `matrix` that are kept, each divided by its largest entry.
+    fn load(&mut self, matrix: &BandMatrix) -> Result<(), SingularMatrix> {
+        let count = self.kept.len();
+        self.reach.clear();
+        self.reach.extend(0..count);
+        for i in 0..count {
+            let first = self.load_row(i, matrix)?;
+            self.reach[first] = self.reach[first].max(i);
+        }
+        for k in 1..count {
+            self.reach[k] = self.reach[k].max(self.reach[k - 1]);
+        }
+        Ok(())
+    }
+
+    /// Copies row `i` and returns its first column, or the diagonal where that comes before.
+    fn load_row(&mut self, i: usize, matrix: &BandMatrix) -> Result<usize, SingularMatrix> {
+        let (half, row) = (self.half, self.kept[i]);
+        let entries = &matrix.rows[row * matrix.width()..][..matrix.width()];
+        let [leftmost, rightmost] = matrix.used[row];
+        let before = self.kept[..i].iter().rev().take_while(|&&j| j + half >= row + leftmost);
+        let after = self.kept[i + 1..].iter().take_while(|&&j| j + half < row + rightmost);
+        let (first, end) = (i - before.count(), i + 1 + after.count());
+        let start = i * (3 * half + 1);
+        let target = &mut self.upper[start..][..end + half - i];
+        let (left, target) = target.split_at_mut(first + half - i);
+        left.fill(0.0);
+        let mut largest = 0.0_f64;
+        for (target, &j) in target.iter_mut().zip(&self.kept[first..end]) {
+            *target = entries[j + half - row];
+            largest = largest.max(target.abs());
+        }
+        let scale = 1.0 / largest;
+        if !(scale.is_finite() && scale > 0.0) {
+            return Err(self.singular(i));
+        }
+        for x in target {
+            *x *= scale;
+        }
+        self.scales[i] = scale;
+        self.ends[i] = end;
+        Ok(first)
+    }
+
+    fn singular(&self, column: usize) -> SingularMatrix {
+        SingularMatrix { column: self.kept[column], size: self.size }
+    }
+
+    /// Exchanges row `k` for the one below with the largest entry in column `k`.
+    fn pivot(&mut self, k: usize) -> Result<(), SingularMatrix> {
+        let column = self.upper[self.diagonal(k)..].iter().step_by((3 * self.half).max(1));
+        let (mut row, mut value) = (k, 0.0_f64);
+        for (i, &x) in (k..=self.reach[k]).zip(column) {
+            if x.abs() > value.abs() {
+                (row, value) = (i, x);
+            }
+        }
+        if value == 0.0 || !value.is_finite() {
+            return Err(self.singular(k));
+        }
+        self.pivots[k] = row;
+        self.inverses[k] = 1.0 / value;
+        if row != k {
+            self.exchange(k, row);
+        }
+        Ok(())
+    }
+
+    /// Exchanges the columns from `k` on of the rows `k` and `row`, below it.
+    fn exchange(&mut self, k: usize, row: usize) {
+        let ends = [self.ends[k], self.ends[row]];
+        let end = ends[0].max(ends[1]);
+        self.extend(k, end);
+        self.extend(row, end);
+        let (first, second) = (self.diagonal(k), self.diagonal(row) + k - row);
+        let (head, tail) = self.upper.split_at_mut(second);
+        head[first..first + end - k].swap_with_slice(&mut tail[..end - k]);
+        self.ends[k] = ends[1];
+        self.ends[row] = ends[0].max(row + 1);
+    }
+
+    /// Subtracts multiples of row `k` from the rows below that reach its column.
+    fn eliminate(&mut self, k: usize) {
+        let (width, count) = (3 * self.half + 1, self.ends[k] - k);
+        let (head, tail) = self.upper.split_at_mut((k + 1) * width);
+        let pivot = &head[k * width + self.half..][1..count];
+        let rows = tail.chunks_exact_mut(width).zip(&mut self.ends[k + 1..=self.reach[k]]);
+        let multipliers = &mut self.lower[k * self.half..];
+        for (d, ((row, end), multiplier)) in (1..).zip(rows.zip(multipliers)) {
+            // The columns of `row` from `k` on, of which `used` are in use.
+            let (row, used) = (&mut row[self.half - d..], *end - k);
+            *multiplier = row[0] * self.inverses[k];
+            if *multiplier != 0.0 {
+                if used < count {
+                    row[used..count].fill(0.0);
+                    *end = k + count;
+                }
+                subtract(&mut row[1..], *multiplier, pivot);
+            }
+        }
+    }
+
+    /// Brings columns of a row into use, up to `end`.
+    fn extend(&mut self, row: usize, end: usize) {
+        let used = self.ends[row];
+        if used < end {
+            let diagonal = self.diagonal(row);
+            self.upper[diagonal + used - row..diagonal + end - row].fill(0.0);
+            self.ends[row] = end;
+        }
+    }
+
+    /// Where the diagonal entry of a row stands.
+    fn diagonal(&self, row: usize) -> usize {
+        row * (3 * self.half + 1) + self.half
+    }
+}
+
+/// `x ← x − factor y`, over the length of `y`.
+fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x -= factor * y;
+    }
+}

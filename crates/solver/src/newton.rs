@@ -1,0 +1,306 @@
+//! Newton's method for one point of the path.
+
+use crate::linear::{BandLu, BandMatrix, SingularMatrix};
+use crate::step::Settings;
+use crate::system::{Residual, State, System};
+
+/// A guard below minus this is violated; what is smaller is round-off.
+pub(crate) const FLOOR: f64 = 1e-12;
+
+/// Part of the path over which the slopes of guards are differences.
+const DIFFERENCE: f64 = 1e-7;
+
+/// The condition `Σ c_k z_k = value` that picks a point of the path. Its unknowns lie within a
+/// half-bandwidth of the load, whose row it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Condition {
+    /// Indices and coefficients.
+    pub row: Vec<(usize, f64)>,
+    /// Right-hand side.
+    pub value: f64,
+}
+
+impl Condition {
+    /// The condition with this left-hand side that `z` satisfies.
+    pub fn through(row: Vec<(usize, f64)>, z: &[f64]) -> Self {
+        let condition = Self { row, value: 0.0 };
+        Self { value: condition.of(z), ..condition }
+    }
+
+    /// The left-hand side.
+    pub fn of(&self, z: &[f64]) -> f64 {
+        self.row.iter().map(|&(index, coefficient)| coefficient * z[index]).sum()
+    }
+}
+
+/// Why Newton's method did not reach an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NewtonFailure {
+    /// The tangent has no inverse.
+    #[error(transparent)]
+    Singular(#[from] SingularMatrix),
+    /// An equation has no finite value.
+    #[error("the residual is not a finite number")]
+    NotFinite,
+    /// The limit on the iterations was hit.
+    #[error("the residual did not fall below the tolerance")]
+    TooManyIterations,
+}
+
+/// What happens to the active set during the iteration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActiveSet {
+    /// It stays as it is: the equations are smooth, the signs are for the caller to check.
+    Held,
+    /// It follows the iterates: the semismooth Newton method, also known as the primal–dual
+    /// active-set strategy (Hintermüller, Ito & Kunisch 2002, doi 10.1137/S1052623401383558).
+    Updated,
+}
+
+/// Storage for the solves of one system, kept from one to the next.
+#[derive(Clone, Debug)]
+pub struct Newton {
+    matrix: BandMatrix,
+    lu: BandLu,
+    residual: Residual,
+    step: Vec<f64>,
+    /// Unknowns of the inactive constraints.
+    inactive: Vec<usize>,
+    /// Residual norm of every iteration since this was last taken.
+    pub(crate) history: Vec<f64>,
+}
+
+impl Newton {
+    /// Storage for systems like this one.
+    pub fn new(system: &impl System) -> Self {
+        let (size, half) = (system.size(), system.half_bandwidth());
+        debug_assert!(system.constraints().is_sorted());
+        Self {
+            matrix: BandMatrix::new(size, half),
+            lu: BandLu::new(size, half),
+            residual: Residual::new(size),
+            step: vec![0.0; size],
+            inactive: Vec::with_capacity(system.constraints().len()),
+            history: Vec::new(),
+        }
+    }
+
+    /// Moves `state` to the equilibrium that satisfies `condition`, and returns the direction of
+    /// the path there: `∂z/∂value`.
+    ///
+    /// # Errors
+    /// If the iteration does not converge; `state` is then some iterate.
+    pub fn solve<S: System>(
+        &mut self,
+        system: &S,
+        state: &mut State,
+        condition: &Condition,
+        settings: &Settings,
+        active_set: ActiveSet,
+    ) -> Result<Vec<f64>, NewtonFailure> {
+        rest(system, state);
+        for _ in 0..=settings.max_iterations {
+            let changed = active_set == ActiveSet::Updated && self.update(system, state);
+            let norm = self.evaluate(system, state, condition)?;
+            self.factorise(system, state, condition)?;
+            self.lu.solve(&mut self.step);
+            add(&mut state.z, 1.0, &self.step);
+            if norm <= settings.tolerance && !changed {
+                return Ok(self.direction(system));
+            }
+        }
+        Err(NewtonFailure::TooManyIterations)
+    }
+
+    /// Moves `state` along the path to the point where a constraint is about to change sides: its
+    /// unknown vanishes if it is active, its equation if it is not. `condition` only fixes how the
+    /// path is measured. Returns the direction of the path there, as [`Newton::solve`] does.
+    ///
+    /// # Errors
+    /// If the iteration does not converge; `state` is then some iterate.
+    pub fn locate<S: System>(
+        &mut self,
+        system: &S,
+        state: &mut State,
+        condition: &Condition,
+        constraint: usize,
+        settings: &Settings,
+    ) -> Result<Vec<f64>, NewtonFailure> {
+        let mut condition = condition.clone();
+        rest(system, state);
+        for _ in 0..=settings.max_iterations {
+            condition.value = condition.of(&state.z);
+            let norm = self.evaluate(system, state, &condition)?;
+            let guard = self.guard(system, state, constraint);
+            self.factorise(system, state, &condition)?;
+            self.lu.solve(&mut self.step);
+            let direction = self.direction(system);
+            let along = |step: &[f64]| guard_slope(system, state, constraint, step);
+            let distance = -(guard + along(&self.step)) / along(&direction);
+            if !distance.is_finite() {
+                return Err(NewtonFailure::NotFinite);
+            }
+            add(&mut state.z, 1.0, &self.step);
+            add(&mut state.z, distance, &direction);
+            if norm <= settings.tolerance && guard.abs() <= settings.tolerance {
+                return Ok(direction);
+            }
+        }
+        Err(NewtonFailure::TooManyIterations)
+    }
+
+    /// Direction of the path at a state that is an equilibrium, measured by `condition`.
+    ///
+    /// # Errors
+    /// If the tangent is singular or the residual is not finite.
+    pub fn tangent<S: System>(
+        &mut self,
+        system: &S,
+        state: &State,
+        condition: &Condition,
+    ) -> Result<Vec<f64>, NewtonFailure> {
+        self.factorise(system, state, condition)?;
+        let direction = self.direction(system);
+        if direction.iter().all(|x| x.is_finite()) {
+            Ok(direction)
+        } else {
+            Err(NewtonFailure::NotFinite)
+        }
+    }
+
+    /// How far each constraint is from changing sides: `z_c` if active, `r_c` if not.
+    pub fn guards<S: System>(&mut self, system: &S, state: &State) -> Vec<f64> {
+        system.residual(&state.z, &state.active, &mut self.residual);
+        (0..state.active.len()).map(|c| self.guard(system, state, c)).collect()
+    }
+
+    /// How fast the guards change along a direction: exactly where active, elsewhere by differences.
+    pub(crate) fn guard_slopes<S: System>(
+        &mut self,
+        system: &S,
+        state: &State,
+        direction: &[f64],
+        guards: &[f64],
+    ) -> Vec<f64> {
+        self.step.copy_from_slice(&state.z);
+        add(&mut self.step, DIFFERENCE, direction);
+        system.residual(&self.step, &state.active, &mut self.residual);
+        let indices = system.constraints().iter().zip(&state.active);
+        let slopes = indices.zip(guards).map(|((&index, &active), guard)| {
+            if active {
+                direction[index]
+            } else {
+                (self.residual.value[index] - guard) / DIFFERENCE
+            }
+        });
+        slopes.collect()
+    }
+
+    fn guard<S: System>(&self, system: &S, state: &State, constraint: usize) -> f64 {
+        let index = system.constraints()[constraint];
+        if state.active[constraint] { state.z[index] } else { self.residual.value[index] }
+    }
+
+    /// Activates violated constraints and releases those with negative unknowns; tells whether any changed.
+    fn update<S: System>(&mut self, system: &S, state: &mut State) -> bool {
+        let guards = self.guards(system, state);
+        let mut changed = false;
+        for (c, &guard) in guards.iter().enumerate() {
+            if guard < -FLOOR {
+                state.active[c] = !state.active[c];
+                state.z[system.constraints()[c]] = 0.0;
+                changed = true;
+            }
+        }
+        changed
+    }
+
+    /// Evaluates the equations; leaves minus their values in `step` and returns their norm.
+    fn evaluate<S: System>(
+        &mut self,
+        system: &S,
+        state: &State,
+        condition: &Condition,
+    ) -> Result<f64, NewtonFailure> {
+        system.residual(&state.z, &state.active, &mut self.residual);
+        let load = system.load();
+        self.residual.value[load] = condition.of(&state.z) - condition.value;
+        self.residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
+        for (step, value) in self.step.iter_mut().zip(&self.residual.value) {
+            *step = -value;
+        }
+        for index in inactive(system, state) {
+            self.step[index] = 0.0;
+        }
+        let mut norm = 0.0_f64;
+        for (step, size) in self.step.iter().zip(&self.residual.size) {
+            let ratio = (step / size).abs();
+            if !ratio.is_finite() {
+                return Err(NewtonFailure::NotFinite);
+            }
+            norm = norm.max(ratio);
+        }
+        self.history.push(norm);
+        Ok(norm)
+    }
+
+    fn factorise<S: System>(
+        &mut self,
+        system: &S,
+        state: &State,
+        condition: &Condition,
+    ) -> Result<(), SingularMatrix> {
+        self.matrix.clear();
+        system.tangent(&state.z, &state.active, &mut self.matrix);
+        self.matrix.clear_row(system.load());
+        for &(index, coefficient) in &condition.row {
+            self.matrix.add(system.load(), index, coefficient);
+        }
+        self.inactive.clear();
+        self.inactive.extend(inactive(system, state));
+        self.lu.factorise_without(&self.matrix, &self.inactive)
+    }
+
+    /// Solution for a unit right-hand side in the row of the condition.
+    fn direction<S: System>(&self, system: &S) -> Vec<f64> {
+        let mut direction = vec![0.0; system.size()];
+        direction[system.load()] = 1.0;
+        self.lu.solve(&mut direction);
+        direction
+    }
+}
+
+/// Derivative of a guard along a direction.
+pub(crate) fn guard_slope<S: System>(
+    system: &S,
+    state: &State,
+    constraint: usize,
+    direction: &[f64],
+) -> f64 {
+    if state.active[constraint] {
+        direction[system.constraints()[constraint]]
+    } else {
+        system.slope(state, constraint, direction)
+    }
+}
+
+/// Unknowns of the inactive constraints.
+fn inactive<'a, S: System>(system: &'a S, state: &'a State) -> impl Iterator<Item = usize> + 'a {
+    let constraints = system.constraints().iter().zip(&state.active);
+    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
+}
+
+/// Sets the unknowns of inactive constraints to zero, where the iteration keeps them.
+fn rest<S: System>(system: &S, state: &mut State) {
+    for (&index, active) in system.constraints().iter().zip(&state.active) {
+        if !active {
+            state.z[index] = 0.0;
+        }
+    }
+}
+
+fn add(z: &mut [f64], factor: f64, step: &[f64]) {
+    for (z, step) in z.iter_mut().zip(step) {
+        *z += factor * step;
+    }
+}

@@ -1,0 +1,373 @@
+//! The equilibrium path: an iterator over its points.
+
+use std::sync::Arc;
+
+use crate::event::Event;
+use crate::newton::{ActiveSet, Condition, FLOOR, Newton, NewtonFailure};
+use crate::step::Settings;
+use crate::stop::Stop;
+use crate::system::{Control, State, System};
+
+/// The driving coordinate prescribes the next point while it makes up at least this part of the
+/// direction of the path; where it does not, because it turns, the arc length does.
+const DRIVES: f64 = 0.05;
+
+/// Cosine of the largest angle by which the path may turn within a step. Where it seems to turn by more,
+/// Newton's method has come to a part of the path further on, beyond a fold, or the step is too long.
+const STRAIGHT: f64 = 0.7;
+
+/// Below this distance the angle of a step is round-off.
+const SHORT: f64 = 1e-9;
+
+/// An equilibrium of the path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// The equilibrium. Where a constraint changes sides, the active set is the one with which the path goes on.
+    pub state: State,
+    /// Direction in which the path arrives, of unit length in the controls.
+    pub arriving: Vec<f64>,
+    /// Direction in which it goes on; another one where a constraint changes sides.
+    pub leaving: Vec<f64>,
+    /// What happens here.
+    pub event: Option<Event>,
+}
+
+/// The path of equilibria of a system, from a first one until the driving coordinate reaches its
+/// target, one scale.
+///
+/// Between events the active set is held and the equations are smooth: a predictor along the
+/// tangent, then Newton's method for the point at a given distance,
+///
+/// ```text
+/// r(z) = 0,    c·(z − z₀) = s,    z ≈ z₀ + s ż₀/(c·ż₀)                                (N4)
+/// ```
+///
+/// where `c` measures the driving coordinate alone, or the arc length in the controls where the driver is
+/// about to turn (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6; Allgower & Georg 2003, doi
+/// 10.1137/1.9780898719154). Where a constraint would change sides within the step, the event itself is
+/// solved for, the constraint changes sides there, and the path goes on in the direction in which the
+/// constraint stays valid. So no step straddles a kink, and a turning path (in the driver, in the load, or
+/// at an event) is followed round.
+///
+/// The iterator ends where the path does; [`Path::stop`] then tells why.
+#[derive(Clone, Debug)]
+pub struct Path<S> {
+    pub(crate) system: Arc<S>,
+    pub(crate) settings: Settings,
+    pub(crate) newton: Newton,
+    pub(crate) point: Arc<Point>,
+    /// Guards at `point`, with its active set, and how fast they change as the path leaves.
+    pub(crate) guards: Vec<f64>,
+    pub(crate) slopes: Vec<f64>,
+    step: f64,
+    points: usize,
+    /// Events since the path last moved on.
+    pub(crate) idle: usize,
+    stop: Option<Stop>,
+}
+
+/// A candidate for the next point.
+pub(crate) struct Candidate {
+    pub(crate) state: State,
+    pub(crate) direction: Vec<f64>,
+    pub(crate) event: Option<Event>,
+}
+
+impl<S: System> Path<S> {
+    /// A path from the equilibrium `start` in the direction of its driver.
+    pub fn new(system: S, start: State, settings: Settings) -> Self {
+        let nowhere = vec![0.0; system.size()];
+        let point =
+            Point { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
+        let mut path = Self {
+            newton: Newton::new(&system),
+            system: Arc::new(system),
+            settings,
+            point: Arc::new(point.clone()),
+            guards: Vec::new(),
+            slopes: Vec::new(),
+            step: settings.first_step,
+            points: 0,
+            idle: 0,
+            stop: None,
+        };
+        path.start(point);
+        path
+    }
+
+    /// The point that the path has reached.
+    pub fn point(&self) -> &Point {
+        &self.point
+    }
+
+    /// Why the path ended; `None` while it has not.
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+
+    /// The system.
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// Takes the residual norms of the Newton iterations since the last call.
+    pub fn take_history(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.newton.history)
+    }
+
+    /// The equilibrium at a fraction of the way between two neighbouring points, with the active set
+    /// between them. `None` where Newton's method does not get there.
+    ///
+    /// The system must be as it was on the way between them: [`System::exchange`] may change it at events.
+    pub fn between(&mut self, from: &Point, to: &Point, fraction: f64) -> Option<Point> {
+        self.between_from(from, to, fraction, from)
+    }
+
+    /// The same, reached from `near`, a point between the two.
+    pub(crate) fn between_from(
+        &mut self,
+        from: &Point,
+        to: &Point,
+        fraction: f64,
+        near: &Point,
+    ) -> Option<Point> {
+        let mut condition = self.condition(from);
+        let distance = fraction * (condition.of(&to.state.z) - condition.value);
+        condition.value += distance;
+        let iterations = self.newton.history.len();
+        let found = self.trial_at(near, &condition);
+        self.newton.history.truncate(iterations);
+        let Candidate { state, direction, .. } = found.ok()?;
+        let (arriving, leaving) = (direction.clone(), direction);
+        Some(Point { state, arriving, leaving, event: None })
+    }
+
+    /// This path with its system as it was at another point.
+    pub(crate) fn with_system(&self, system: Arc<S>) -> Self {
+        Self { system, ..self.clone() }
+    }
+
+    fn start(&mut self, mut point: Point) {
+        let driver = self.driver();
+        let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 0.0 };
+        match self.newton.tangent(&*self.system, &point.state, &condition) {
+            Ok(direction) => {
+                point.leaving = self.normalised(direction);
+                point.arriving.clone_from(&point.leaving);
+            }
+            Err(failure) => self.stop = Some(Stop::from(failure)),
+        }
+        self.stand(point);
+    }
+
+    /// Makes `point` the one that the path has reached.
+    fn stand(&mut self, point: Point) {
+        self.guards = self.newton.guards(&*self.system, &point.state);
+        let Point { state, leaving, .. } = &point;
+        self.slopes = self.newton.guard_slopes(&*self.system, state, leaving, &self.guards);
+        self.point = Arc::new(point);
+    }
+
+    fn driver(&self) -> Control {
+        self.system.controls()[0]
+    }
+
+    /// The driving coordinate over its scale: 1 at the target.
+    fn progress(&self, z: &[f64]) -> f64 {
+        z[self.driver().index] / self.driver().scale
+    }
+
+    pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
+        let controls = self.system.controls();
+        let square: f64 = controls.iter().map(|c| (direction[c.index] / c.scale).powi(2)).sum();
+        let factor = 1.0 / square.sqrt();
+        for x in &mut direction {
+            *x *= factor;
+        }
+        direction
+    }
+
+    /// How distance from `point` is measured; it increases along the path.
+    pub(crate) fn condition(&self, point: &Point) -> Condition {
+        let driver = self.driver();
+        let drive = self.progress(&point.leaving);
+        let row = if drive.abs() >= DRIVES {
+            vec![(driver.index, drive.signum() / driver.scale)]
+        } else {
+            let controls = self.system.controls();
+            controls.iter().map(|c| (c.index, point.leaving[c.index] / c.scale.powi(2))).collect()
+        };
+        Condition::through(row, &point.state.z)
+    }
+
+    /// The equilibrium at a distance from a point, with the active set with which it is left.
+    pub(crate) fn trial(
+        &mut self,
+        from: &Point,
+        distance: f64,
+    ) -> Result<Candidate, NewtonFailure> {
+        let mut condition = self.condition(from);
+        condition.value += distance;
+        let candidate = self.trial_at(from, &condition)?;
+        if self.turns_sharply(from, &candidate) {
+            return Err(NewtonFailure::TooManyIterations);
+        }
+        Ok(candidate)
+    }
+
+    /// The equilibrium that satisfies `condition`, reached along the direction of the path at `near`.
+    fn trial_at(
+        &mut self,
+        near: &Point,
+        condition: &Condition,
+    ) -> Result<Candidate, NewtonFailure> {
+        let distance = condition.value - condition.of(&near.state.z);
+        let factor = distance / condition.of(&near.leaving);
+        self.correct(shifted(&near.state, factor, &near.leaving), condition)
+    }
+
+    fn correct(
+        &mut self,
+        mut state: State,
+        condition: &Condition,
+    ) -> Result<Candidate, NewtonFailure> {
+        let direction = self.newton.solve(
+            &*self.system,
+            &mut state,
+            condition,
+            &self.settings,
+            ActiveSet::Held,
+        )?;
+        Ok(Candidate { state, direction: self.normalised(direction), event: None })
+    }
+
+    /// Whether the way to the candidate, or the path there, makes a large angle with the direction
+    /// in which the path left.
+    fn turns_sharply(&self, from: &Point, candidate: &Candidate) -> bool {
+        let mut products = [0.0; 4];
+        for Control { index, scale } in self.system.controls() {
+            let leaving = from.leaving[*index] / scale;
+            let arriving = candidate.direction[*index] / scale;
+            let chord = (candidate.state.z[*index] - from.state.z[*index]) / scale;
+            let terms = [leaving * arriving, leaving * chord, chord * chord, leaving * leaving];
+            products = std::array::from_fn(|k| products[k] + terms[k]);
+        }
+        let [turn, along, chord, unit] = products;
+        chord > SHORT * SHORT
+            && (turn < STRAIGHT * unit || along < STRAIGHT * (chord * unit).sqrt())
+    }
+
+    /// The next point of the path, or why there is none.
+    fn advance(&mut self) -> Result<Point, Stop> {
+        loop {
+            let distance = self.distance();
+            let before = self.newton.history.len();
+            let attempt = self.attempt(distance);
+            let iterations = self.newton.history.len() - before;
+            match attempt {
+                Ok(candidate) => {
+                    self.adapt(iterations, candidate.event.is_none());
+                    return self.accept(candidate);
+                }
+                Err(failure) => self.shorten(distance, failure)?,
+            }
+        }
+    }
+
+    /// The next distance: the step, but not past the target.
+    fn distance(&self) -> f64 {
+        let drive = self.progress(&self.point.leaving);
+        let left = 1.0 - self.progress(&self.point.state.z);
+        if drive >= DRIVES { self.step.min(left) } else { self.step }
+    }
+
+    fn shorten(&mut self, distance: f64, failure: NewtonFailure) -> Result<(), Stop> {
+        self.step = distance / 3.0;
+        if self.step < self.settings.min_step { Err(failure.into()) } else { Ok(()) }
+    }
+
+    fn adapt(&mut self, iterations: usize, smooth: bool) {
+        if smooth && iterations <= 5 {
+            self.step = (self.step * 1.7).min(self.settings.max_step);
+        } else if smooth && iterations > 8 {
+            self.step *= 0.7;
+        }
+    }
+
+    /// A step of the given distance, cut short at the first event within it.
+    fn attempt(&mut self, distance: f64) -> Result<Candidate, NewtonFailure> {
+        let from = Arc::clone(&self.point);
+        let mut candidate = self.trial(&from, distance)?;
+        if self.progress(&candidate.state.z) > 1.0 {
+            candidate = self.target(&from, &candidate)?;
+        }
+        candidate = self.first_event(&from, candidate)?;
+        if self.turns(&from, &candidate) {
+            candidate = self.extremum(&from, &candidate)?;
+        }
+        Ok(candidate)
+    }
+
+    /// The point between two where the driver is at its target.
+    fn target(&mut self, from: &Point, beyond: &Candidate) -> Result<Candidate, NewtonFailure> {
+        let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
+        let state = interpolated(&from.state, &beyond.state, (1.0 - start) / (end - start));
+        let driver = self.driver();
+        let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 1.0 };
+        self.correct(state, &condition)
+    }
+
+    fn accept(&mut self, candidate: Candidate) -> Result<Point, Stop> {
+        let Candidate { mut state, direction: arriving, mut event } = candidate;
+        let leaving = match &mut event {
+            Some(Event::Changed(changes)) => self.turn(&mut state, &arriving, changes)?,
+            _ => arriving.clone(),
+        };
+        if event.is_none() && self.at_target(&state) {
+            event = Some(Event::Target);
+        }
+        Ok(Point { state, arriving, leaving, event })
+    }
+
+    fn at_target(&self, state: &State) -> bool {
+        (self.progress(&state.z) - 1.0).abs() <= FLOOR
+    }
+}
+
+impl<S: System> Iterator for Path<S> {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        if self.stop.is_some() {
+            return None;
+        }
+        if self.points >= self.settings.max_points {
+            self.stop = Some(Stop::TooManyPoints);
+            return None;
+        }
+        self.points += 1;
+        match self.advance() {
+            Ok(point) => {
+                if self.at_target(&point.state) {
+                    self.stop = Some(Stop::Reached);
+                }
+                self.stand(point.clone());
+                Some(point)
+            }
+            Err(stop) => {
+                self.stop = Some(stop);
+                None
+            }
+        }
+    }
+}
+
+fn shifted(state: &State, factor: f64, direction: &[f64]) -> State {
+    let z = state.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
+    State { z, active: state.active.clone() }
+}
+
+pub(crate) fn interpolated(from: &State, to: &State, fraction: f64) -> State {
+    let z = from.z.iter().zip(&to.z).map(|(a, b)| a + fraction * (b - a)).collect();
+    State { z, active: from.active.clone() }
+}

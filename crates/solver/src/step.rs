@@ -1,0 +1,31 @@
+//! Step sizes and tolerances.
+
+/// How finely a path is followed, and when a point of it counts as an equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// First step, as a fraction of the whole path (of the target of the driving coordinate).
+    pub first_step: f64,
+    /// Largest step, as a fraction of the whole path.
+    pub max_step: f64,
+    /// Smallest step, as a fraction of the whole path; below it the path stops.
+    pub min_step: f64,
+    /// Newton's iteration ends when no equation, scaled, is off by more than this.
+    pub tolerance: f64,
+    /// Iterations after which a Newton solve has failed and the step is halved.
+    pub max_iterations: usize,
+    /// Equilibria after which the path stops.
+    pub max_points: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            first_step: 0.01,
+            max_step: 0.05,
+            min_step: 1e-9,
+            tolerance: 1e-10,
+            max_iterations: 12,
+            max_points: 100_000,
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! Why a path ended.
+
+use std::fmt;
+
+use crate::newton::NewtonFailure;
+
+/// Why a path ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The driving coordinate reached its target.
+    Reached,
+    /// Newton's iteration did not converge at the smallest step.
+    NoConvergence,
+    /// The tangent is singular: the path has no single continuation.
+    Singular,
+    /// The limit on the number of equilibria was hit.
+    TooManyPoints,
+    /// Contacts open and close at one point without the path moving on.
+    Cycling,
+    /// A residual is no longer a finite number.
+    NotFinite,
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Reached => "reached",
+            Self::NoConvergence => "no convergence",
+            Self::Singular => "singular tangent",
+            Self::TooManyPoints => "too many points",
+            Self::Cycling => "cycling contacts",
+            Self::NotFinite => "not finite",
+        })
+    }
+}
+
+impl From<NewtonFailure> for Stop {
+    fn from(failure: NewtonFailure) -> Self {
+        match failure {
+            NewtonFailure::Singular(_) => Self::Singular,
+            NewtonFailure::NotFinite => Self::NotFinite,
+            NewtonFailure::TooManyIterations => Self::NoConvergence,
+        }
+    }
+}

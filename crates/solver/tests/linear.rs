@@ -1,0 +1,149 @@
+//! Band LU against faer.
+
+use approx::assert_relative_eq;
+use faer::prelude::*;
+use faer::{Col, Mat};
+use proptest::prelude::*;
+use solver::{BandLu, BandMatrix};
+
+/// A band matrix with one entry for each number of `entries` within its band, row by row; numbers above 2
+/// stand for zeros.
+fn matrix(size: usize, half: usize, entries: &[f64]) -> BandMatrix {
+    let mut matrix = BandMatrix::new(size, half);
+    let places = (0..size).flat_map(|i| matrix.columns(i).map(move |j| (i, j)));
+    let places: Vec<_> = places.collect();
+    for ((i, j), &entry) in places.into_iter().zip(entries) {
+        if entry <= 2.0 {
+            matrix.add(i, j, entry);
+        }
+    }
+    matrix
+}
+
+fn at(matrix: &BandMatrix, i: usize, j: usize) -> f64 {
+    if i.abs_diff(j) <= matrix.half_bandwidth() { matrix.get(i, j) } else { 0.0 }
+}
+
+/// Solution of what remains of the system without some rows and columns, and the smallest pivot relative to the
+/// largest: dense, by faer.
+fn reference(matrix: &BandMatrix, kept: &[usize], rhs: &[f64]) -> (Vec<f64>, f64) {
+    let dense = Mat::from_fn(kept.len(), kept.len(), |i, j| at(matrix, kept[i], kept[j]));
+    let lu = dense.partial_piv_lu();
+    let x = lu.solve(Col::from_fn(kept.len(), |i| rhs[kept[i]]));
+    let pivots = (0..kept.len()).map(|i| lu.U()[(i, i)].abs());
+    let (low, high) = pivots.fold((f64::INFINITY, 0.0), |(l, h), p| (p.min(l), p.max(h)));
+    let mut full = vec![0.0; matrix.size()];
+    for (&k, x) in kept.iter().zip(x.iter()) {
+        full[k] = *x;
+    }
+    (full, low / high)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn solutions_agree_with_a_dense_solver(
+        size in 1_usize..30, half in 0_usize..6, left_out in 0_usize..4,
+        entries in prop::collection::vec(-2.0_f64..2.8, 30 * 11),
+        rhs in prop::collection::vec(-1.0_f64..1.0, 30),
+        marks in prop::collection::vec(0_usize..4, 30),
+    ) {
+        let matrix = matrix(size, half, &entries);
+        let (zero, kept): (Vec<_>, Vec<_>) = (0..size).partition(|&i| marks[i] < left_out);
+        let (expected, pivots) = reference(&matrix, &kept, &rhs);
+        prop_assume!(pivots > 1e-6);
+        let mut lu = BandLu::new(size, half);
+        // What an earlier factorisation left behind does not matter.
+        let _ = lu.factorise(&matrix);
+        lu.factorise_without(&matrix, &zero).unwrap();
+        let mut x = rhs[..size].to_vec();
+        lu.solve(&mut x);
+        let largest = expected.iter().fold(1.0_f64, |max, x| max.max(x.abs()));
+        for (x, expected) in x.iter().zip(&expected) {
+            assert_relative_eq!(*x, *expected, epsilon = 1e-8 * largest);
+        }
+    }
+
+    #[test]
+    fn the_product_with_the_solution_is_the_right_hand_side(
+        size in 1_usize..40, half in 0_usize..8,
+        entries in prop::collection::vec(-1.0_f64..1.0, 40 * 15),
+        rhs in prop::collection::vec(-1.0_f64..1.0, 40),
+    ) {
+        let mut matrix = matrix(size, half, &entries);
+        for i in 0..size {
+            matrix.add(i, i, 3.0 * (half + 1) as f64);
+        }
+        let mut lu = BandLu::new(size, half);
+        lu.factorise(&matrix).unwrap();
+        let mut x = rhs[..size].to_vec();
+        lu.solve(&mut x);
+        for (product, rhs) in matrix.times(&x).iter().zip(&rhs) {
+            assert_relative_eq!(*product, *rhs, epsilon = 1e-13);
+        }
+    }
+}
+
+#[test]
+fn a_row_of_zeros_has_no_factors() {
+    let mut matrix = BandMatrix::new(3, 1);
+    matrix.add(0, 0, 1.0);
+    matrix.add(2, 2, 1.0);
+    let error = BandLu::new(3, 1).factorise(&matrix).unwrap_err();
+    assert_eq!((error.column, error.size), (1, 3));
+    assert_eq!(error.to_string(), "the matrix is singular: no pivot in column 1 of 3");
+}
+
+#[test]
+fn dependent_rows_have_no_factors() {
+    let mut matrix = BandMatrix::new(4, 1);
+    matrix.add(0, 0, 5.0);
+    for (row, column) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
+        matrix.add(row, column, 2.0);
+    }
+    matrix.add(3, 3, 1.0);
+    assert_eq!(BandLu::new(4, 1).factorise(&matrix).unwrap_err().column, 2);
+}
+
+#[test]
+fn a_number_that_is_none_has_no_factors() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let mut matrix = BandMatrix::new(2, 1);
+        matrix.add(0, 0, 1.0);
+        matrix.add(1, 1, value);
+        assert_eq!(BandLu::new(2, 1).factorise(&matrix).unwrap_err().column, 1, "{value}");
+    }
+}
+
+#[test]
+fn a_zero_on_the_diagonal_is_exchanged() {
+    let mut matrix = BandMatrix::new(2, 1);
+    matrix.add(0, 1, 4.0);
+    matrix.add(1, 0, 2.0);
+    let mut lu = BandLu::new(2, 1);
+    lu.factorise(&matrix).unwrap();
+    let mut x = [8.0, 6.0];
+    lu.solve(&mut x);
+    assert_eq!(x, [3.0, 2.0]);
+}
+
+#[test]
+fn a_cleared_matrix_is_zero() {
+    let mut matrix = BandMatrix::new(5, 2);
+    for i in 0..5 {
+        for j in matrix.columns(i) {
+            matrix.add(i, j, 1.0);
+        }
+    }
+    matrix.clear_row(2);
+    assert_eq!(matrix.times(&[1.0; 5]), [3.0, 4.0, 0.0, 4.0, 3.0]);
+    matrix.clear();
+    assert_eq!(matrix.times(&[1.0; 5]), [0.0; 5]);
+}
+
+#[test]
+#[should_panic(expected = "entry (0, 3) lies outside the band of half-width 2")]
+fn entries_outside_the_band_are_refused() {
+    BandMatrix::new(5, 2).add(0, 3, 1.0);
+}

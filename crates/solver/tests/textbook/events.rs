@@ -1,0 +1,71 @@
+//! Constraints that change sides.
+
+use approx::assert_relative_eq;
+use solver::{Settings, Stop};
+
+use crate::problems::{bump, corner};
+use crate::{changes, extrema, follow, steps};
+
+#[test]
+fn a_bump_pushes_and_lets_go() {
+    let (points, stop) = follow(bump(), Settings::default());
+    assert_eq!(stop, Stop::Reached);
+    let changes = changes(&points);
+    let [(on, activated), (off, released)] = &changes[..] else { panic!("{changes:?}") };
+    assert_eq!((&activated[..], &released[..]), (&[(0, true)][..], &[(0, false)][..]));
+    assert_relative_eq!(on.state.z[0], 1.0, max_relative = 1e-10);
+    assert_relative_eq!(off.state.z[0], 3.0, max_relative = 1e-10);
+    for point in &points {
+        let [u, c, p] = point.state.z[..] else { unreachable!() };
+        let push = (1.0 - (u - 2.0).powi(2)).max(0.0);
+        assert_relative_eq!(c, push, epsilon = 1e-9);
+        assert_relative_eq!(p, 0.5 * u + 2.0 * push * (2.0 - u), epsilon = 1e-9);
+    }
+}
+
+/// At both events the path has two directions, and each is the one of its side.
+#[test]
+fn the_path_has_a_kink_where_a_bump_begins_and_ends() {
+    let (points, _) = follow(bump(), Settings::default());
+    let slopes = changes(&points).into_iter().map(|(point, _)| {
+        [&point.arriving, &point.leaving].map(|direction| direction[2] / direction[0])
+    });
+    // p′ = 1/2 − 2c + 2 (2 − u) c′ with c′ = 2 (2 − u) on the bump.
+    for (slopes, expected) in slopes.zip([[0.5, 4.5], [4.5, 0.5]]) {
+        assert_relative_eq!(slopes[0], expected[0], max_relative = 1e-9);
+        assert_relative_eq!(slopes[1], expected[1], max_relative = 1e-9);
+    }
+}
+
+#[test]
+fn a_bump_within_one_step_is_not_missed() {
+    let (points, stop) = follow(bump(), steps(1.0));
+    assert_eq!(stop, Stop::Reached);
+    let places: Vec<f64> = changes(&points).iter().map(|(point, _)| point.state.z[0]).collect();
+    assert_eq!(places.len(), 2);
+    assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
+    assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
+}
+
+#[test]
+fn a_path_that_turns_back_at_an_event_goes_on() {
+    let (points, stop) = follow(corner(), Settings::default());
+    assert_eq!(stop, Stop::Reached);
+    let changes = changes(&points);
+    assert_eq!(changes.len(), 1);
+    let turn = changes[0].0;
+    assert_relative_eq!(turn.state.z[0], 1.0, max_relative = 1e-10);
+    assert!(turn.arriving[0] > 0.0 && turn.leaving[0] < 0.0 && turn.leaving[1] > 0.0);
+    let least = points.iter().filter(|point| point.state.active[0]).map(|point| point.state.z[0]);
+    assert_relative_eq!(least.reduce(f64::min).unwrap(), 0.75, epsilon = 1e-3);
+    let end = &points.last().unwrap().state.z;
+    assert_relative_eq!(end[0], 2.0, max_relative = 1e-12);
+    assert_relative_eq!(end[1], 0.5 * (1.0 + 5.0_f64.sqrt()), max_relative = 1e-9);
+}
+
+/// On the corner's way back `p = u + 3c` with `u = 1 − c + c²` rises all the time.
+#[test]
+fn a_turn_at_an_event_is_no_load_extremum() {
+    let (points, _) = follow(corner(), Settings::default());
+    assert_eq!(extrema(&points).len(), 0);
+}

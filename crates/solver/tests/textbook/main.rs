@@ -1,0 +1,41 @@
+//! Paths and equilibria with known answers.
+
+mod events;
+mod folds;
+mod obstacle;
+mod peaks;
+mod problems;
+mod stops;
+mod tangents;
+
+use solver::{Event, Path, Point, Settings, State, Stop, System};
+
+/// Steps of a size.
+fn steps(largest: f64) -> Settings {
+    Settings { first_step: largest, max_step: largest, ..Settings::default() }
+}
+
+/// All points of a path from rest, and why it ended.
+fn follow(system: impl System, settings: Settings) -> (Vec<Point>, Stop) {
+    let rest = State::at_rest(&system);
+    let mut path = Path::new(system, rest, settings);
+    let points = path.by_ref().collect();
+    (points, path.stop().expect("an iterator that has ended tells why"))
+}
+
+/// The loads at the extrema of a path, with the other unknowns.
+fn extrema(points: &[Point]) -> Vec<&[f64]> {
+    let extrema = points.iter().filter(|point| point.event == Some(Event::LoadExtremum));
+    extrema.map(|point| point.state.z.as_slice()).collect()
+}
+
+/// The constraints that change sides along a path, with the point where they do.
+fn changes(points: &[Point]) -> Vec<(&Point, Vec<(usize, bool)>)> {
+    let changes = points.iter().filter_map(|point| match &point.event {
+        Some(Event::Changed(changes)) => {
+            Some((point, changes.iter().map(|c| (c.constraint, c.activated)).collect()))
+        }
+        _ => None,
+    });
+    changes.collect()
+}

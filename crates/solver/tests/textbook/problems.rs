@@ -1,0 +1,519 @@
+//! Problems with known answers.
+
+use solver::{BandMatrix, Control, Residual, State, System};
+
+/// A system without constraints of a few unknowns, given by functions: equations (one fewer than unknowns; the
+/// load is the last unknown), and their derivatives.
+#[derive(Clone)]
+pub struct Smooth<const N: usize> {
+    pub controls: Vec<Control>,
+    pub equations: fn(&[f64]) -> Vec<f64>,
+    pub derivatives: fn(&[f64]) -> Vec<[f64; N]>,
+}
+
+impl<const N: usize> System for Smooth<N> {
+    fn size(&self) -> usize {
+        N
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        N - 1
+    }
+
+    fn load(&self) -> usize {
+        N - 1
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&[1.0; N]);
+        for (row, value) in (self.equations)(z).into_iter().enumerate() {
+            residual.add(row, value);
+        }
+    }
+
+    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+        for (row, values) in (self.derivatives)(z).into_iter().enumerate() {
+            for (column, value) in values.into_iter().enumerate() {
+                matrix.add(row, column, value);
+            }
+        }
+    }
+}
+
+fn controls(controls: &[(usize, f64)]) -> Vec<Control> {
+    controls.iter().map(|&(index, scale)| Control { index, scale }).collect()
+}
+
+/// `p = u (1 − u)(2 − u)`: a shallow arch pushed down by `u`. The load has its extrema
+/// `± 2/(3√3)` at `u = 1 ∓ 1/√3`.
+pub fn arch() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 2.5)]),
+        equations: |z| vec![z[0] * (1.0 - z[0]) * (2.0 - z[0]) - z[1]],
+        derivatives: |z| vec![[3.0 * z[0] * z[0] - 6.0 * z[0] + 2.0, -1.0]],
+    }
+}
+
+/// Stiffness of the spring of [`arch_on_spring`].
+pub const SPRING: f64 = 0.25;
+
+/// The arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`. The driver `d` turns back
+/// at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`, `d = 0`. Unknowns `w, d, p`.
+pub fn arch_on_spring() -> Smooth<3> {
+    Smooth {
+        controls: controls(&[(1, 3.0), (0, 1.0)]),
+        equations: |z| {
+            vec![z[0] * (1.0 - z[0]) * (2.0 - z[0]) - z[2], SPRING * (z[1] - z[0]) - z[2]]
+        },
+        derivatives: |z| {
+            vec![[3.0 * z[0] * z[0] - 6.0 * z[0] + 2.0, 0.0, -1.0], [-SPRING, SPRING, -1.0]]
+        },
+    }
+}
+
+/// `x² + y² = 1`, driven by `x`, which never reaches its target 2.
+pub fn circle() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 2.0), (1, 2.0)]),
+        equations: |z| vec![z[0] * z[0] + z[1] * z[1] - 1.0],
+        derivatives: |z| vec![[2.0 * z[0], 2.0 * z[1]]],
+    }
+}
+
+/// `p = tanh 4 (u − 0.6)`, steepest at `u = 0.6` with slope 4.
+pub fn step() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 1.0)]),
+        equations: |z| vec![(4.0 * (z[0] - 0.6)).tanh() - z[1]],
+        derivatives: |z| vec![[4.0 / (4.0 * (z[0] - 0.6)).cosh().powi(2), -1.0]],
+    }
+}
+
+/// `y² = u`: its driver `u` turns at the start.
+pub fn parabola() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 1.0)]),
+        equations: |z| vec![z[1] * z[1] - z[0]],
+        derivatives: |z| vec![[-1.0, 2.0 * z[1]]],
+    }
+}
+
+/// `p = √(1/2 − u)`, which ends at `u = 1/2`.
+pub fn root() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 1.0)]),
+        equations: |z| vec![(0.5 - z[0]).sqrt() - z[1]],
+        derivatives: |z| vec![[-0.5 / (0.5 - z[0]).sqrt(), -1.0]],
+    }
+}
+
+/// `p = u`, broken off at `u = 1/2`, where `p` falls by 1.
+pub fn jump() -> Smooth<2> {
+    Smooth {
+        controls: controls(&[(0, 1.0), (1, 1.0)]),
+        equations: |z| vec![z[0] - f64::from(z[0] > 0.5) - z[1]],
+        derivatives: |_| vec![[1.0, -1.0]],
+    }
+}
+
+/// `u″ + λ eᵘ = 0` on the unit interval with `u = 0` at its ends (Bratu 1914), by central differences;
+/// driven by `u` in the middle. `λ` has its maximum 3.513 830 719 there where `cosh θ = θ sinh θ`.
+#[derive(Clone)]
+pub struct Bratu {
+    intervals: usize,
+    controls: [Control; 1],
+}
+
+impl Bratu {
+    pub fn new(intervals: usize) -> Self {
+        Self { intervals, controls: [Control { index: intervals / 2 - 1, scale: 3.0 }] }
+    }
+
+    fn h(&self) -> f64 {
+        1.0 / self.intervals as f64
+    }
+}
+
+impl System for Bratu {
+    fn size(&self) -> usize {
+        self.intervals
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.intervals - 1
+    }
+
+    fn load(&self) -> usize {
+        self.intervals - 1
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&vec![1.0; self.size()]);
+        let (load, inside) = (self.load(), self.intervals - 1);
+        for i in 0..inside {
+            residual.add(i, -2.0 * z[i] + self.h().powi(2) * z[load] * z[i].exp());
+            if i > 0 {
+                residual.add(i, z[i - 1]);
+            }
+            if i + 1 < inside {
+                residual.add(i, z[i + 1]);
+            }
+        }
+    }
+
+    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+        let (load, inside) = (self.load(), self.intervals - 1);
+        for i in 0..inside {
+            let source = self.h().powi(2) * z[i].exp();
+            matrix.add(i, i, -2.0 + z[load] * source);
+            matrix.add(i, load, source);
+            if i > 0 {
+                matrix.add(i, i - 1, 1.0);
+            }
+            if i + 1 < inside {
+                matrix.add(i, i + 1, 1.0);
+            }
+        }
+    }
+}
+
+/// A string of unit length and tension under a uniform load `q`, hung from its ends above a floor at
+/// depth `D`, by linear elements of length `h = 1/n`:
+///
+/// ```text
+/// (2 u_i − u_{i−1} − u_{i+1})/h + λ_i = q h,     0 ≤ λ_i  ⟂  D − u_i ≥ 0
+/// ```
+///
+/// Nodes are counted from the left end. The floor takes node `j` at `q = 2D/(h² j (j+1))`, the middle
+/// one of `n = 2m` at `8 D`. Unknowns `u_1, λ_1, u_2, λ_2 … q`.
+#[derive(Clone)]
+pub struct StringOverFloor {
+    intervals: usize,
+    /// Whether the right half is left out, by symmetry.
+    halved: bool,
+    constraints: Vec<usize>,
+    controls: [Control; 1],
+}
+
+/// Depth of the floor below the string.
+pub const DEPTH: f64 = 0.1;
+
+impl StringOverFloor {
+    /// A string of `intervals` elements (an even number), loaded until `q = load`.
+    pub fn whole(intervals: usize, load: f64) -> Self {
+        Self::new(intervals, load, false)
+    }
+
+    /// Its left half.
+    pub fn halved(intervals: usize, load: f64) -> Self {
+        Self::new(intervals, load, true)
+    }
+
+    fn new(intervals: usize, load: f64, halved: bool) -> Self {
+        let nodes = if halved { intervals / 2 } else { intervals - 1 };
+        Self {
+            intervals,
+            halved,
+            constraints: (0..nodes).map(|i| 2 * i + 1).collect(),
+            controls: [Control { index: 2 * nodes, scale: load }],
+        }
+    }
+
+    pub fn h(&self) -> f64 {
+        1.0 / self.intervals as f64
+    }
+
+    pub fn nodes(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// The load at which the floor takes a node of the left half.
+    pub fn touching_load(&self, node: usize) -> f64 {
+        let next = if 2 * node == self.intervals { node } else { node + 1 };
+        2.0 * DEPTH / (self.h().powi(2) * (node * next) as f64)
+    }
+
+    /// Deflection of a node under a load: the floor holds the nodes from number `m` on, and the
+    /// string hangs freely from there to its end.
+    pub fn deflection(&self, node: usize, load: f64) -> f64 {
+        let middle = self.intervals / 2;
+        let node = node.min(self.intervals - node);
+        let held = (1..=middle).find(|&m| self.touching_load(m) <= load);
+        let x = node as f64 * self.h();
+        match held {
+            Some(m) if node >= m => DEPTH,
+            Some(m) => {
+                let length = m as f64 * self.h();
+                0.5 * load * x * (length - x) + DEPTH * x / length
+            }
+            None => 0.5 * load * x * (1.0 - x),
+        }
+    }
+
+    /// Part of an element's load and stiffness that stands at a node.
+    fn share(&self, i: usize) -> f64 {
+        if self.halved && i + 1 == self.nodes() { 0.5 } else { 1.0 }
+    }
+}
+
+impl System for StringOverFloor {
+    fn size(&self) -> usize {
+        2 * self.nodes() + 1
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.size() - 1
+    }
+
+    fn load(&self) -> usize {
+        2 * self.nodes()
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &self.constraints
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&vec![1.0; self.size()]);
+        for i in 0..self.nodes() {
+            let share = self.share(i);
+            residual.add(2 * i, 2.0 * share * z[2 * i] / self.h());
+            residual.add(2 * i, z[2 * i + 1]);
+            residual.add(2 * i, -share * self.h() * z[self.load()]);
+            if i > 0 {
+                residual.add(2 * i, -z[2 * i - 2] / self.h());
+            }
+            if i + 1 < self.nodes() {
+                residual.add(2 * i, -z[2 * i + 2] / self.h());
+            }
+            residual.add(2 * i + 1, DEPTH - z[2 * i]);
+        }
+    }
+
+    fn tangent(&self, _z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+        for i in 0..self.nodes() {
+            let share = self.share(i);
+            matrix.add(2 * i, 2 * i, 2.0 * share / self.h());
+            matrix.add(2 * i, 2 * i + 1, 1.0);
+            matrix.add(2 * i, self.load(), -share * self.h());
+            if i > 0 {
+                matrix.add(2 * i, 2 * i - 2, -1.0 / self.h());
+            }
+            if i + 1 < self.nodes() {
+                matrix.add(2 * i, 2 * i + 2, -1.0 / self.h());
+            }
+            matrix.add(2 * i + 1, 2 * i, -1.0);
+        }
+    }
+}
+
+/// A system of one coordinate `u`, one constraint `0 ≤ c ⟂ r(u, c) ≥ 0` and the load
+/// `p = f(u, c)`. Unknowns `u, c, p`; driven by `u`.
+#[derive(Clone)]
+pub struct OneConstraint {
+    pub controls: Vec<Control>,
+    /// `r` and its derivatives with respect to `u` and `c`.
+    pub condition: fn(f64, f64) -> [f64; 3],
+    /// `f` and its derivatives with respect to `u` and `c`.
+    pub load: fn(f64, f64) -> [f64; 3],
+}
+
+impl System for OneConstraint {
+    fn size(&self) -> usize {
+        3
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        2
+    }
+
+    fn load(&self) -> usize {
+        2
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &[1]
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&[1.0; 3]);
+        residual.add(0, (self.load)(z[0], z[1])[0]);
+        residual.add(0, -z[2]);
+        residual.add(1, (self.condition)(z[0], z[1])[0]);
+    }
+
+    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        let [_, by_u, by_c] = (self.load)(z[0], z[1]);
+        for (column, value) in [by_u, by_c, -1.0].into_iter().enumerate() {
+            matrix.add(0, column, value);
+        }
+        if active[0] {
+            let [_, by_u, by_c] = (self.condition)(z[0], z[1]);
+            matrix.add(1, 0, by_u);
+            matrix.add(1, 1, by_c);
+        }
+    }
+}
+
+/// A bead is drawn along a wire over a bump `1 − (u − 2)²`, held down by a unit spring: the bump pushes it
+/// up by `c` from `u = 1` to `u = 3`, and `p = u/2 + 2 c (2 − u)`.
+pub fn bump() -> OneConstraint {
+    OneConstraint {
+        controls: controls(&[(0, 4.0)]),
+        condition: |u, c| [c - 1.0 + (u - 2.0).powi(2), 2.0 * (u - 2.0), 1.0],
+        load: |u, c| [0.5 * u + 2.0 * c * (2.0 - u), 0.5 - 2.0 * c, 2.0 * (2.0 - u)],
+    }
+}
+
+/// `0 ≤ c ⟂ 1 − u − c + c² ≥ 0`, `p = u + 3 c`: the path arrives at `u = 1`, turns back there to
+/// `u = 3/4`, and then reaches its target `u = 2` with `c = (1 + √5)/2`.
+pub fn corner() -> OneConstraint {
+    OneConstraint {
+        controls: controls(&[(0, 2.0), (1, 1.0)]),
+        condition: |u, c| [1.0 - u - c + c * c, -1.0, 2.0 * c - 1.0],
+        load: |u, c| [u + 3.0 * c, 1.0, 3.0],
+    }
+}
+
+/// Decay of the force of [`kink`].
+pub const DECAY: f64 = 5.0;
+
+/// A constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−5c)`, `c = u − 0.5`: infinitely curved at
+/// first, and steepest soon after.
+pub fn kink() -> OneConstraint {
+    OneConstraint {
+        controls: controls(&[(0, 1.0)]),
+        condition: |u, c| [0.5 - u + c, -1.0, 1.0],
+        load: |u, c| {
+            // Odd below zero, where Newton's method may pass.
+            let (size, decay) = (c.abs(), (-DECAY * c).exp());
+            let slope = decay * (1.1 * size.powf(0.1) - DECAY * size.powf(1.1));
+            [u + decay * size.powf(1.1).copysign(c), 1.0, slope]
+        },
+    }
+}
+
+/// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` up to `u = 0.5`, and `p = u` but for a constant from there on:
+/// the law is exchanged where the constraint becomes active. The first is steepest at `u = 0.2`, with
+/// slope 3.
+#[derive(Clone)]
+pub struct TwoLaws {
+    before: OneConstraint,
+    after: OneConstraint,
+    exchanged: bool,
+}
+
+pub fn two_laws() -> TwoLaws {
+    let before = OneConstraint {
+        load: |u, _| {
+            let x = 10.0 * (u - 0.2);
+            [u + 0.2 * (x.tanh() + 2.0_f64.tanh()), 1.0 + 2.0 * x.cosh().powi(-2), 0.0]
+        },
+        ..kink()
+    };
+    let after = OneConstraint {
+        load: |u, _| [u + 0.2 * (3.0_f64.tanh() + 2.0_f64.tanh()), 1.0, 0.0],
+        ..kink()
+    };
+    TwoLaws { before, after, exchanged: false }
+}
+
+impl TwoLaws {
+    fn now(&self) -> &OneConstraint {
+        if self.exchanged { &self.after } else { &self.before }
+    }
+}
+
+impl System for TwoLaws {
+    fn size(&self) -> usize {
+        3
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        2
+    }
+
+    fn load(&self) -> usize {
+        2
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.before.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &[1]
+    }
+
+    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+        self.now().residual(z, active, residual);
+    }
+
+    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        self.now().tangent(z, active, matrix);
+    }
+
+    fn exchange(&mut self, _state: &mut State, constraint: usize) -> usize {
+        self.exchanged = true;
+        constraint
+    }
+}
+
+/// The kink with a constraint that refuses to become active, and is violated whichever way the path goes.
+#[derive(Clone)]
+pub struct Refusing(pub OneConstraint);
+
+impl System for Refusing {
+    fn size(&self) -> usize {
+        3
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        2
+    }
+
+    fn load(&self) -> usize {
+        2
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.0.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &[1]
+    }
+
+    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+        self.0.residual(z, active, residual);
+    }
+
+    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+        self.0.tangent(z, active, matrix);
+    }
+
+    fn slope(&self, _state: &State, _constraint: usize, direction: &[f64]) -> f64 {
+        -direction[0].abs()
+    }
+
+    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
+        state.active[constraint] = false;
+        constraint
+    }
+}

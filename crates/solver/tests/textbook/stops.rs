@@ -1,0 +1,91 @@
+//! Every way in which a path can end.
+
+use approx::assert_relative_eq;
+use solver::{ActiveSet, Condition, Newton, NewtonFailure, Path, Settings, State, Stop};
+
+use crate::follow;
+use crate::problems::{Refusing, arch, circle, jump, kink, parabola, root};
+
+#[test]
+fn a_path_ends_at_its_target() {
+    let (points, stop) = follow(arch(), Settings::default());
+    assert_eq!(stop, Stop::Reached);
+    assert_relative_eq!(points.last().unwrap().state.z[0], 2.5, max_relative = 1e-12);
+}
+
+#[test]
+fn a_path_that_breaks_off_does_not_converge() {
+    let (points, stop) = follow(jump(), Settings::default());
+    assert_eq!(stop, Stop::NoConvergence);
+    assert_relative_eq!(points.last().unwrap().state.z[0], 0.5, max_relative = 1e-6);
+}
+
+#[test]
+fn a_driver_that_does_not_move_is_singular() {
+    let (points, stop) = follow(parabola(), Settings::default());
+    assert_eq!((points.len(), stop), (0, Stop::Singular));
+}
+
+#[test]
+fn a_path_without_end_has_too_many_points() {
+    let start = State { z: vec![0.0, -1.0], active: Vec::new() };
+    let settings = Settings { max_points: 50, ..Settings::default() };
+    let mut path = Path::new(circle(), start, settings);
+    assert_eq!(path.by_ref().count(), 50);
+    assert_eq!(path.stop(), Some(Stop::TooManyPoints));
+}
+
+#[test]
+fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
+    let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new() };
+    let mut path = Path::new(root(), start, Settings::default());
+    let last = path.by_ref().last().unwrap();
+    assert_eq!(path.stop(), Some(Stop::NotFinite));
+    assert_relative_eq!(last.state.z[0], 0.5, max_relative = 1e-6);
+}
+
+#[test]
+fn a_constraint_that_never_settles_cycles() {
+    let (points, stop) = follow(Refusing(kink()), Settings::default());
+    assert_eq!(stop, Stop::Cycling);
+    assert!(points.last().unwrap().state.z[0] < 0.5);
+}
+
+#[test]
+fn newtons_method_says_why_it_fails() {
+    let condition = |value| Condition { row: vec![(0, 1.0)], value };
+    let fail = |system, value, settings: &Settings| {
+        let mut state = State { z: vec![0.0, 0.0], active: Vec::new() };
+        let mut newton = Newton::new(&system);
+        newton.solve(&system, &mut state, &condition(value), settings, ActiveSet::Held).unwrap_err()
+    };
+    let settings = Settings::default();
+    assert!(matches!(fail(parabola(), 0.3, &settings), NewtonFailure::Singular(_)));
+    assert_eq!(fail(root(), 0.7, &settings), NewtonFailure::NotFinite);
+    let impatient = Settings { max_iterations: 0, ..settings };
+    assert_eq!(fail(arch(), 0.3, &impatient), NewtonFailure::TooManyIterations);
+}
+
+#[test]
+fn stops_have_names() {
+    let stops = [
+        Stop::Reached,
+        Stop::NoConvergence,
+        Stop::Singular,
+        Stop::TooManyPoints,
+        Stop::Cycling,
+        Stop::NotFinite,
+    ];
+    let names = stops.map(|stop| stop.to_string());
+    assert_eq!(
+        names,
+        [
+            "reached",
+            "no convergence",
+            "singular tangent",
+            "too many points",
+            "cycling contacts",
+            "not finite"
+        ]
+    );
+}

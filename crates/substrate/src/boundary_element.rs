@@ -1,0 +1,266 @@
+//! Reactions of three rigid rectangles on an elastic half-space, by collocation.
+//!
+//! The traction is uniform in each cell `j` and the displacement is met at one point `i` of each,
+//!
+//! ```text
+//! Σ_j G_ij p_j = u_i      (S5)
+//! ```
+//!
+//! with `G` from (S1) for normal and from (S2) for tangential tractions. Both planes of symmetry are
+//! used: `z` always (every load is even in it), `x` with the sign of the load (displacements are
+//! even, the rotation is odd). So `n × n` cells on a quarter of the middle rectangle and as many on
+//! half a neighbour are all the unknowns. The reactions are
+//!
+//! ```text
+//! α_x, α_y = ∬ q, ∬ p,  α_φ = ∬ p (x − x_m)   on the middle rectangle
+//! β_x, β_y = −∬ q, −∬ p,  β_φ = −∬ p (x − x_n)   on a neighbour      (S6)
+//! ```
+//!
+//! for `u_x = 1`, `u_y = 1` and `u_y = x − x_m`, with `E* = a = 1`.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::{ColRef, Mat, Par, Spec};
+
+use crate::Footprint;
+use crate::half_space::{CornerLine, Influence};
+use crate::mesh::{Axis, Mesh};
+
+/// Rectangles that cannot be told apart in double precision.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "no tractions found under rectangles of gap/a = {:e} and width/a = {:e} with {cells} cells a side",
+    .footprint.gap_over_a(), .footprint.width_over_a()
+)]
+pub struct Unresolved {
+    /// The geometry.
+    pub footprint: Footprint,
+    /// Cells across half a rectangle.
+    pub cells: usize,
+}
+
+/// Reactions on one mesh, for `E* = a = 1`; signs as in Eq. (1).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reactions {
+    /// `α_x`, `α_y`, `α_φ`.
+    pub direct: [f64; 3],
+    /// `β_x`, `β_y`, `β_φ`.
+    pub coupling: [f64; 3],
+    /// Normal force on the right neighbour from a unit rotation of the middle rectangle, and moment on
+    /// the middle rectangle from a unit normal displacement of the right neighbour: equal by Betti's
+    /// theorem, as far as the mesh is fine.
+    pub cross: [f64; 2],
+}
+
+impl Reactions {
+    /// `α_x, α_y, α_φ, β_x, β_y, β_φ`.
+    pub fn coefficients(&self) -> [f64; 6] {
+        let ([a, b, c], [d, e, f]) = (self.direct, self.coupling);
+        [a, b, c, d, e, f]
+    }
+
+    /// How far the two cross terms are from equal, over their size.
+    pub fn reciprocity_defect(&self) -> f64 {
+        let [force, moment] = self.cross;
+        (force - moment).abs() / force.abs().max(moment.abs())
+    }
+}
+
+/// Displaces the middle one of three rectangles with its neighbours held, on `n × n` cells a quarter
+/// (S5), and returns the reactions (S6).
+///
+/// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential tractions
+/// apart. At `ν = 0.5` that is exact, as neither moves the surface in the other's direction.
+/// Elsewhere it neglects their coupling, proportional to `1 − 2ν`, as if the base slid freely in the
+/// direction that is not driven.
+///
+/// # Errors
+/// If the gap, or a cell, is lost in rounding.
+pub fn reactions(footprint: &Footprint, n: usize) -> Result<Reactions, Unresolved> {
+    let mesh = Mesh::new(footprint, n);
+    let found = mesh.is_resolved().then(|| mesh.reactions(footprint));
+    found
+        .filter(|found| found.coefficients().iter().all(|c| c.is_finite()))
+        .ok_or(Unresolved { footprint: *footprint, cells: n })
+}
+
+/// A displacement, or the arm of a traction, as a function of `x`.
+type Profile = fn(f64) -> f64;
+
+const ONE: Profile = |_| 1.0;
+const ZERO: Profile = |_| 0.0;
+const ARM: Profile = |x| x;
+
+impl Mesh {
+    fn reactions(&self, footprint: &Footprint) -> Reactions {
+        let equations = Equations::assemble(self, footprint.poisson_ratio());
+        let shear = solve_in_place(equations.shear, self.imposed(&[[ONE, ZERO]]));
+        let normal = solve_in_place(equations.normal, self.imposed(&[[ONE, ZERO]]));
+        // Besides the rotation, the neighbours displaced by 1 and −1: half of it is the odd part of one
+        // displaced alone, and the even part leaves no moment on the middle rectangle.
+        let odd = solve_in_place(equations.rotation, self.imposed(&[[ARM, ZERO], [ZERO, ONE]]));
+        let (shear, normal) = (shear.col(0), normal.col(0));
+        let (rotation, opposed) = (odd.col(0), odd.col(1));
+        let centre = footprint.pitch_over_a();
+        Reactions {
+            direct: [
+                self.middle_sum(shear, ONE),
+                self.middle_sum(normal, ONE),
+                self.middle_sum(rotation, ARM),
+            ],
+            coupling: [
+                -self.neighbour_sum(shear, ONE),
+                -self.neighbour_sum(normal, ONE),
+                -self.neighbour_sum(rotation, |x| x - centre),
+            ],
+            cross: [self.neighbour_sum(rotation, ONE), 0.5 * self.middle_sum(opposed, ARM)],
+        }
+    }
+
+    /// Both axes along `x`, in the order of the unknowns: column by column, `z` fastest.
+    fn across(&self) -> [&Axis; 2] {
+        [&self.middle, &self.neighbour]
+    }
+
+    fn unknowns(&self) -> usize {
+        (self.middle.cells() + self.neighbour.cells()) * self.depth.cells()
+    }
+
+    /// One column for each load: displacements of the middle rectangle and of the neighbour.
+    fn imposed(&self, loads: &[[Profile; 2]]) -> Mat<f64> {
+        let (half, depth) = (self.middle.cells(), self.depth.cells());
+        Mat::from_fn(self.unknowns(), loads.len(), |i, load| match i / depth {
+            column if column < half => loads[load][0](self.middle.points()[column]),
+            column => loads[load][1](self.neighbour.points()[column - half]),
+        })
+    }
+
+    /// `∬ p arm(x)` over the middle rectangle, four times its quarter.
+    fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+        4.0 * self.sum(&self.middle, 0, tractions, arm)
+    }
+
+    /// `∬ p arm(x)` over the right neighbour, twice its half.
+    fn neighbour_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+        let first = self.middle.cells() * self.depth.cells();
+        2.0 * self.sum(&self.neighbour, first, tractions, arm)
+    }
+
+    /// `first` is the first unknown of the rectangle.
+    fn sum(
+        &self,
+        axis: &Axis,
+        first: usize,
+        tractions: ColRef<'_, f64>,
+        arm: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let depth = self.depth.cells();
+        let column = |i: usize| -> f64 {
+            (0..depth).map(|k| tractions[first + i * depth + k] * self.depth.width(k)).sum()
+        };
+        (0..axis.cells()).map(|i| column(i) * axis.width(i) * arm(axis.middle(i))).sum()
+    }
+}
+
+/// The matrices `G` of (S5) for the three loads.
+struct Equations {
+    shear: Mat<f64>,
+    normal: Mat<f64>,
+    rotation: Mat<f64>,
+}
+
+impl Equations {
+    fn assemble(mesh: &Mesh, poisson_ratio: f64) -> Self {
+        let n = mesh.unknowns();
+        let mut equations =
+            Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
+        let depth = mesh.depth.cells();
+        let fields: Vec<f64> =
+            mesh.across().iter().flat_map(|axis| axis.points()).copied().collect();
+        for (k, &z) in mesh.depth.points().iter().enumerate() {
+            let mut columns = Columns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            for (i, &x) in fields.iter().enumerate() {
+                equations.fill_row(i * depth + k, mesh, x, poisson_ratio, &mut columns);
+            }
+        }
+        equations
+    }
+
+    /// Sources on the right act with their mirror images on the left, even or odd in `x`.
+    fn fill_row(
+        &mut self,
+        row: usize,
+        mesh: &Mesh,
+        x: f64,
+        poisson_ratio: f64,
+        columns: &mut Columns,
+    ) {
+        let (mut right, mut left) = (Vec::new(), Vec::new());
+        for axis in mesh.across() {
+            columns.influence(axis.edges().iter().map(|edge| edge - x), &mut right);
+            columns.influence(axis.edges().iter().map(|edge| -edge - x), &mut left);
+        }
+        for (column, (&right, &left)) in right.iter().zip(&left).enumerate() {
+            // The edges of a mirror image descend, which turns its sign.
+            let even = right - left;
+            self.shear[(row, column)] = even.tangential(poisson_ratio);
+            self.normal[(row, column)] = even.normal();
+            self.rotation[(row, column)] = (right + left).normal();
+        }
+    }
+}
+
+/// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
+struct Columns {
+    line: CornerLine,
+    last: Vec<Influence>,
+    next: Vec<Influence>,
+}
+
+impl Columns {
+    /// `line` holds the edges of cells and of their mirror images, an odd number.
+    fn new(line: CornerLine) -> Self {
+        let blank = vec![Influence::default(); line.len()];
+        Self { line, last: blank.clone(), next: blank }
+    }
+
+    /// Appends, column by column, the influence of the cells between the `offsets`; negative where
+    /// they descend.
+    fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
+        let half = self.line.len() / 2;
+        for (column, offset) in offsets.enumerate() {
+            std::mem::swap(&mut self.last, &mut self.next);
+            self.line.evaluate(offset, &mut self.next);
+            if column == 0 {
+                continue;
+            }
+            let strip = |j: usize| self.next[j] - self.last[j];
+            into.extend((0..half).map(|k| {
+                let cell = strip(half + k + 1) - strip(half + k);
+                let image = strip(half - k) - strip(half - k - 1);
+                cell + image
+            }));
+        }
+    }
+}
+
+/// Solves by LU factors with partial pivoting, on the calling thread alone: the same bits every time.
+fn solve_in_place(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Mat<f64> {
+    let n = matrix.nrows();
+    let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
+    let scratch = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default())
+        .or(solve::solve_in_place_scratch::<usize, f64>(n, right.ncols(), Par::Seq));
+    let mut memory = MemBuffer::new(scratch);
+    let stack = MemStack::new(&mut memory);
+    let (_, order) = factor::lu_in_place(
+        matrix.as_mut(),
+        &mut order,
+        &mut inverse,
+        Par::Seq,
+        stack,
+        Spec::default(),
+    );
+    let factors = matrix.as_ref();
+    solve::solve_in_place(factors, factors, order, right.as_mut(), Par::Seq, stack);
+    right
+}

@@ -1,0 +1,125 @@
+//! Displacement of the surface of an elastic half-space under uniformly loaded rectangular cells.
+//!
+//! With `E* = E_s / (1 − ν²)` and `r = √(x² + z²)` the distance to a point load, a normal load
+//! displaces the surface normally, and a tangential load along `x` displaces it along `x`, by
+//!
+//! ```text
+//! u_y = 1/(π E*) · P / r                            (S1, Boussinesq)
+//! u_x = 1/(π E*) · Q [1/r + ν/(1 − ν) · x²/r³]      (S2, Cerruti)
+//! ```
+//!
+//! which are Eqs. (3) and (2) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176); see Barber,
+//! *Elasticity* (2002), for both. Integrated over a rectangle, each is a sum over its four corners of
+//! two functions of the offset `(X, Z)` from the field point to the corner,
+//!
+//! ```text
+//! A = X asinh(Z/|X|),   ∬ z²/r³ = A₊₊ − A₋₊ − A₊₋ + A₋₋
+//! B = Z asinh(X/|Z|),   ∬ x²/r³ = B₊₊ − B₋₊ − B₊₋ + B₋₋     (S3)
+//! ```
+//!
+//! and `1/r = x²/r³ + z²/r³`, so that the pair `(A, B)` serves both loads.
+
+use std::f64::consts::PI;
+use std::ops::{Add, Sub};
+
+/// The integrals of (S3): what a unit traction on a cell does at a field point, before the elastic
+/// constants enter. At a corner, the corner functions themselves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Influence {
+    /// `A`, `∬ z²/r³`.
+    pub across: f64,
+    /// `B`, `∬ x²/r³`.
+    pub along: f64,
+}
+
+impl Influence {
+    /// `E* u_y` for a unit normal traction: `(A + B)/π` (S1).
+    pub fn normal(self) -> f64 {
+        (self.across + self.along) / PI
+    }
+
+    /// `E* u_x` for a unit tangential traction along `x`: `(A + B/(1 − ν))/π` (S2).
+    pub fn tangential(self, poisson_ratio: f64) -> f64 {
+        (self.across + self.along / (1.0 - poisson_ratio)) / PI
+    }
+}
+
+impl Add for Influence {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { across: self.across + other.across, along: self.along + other.along }
+    }
+}
+
+impl Sub for Influence {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { across: self.across - other.across, along: self.along - other.along }
+    }
+}
+
+/// The corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
+pub fn corner(x: f64, z: f64) -> Influence {
+    let half = |s: f64, t: f64| {
+        if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() }
+    };
+    Influence { across: half(x, z), along: half(z, x) }
+}
+
+/// Influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0, 0)` (S3).
+pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
+    corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
+}
+
+/// A line of corners parallel to `z`, seen from one field point: the cells between two such lines
+/// share their corners, and the logarithm of `|Z|` serves every line.
+///
+/// With `asinh(Z/|X|) = sgn Z · [ln(|Z| + r) − ln|X|]` a corner costs two logarithms and a root.
+#[derive(Clone, Debug)]
+pub struct CornerLine {
+    offsets: Vec<Offset>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Offset {
+    z: f64,
+    ln: f64,
+}
+
+impl CornerLine {
+    /// Corners at the depths `edges`, seen from the depth `field`.
+    pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
+        let offset = |edge| Offset { z: edge - field, ln: ln_or_zero(edge - field) };
+        Self { offsets: edges.into_iter().map(offset).collect() }
+    }
+
+    /// Number of corners.
+    pub fn len(&self) -> usize {
+        self.offsets.len()
+    }
+
+    /// Whether there are no corners.
+    pub fn is_empty(&self) -> bool {
+        self.offsets.is_empty()
+    }
+
+    /// The corner functions along the line at the offset `x`, into `corners`.
+    ///
+    /// The field point must not be a corner (a collocation point never is).
+    pub fn evaluate(&self, x: f64, corners: &mut [Influence]) {
+        let ln_x = ln_or_zero(x);
+        for (corner, offset) in corners.iter_mut().zip(&self.offsets) {
+            let Offset { z, ln } = *offset;
+            let r = (x * x + z * z).sqrt();
+            corner.across = x * ((z.abs() + r).ln() - ln_x).copysign(z);
+            corner.along = z * ((x.abs() + r).ln() - ln).copysign(x);
+        }
+    }
+}
+
+/// `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
+fn ln_or_zero(s: f64) -> f64 {
+    if s == 0.0 { 0.0 } else { s.abs().ln() }
+}

@@ -1,0 +1,51 @@
+//! Springs that stand for an elastic half-space under a row of rigid rectangles.
+//!
+//! The bases of the scales, `2a × b` at gaps `d`, rest on a substrate much deeper than they are
+//! wide. Each pushes on its neighbours through the substrate. Eq. (1) of Shafiei, Pro, Martini and
+//! Barthelat (2021, doi 10.1016/j.jmps.2020.104176) condenses this to six coefficients,
+//!
+//! ```text
+//! F_x⁽ⁱ⁾ = E* a  [α_x u_x⁽ⁱ⁾ − β_x (u_x⁽ⁱ⁻¹⁾ + u_x⁽ⁱ⁺¹⁾)]      and the same in y
+//! M⁽ⁱ⁾   = E* a³ [α_φ φ⁽ⁱ⁾ − β_φ (φ⁽ⁱ⁻¹⁾ + φ⁽ⁱ⁺¹⁾)]           E* = E_s / (1 − ν²)
+//! ```
+//!
+//! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
+//! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
+//! (S1)–(S8) here and in `docs/theory.md`.
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
+//! | [`Springs`] | the six coefficients and their estimated error |
+//! | [`calibrate`] | one footprint to its springs, 2 ms |
+//! | [`Calibrations`] | each footprint solved once, shared by all threads |
+//! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
+//! | [`mesh`] | cells graded towards the edges and the gap |
+//! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
+//!
+//! Normal and tangential tractions are treated apart, which is exact at `ν = 0.5` and otherwise
+//! leaves out their coupling (see [`boundary_element::reactions`]).
+//!
+//! ```
+//! use substrate::{Calibrations, Footprint};
+//!
+//! // Square bases, a tenth of their side apart, on an incompressible substrate.
+//! let footprint = Footprint::new(0.2, 2.0, 0.5)?;
+//! let springs = Calibrations::default().get(&footprint)?;
+//! assert!((springs.direct[1] - 3.376).abs() < 1e-3);
+//! assert!((springs.coupling[1] - 1.082).abs() < 1e-3);
+//! assert!(springs.error < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod boundary_element;
+mod calibrations;
+mod footprint;
+pub mod half_space;
+pub mod mesh;
+mod springs;
+
+pub use boundary_element::Unresolved;
+pub use calibrations::Calibrations;
+pub use footprint::{Footprint, InvalidFootprint};
+pub use springs::{Springs, calibrate, extrapolated};

@@ -1,0 +1,169 @@
+//! Cells graded towards the edges of the rectangles, where the tractions are singular.
+//!
+//! Under a rigid rectangle the traction grows like `s^(−1/2)` with the distance `s` from an edge; where
+//! another rectangle lies beyond a gap `ε`, only within about `ε` of it, and like `1/s` farther in.
+//! Cells of equal width in
+//!
+//! ```text
+//! U(s) = ∫ ds/√(s (s + ε)) = 2 asinh √(s/ε)      (S4)
+//! ```
+//!
+//! from both edges carry about equal loads. They shrink quadratically towards an edge, as
+//! Chebyshev's do, and geometrically between a small `ε` and the length of the side.
+
+use std::f64::consts::PI;
+
+use crate::Footprint;
+
+/// Cells along one side of a rectangle: edges, and the collocation points between them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    edges: Vec<f64>,
+    points: Vec<f64>,
+}
+
+impl Axis {
+    /// `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its two ends.
+    pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
+        Self::between(&Grading::new(ends, layers), 0.0, cells)
+    }
+
+    /// `cells` cells over `0 … half_length`, the upper half of a graded axis of twice the length.
+    pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
+        let grading = Grading::new([-half_length, half_length], [layer; 2]);
+        let mut axis = Self::between(&grading, 0.5, cells);
+        // The plane of symmetry, exactly.
+        axis.edges[0] = 0.0;
+        axis
+    }
+
+    /// The points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
+    /// in length, the error would be ten times as large and of second order only.
+    fn between(grading: &Grading, start: f64, cells: usize) -> Self {
+        let at = |k: f64| grading.at(start + (1.0 - start) * k / cells as f64);
+        Self {
+            edges: (0..=cells).map(|k| at(k as f64)).collect(),
+            points: (0..cells).map(|k| at(k as f64 + 0.5)).collect(),
+        }
+    }
+
+    /// Edges of the cells, ascending, one more than there are cells.
+    pub fn edges(&self) -> &[f64] {
+        &self.edges
+    }
+
+    /// Collocation points, one in each cell.
+    pub fn points(&self) -> &[f64] {
+        &self.points
+    }
+
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Width of cell `k`.
+    pub fn width(&self, k: usize) -> f64 {
+        self.edges[k + 1] - self.edges[k]
+    }
+
+    /// Middle of cell `k`, through which the resultant of its uniform traction passes.
+    pub fn middle(&self, k: usize) -> f64 {
+        f64::midpoint(self.edges[k], self.edges[k + 1])
+    }
+
+    /// Edges of this axis and of its mirror image below 0, ascending, the edge at 0 once.
+    ///
+    /// Meant for an upper half.
+    pub fn mirrored_edges(&self) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.edges.iter().skip(1).rev().map(|e| -e).chain(self.edges.iter().copied())
+    }
+}
+
+/// Three equal rectangles in a row, in units of `a`, of which the planes of symmetry leave the
+/// half `x > 0` of the middle one, its right neighbour, and the half `z > 0` of both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    /// Middle rectangle, from its centre to its right edge.
+    pub middle: Axis,
+    /// Right neighbour.
+    pub neighbour: Axis,
+    /// Both, from the centre line to the edge.
+    pub depth: Axis,
+}
+
+impl Mesh {
+    /// `n` cells across each: half the middle rectangle, its neighbour, half the depth.
+    pub fn new(footprint: &Footprint, n: usize) -> Self {
+        let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
+        // The layer of a free edge ends where the far side is felt.
+        let free = width.min(2.0);
+        let facing = gap.min(free);
+        Self {
+            middle: Axis::upper_half(1.0, facing, n),
+            neighbour: Axis::graded([1.0 + gap, 3.0 + gap], [facing, free], n),
+            depth: Axis::upper_half(0.5 * width, free, n),
+        }
+    }
+
+    /// Whether rounding has left a gap and every cell a width.
+    pub fn is_resolved(&self) -> bool {
+        let open = |axis: &Axis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
+        self.neighbour.edges[0] > 1.0
+            && [&self.middle, &self.neighbour, &self.depth].into_iter().all(open)
+    }
+}
+
+/// The map from `0 … 1` to an interval on which the cells are equally wide, (S4) from both ends.
+struct Grading {
+    ends: [f64; 2],
+    /// `√(length/ε)` at the two ends.
+    steepness: [f64; 2],
+}
+
+impl Grading {
+    fn new(ends: [f64; 2], layers: [f64; 2]) -> Self {
+        Self { ends, steepness: layers.map(|layer| ((ends[1] - ends[0]) / layer).sqrt()) }
+    }
+
+    /// The point at the fraction `t` of the range of `U`, found by Newton's method in the angle `θ`
+    /// of `s = length · sin²(θ/2)`, in which `U` is smooth; bisection guards it.
+    fn at(&self, t: f64) -> f64 {
+        if t <= 0.0 || t >= 1.0 {
+            return if t <= 0.0 { self.ends[0] } else { self.ends[1] };
+        }
+        let target = self.mapped(0.0).0 * (1.0 - t) + self.mapped(PI).0 * t;
+        let (mut low, mut high, mut angle) = (0.0, PI, PI * t);
+        for _ in 0..MAX_ITERATIONS {
+            let (value, slope) = self.mapped(angle);
+            *(if value < target { &mut low } else { &mut high }) = angle;
+            let step = angle - (value - target) / slope;
+            let next = if step > low && step < high { step } else { f64::midpoint(low, high) };
+            let settled = (next - angle).abs() <= 4.0 * f64::EPSILON * angle.min(PI - angle);
+            angle = next;
+            if settled {
+                break;
+            }
+        }
+        self.position(angle)
+    }
+
+    /// `U` and `dU/dθ`.
+    fn mapped(&self, angle: f64) -> (f64, f64) {
+        let (sin, cos) = (0.5 * angle).sin_cos();
+        let [lower, upper] = [self.steepness[0] * sin, self.steepness[1] * cos];
+        let slope = self.steepness[0] * cos / (1.0 + lower * lower).sqrt()
+            + self.steepness[1] * sin / (1.0 + upper * upper).sqrt();
+        (2.0 * (lower.asinh() - upper.asinh()), slope)
+    }
+
+    /// Measured from the nearer end, to keep the small cells there exact.
+    fn position(&self, angle: f64) -> f64 {
+        let [low, high] = self.ends;
+        let (sin, cos) = (0.5 * angle).sin_cos();
+        if sin < cos { low + (high - low) * sin * sin } else { high - (high - low) * cos * cos }
+    }
+}
+
+/// Bisection alone would need about this many; Newton's method takes four to eight.
+const MAX_ITERATIONS: usize = 60;

@@ -1,0 +1,129 @@
+//! The discretisation: its order, reciprocity, and the honesty of the estimated error.
+
+use std::sync::LazyLock;
+
+use substrate::boundary_element::reactions;
+use substrate::{Footprint, calibrate};
+
+/// What the springs must be good for.
+const REQUIRED: f64 = 3e-3;
+
+/// A row of `tests/reference.csv`, which `examples/reference.rs` writes.
+struct Reference {
+    footprint: Footprint,
+    coefficients: [f64; 6],
+}
+
+impl Reference {
+    fn parse(line: &str) -> Self {
+        let numbers: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+        let [gap, width, poisson_ratio, coefficients @ ..] = &numbers[..] else {
+            panic!("too few columns: {line}")
+        };
+        Self {
+            footprint: Footprint::new(*gap, *width, *poisson_ratio).unwrap(),
+            coefficients: coefficients.try_into().unwrap(),
+        }
+    }
+
+    /// Actual error of the calibration over the `α` of the direction, and its estimate.
+    fn errors(&self) -> ([f64; 6], f64) {
+        let found = calibrate(&self.footprint).unwrap();
+        let exact = &self.coefficients;
+        let actual = std::array::from_fn(|i| {
+            let value = if i < 3 { found.direct[i] } else { found.coupling[i - 3] };
+            (value - exact[i]).abs() / exact[i % 3]
+        });
+        (actual, found.error)
+    }
+}
+
+/// Both sweeps of the paper and a grid over `b/a` 0.25 … 80, `d/a` 0.017 … 80.
+static REFERENCES: LazyLock<Vec<Reference>> =
+    LazyLock::new(|| include_str!("reference.csv").lines().skip(1).map(Reference::parse).collect());
+
+#[test]
+fn every_design_of_the_paper_has_a_reference() {
+    for half_over_length in [0.5, 1.0] {
+        for length in [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0] {
+            for gap in 1..=10 {
+                let a = half_over_length * length;
+                let key = Footprint::new(f64::from(gap) / 10.0 / a, 1.0 / a, 0.5).unwrap();
+                assert!(REFERENCES.iter().any(|row| row.footprint == key), "{key:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn springs_are_converged() {
+    for row in REFERENCES.iter() {
+        let (actual, _) = row.errors();
+        for (i, error) in actual.into_iter().enumerate() {
+            assert!(error < REQUIRED / 10.0, "{i} is off by {error:.1e} for {:?}", row.footprint);
+            // A coupling also relative to itself, unless it is below a thousandth of the direct one.
+            let share = row.coefficients[i].abs() / row.coefficients[i % 3];
+            assert!(
+                share < 1e-3 || error < REQUIRED * share,
+                "{i} is off by {:.1e} of itself for {:?}",
+                error / share,
+                row.footprint
+            );
+        }
+    }
+}
+
+#[test]
+fn the_estimated_error_is_honest() {
+    let mut factors: Vec<f64> = Vec::new();
+    for row in REFERENCES.iter() {
+        let (actual, estimate) = row.errors();
+        let worst = actual.into_iter().fold(0.0, f64::max);
+        assert!(estimate >= worst, "{estimate:.1e} < {worst:.1e} for {:?}", row.footprint);
+        assert!(estimate < REQUIRED / 2.0, "{estimate:.1e} for {:?}", row.footprint);
+        factors.push(estimate / worst);
+    }
+    factors.sort_by(f64::total_cmp);
+    let median = factors[factors.len() / 2];
+    assert!(median < 8.0, "the estimate is {median:.1} times the error");
+}
+
+/// The order that the extrapolation takes, between 4, 8 and 16 cells.
+#[test]
+fn tractions_converge_with_the_third_power() {
+    for (gap, width) in [(1e3, 2.0), (2.0, 2.0), (0.05, 2.0), (0.05, 80.0), (2.0, 0.25)] {
+        let footprint = Footprint::new(gap, width, 0.5).unwrap();
+        let [coarse, medium, fine] =
+            [4, 8, 16].map(|n| reactions(&footprint, n).unwrap().direct[2]);
+        let order = ((coarse - medium) / (medium - fine)).log2();
+        assert!((2.5..3.5).contains(&order), "order {order:.2} at d/a = {gap}, b/a = {width}");
+    }
+}
+
+/// Betti: collocation does not build it in, so that the defect measures the error. It falls with the
+/// second power of the number of cells at least, mostly with the third.
+#[test]
+fn reciprocity() {
+    for (gap, width) in [(0.05, 0.25), (0.2, 2.0), (2.0, 2.0), (0.05, 80.0), (4.0, 80.0)] {
+        let footprint = Footprint::new(gap, width, 0.5).unwrap();
+        let [coarse, used, fine] =
+            [4, 8, 16].map(|n| reactions(&footprint, n).unwrap().reciprocity_defect());
+        assert!(used < 1e-2, "{used:.1e} at d/a = {gap}, b/a = {width}");
+        assert!(fine < coarse / 16.0, "{coarse:.1e} to {fine:.1e} at d/a = {gap}, b/a = {width}");
+    }
+}
+
+/// Far beyond the range the numbers stay usable, and the estimate says how far.
+#[test]
+fn extremes_are_served_with_a_larger_estimate() {
+    for (gap, width) in [(1e-3, 2.0), (1e-6, 2.0), (1.0, 1e-2), (1.0, 1e4), (1e-3, 100.0)] {
+        let footprint = Footprint::new(gap, width, 0.5).unwrap();
+        let found = calibrate(&footprint).unwrap();
+        let exact = substrate::extrapolated(&footprint, [12, 18]).unwrap();
+        for i in 0..3 {
+            assert!((found.direct[i] - exact[i]).abs() < found.error * exact[i], "{footprint:?}");
+            assert!((found.coupling[i] - exact[i + 3]).abs() < found.error * exact[i]);
+        }
+        assert!(found.error < 2e-2, "{} for {footprint:?}", found.error);
+    }
+}

@@ -1,0 +1,57 @@
+//! The graded axes.
+
+use substrate::Footprint;
+use substrate::mesh::{Axis, Mesh};
+
+fn assert_graded(axis: &Axis) {
+    let edges = axis.edges();
+    assert_eq!(edges.len(), axis.cells() + 1);
+    for (k, point) in axis.points().iter().enumerate() {
+        assert!(edges[k] < *point && *point < edges[k + 1], "cell {k}: {edges:?}, {point}");
+    }
+}
+
+#[test]
+fn points_lie_in_their_cells_for_any_layer() {
+    for layer in [1e-9, 1e-3, 0.1, 2.0, 1e3] {
+        let axis = Axis::graded([-1.0, 1.0], [layer, 2.0], 9);
+        assert_graded(&axis);
+        assert_eq!((axis.edges()[0], axis.edges()[9]), (-1.0, 1.0));
+        assert_graded(&Axis::upper_half(40.0, layer, 7));
+    }
+}
+
+/// (S4): from both ends `U` grows by the same amount across every cell.
+#[test]
+fn cells_are_equal_in_the_mapped_coordinate() {
+    let (layers, length) = ([0.05, 0.7], 2.0);
+    let axis = Axis::graded([0.0, length], layers, 8);
+    let mapped =
+        |s: f64| 2.0 * ((s / layers[0]).sqrt().asinh() - ((length - s) / layers[1]).sqrt().asinh());
+    let step = (mapped(length) - mapped(0.0)) / 8.0;
+    for k in 0..8 {
+        let (low, point, high) = (axis.edges()[k], axis.points()[k], axis.edges()[k + 1]);
+        assert!((mapped(high) - mapped(low) - step).abs() < 1e-12);
+        assert!((mapped(point) - mapped(low) - 0.5 * step).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn an_upper_half_is_half_of_the_whole() {
+    let whole = Axis::graded([-3.0, 3.0], [0.2, 0.2], 10);
+    let half = Axis::upper_half(3.0, 0.2, 5);
+    for (a, b) in half.mirrored_edges().zip(whole.edges()) {
+        assert!((a - b).abs() < 1e-14, "{a}, {b}");
+    }
+}
+
+/// The two meshes that face each other across a gap are mirror images close to it.
+#[test]
+fn facing_edges_are_graded_alike() {
+    let mesh = Mesh::new(&Footprint::new(1e-3, 2.0, 0.5).unwrap(), 32);
+    let here = 1.0 - mesh.middle.edges()[31];
+    let there = mesh.neighbour.edges()[1] - 1.001;
+    assert!(here > 0.0 && here < 1e-3 && (here / there).ln().abs() < 1.0, "{here:e}, {there:e}");
+    assert!(mesh.is_resolved());
+    assert!(!Mesh::new(&Footprint::new(1e-17, 2.0, 0.5).unwrap(), 4).is_resolved());
+}

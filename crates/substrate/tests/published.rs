@@ -1,0 +1,121 @@
+//! Values published or found by others, and closed forms.
+//!
+//! An error of half a unit of the last printed digit is theirs, `Springs::error` is ours.
+
+use std::f64::consts::PI;
+
+use substrate::{Footprint, Springs, calibrate};
+
+/// So far apart that the coupling is below the last digit.
+const ALONE: f64 = 1e5;
+
+fn springs(gap: f64, width: f64, poisson_ratio: f64) -> Springs {
+    calibrate(&Footprint::new(gap, width, poisson_ratio).unwrap()).unwrap()
+}
+
+/// `printed` as a number of so many `digits` after the point; the error estimate refers to `direct`.
+fn assert_printed(found: f64, printed: f64, digits: i32, estimate: f64) {
+    let allowed = 0.5 * 10_f64.powi(-digits) + estimate;
+    assert!((found - printed).abs() <= allowed, "{found} is not {printed} within {allowed:.1e}");
+}
+
+/// Borodachev (1976): a rigid square punch of side `s` needs `P = 1.1523 E* s δ`; here `s = 2a`.
+#[test]
+fn borodachev_square_punch() {
+    for poisson_ratio in [0.0, 0.3, 0.5] {
+        let square = springs(ALONE, 2.0, poisson_ratio);
+        assert_printed(square.direct[1] / 2.0, 1.1523, 4, square.error * square.direct[1] / 2.0);
+        assert!(square.error < 5e-4, "{}", square.error);
+    }
+}
+
+/// The isolated square sheared and tilted at `ν = 0.5`.
+#[test]
+fn isolated_square() {
+    let square = springs(ALONE, 2.0, 0.5);
+    assert_printed(square.direct[0], 1.5384, 4, square.error * square.direct[0]);
+    assert_printed(square.direct[2], 2.0807, 4, square.error * square.direct[2]);
+}
+
+/// Three squares a tenth of their side apart at `ν = 0.5`, values known to three decimals. They are
+/// compared as cut after the third: `β_x = 0.9936`, known as 0.993, would round to 0.994; the other
+/// five agree either way.
+#[test]
+fn three_squares() {
+    let row = springs(0.2, 2.0, 0.5);
+    let cut = [(2.699, 0.993), (3.376, 1.082), (2.473, 0.428)];
+    for (i, (direct, coupling)) in cut.into_iter().enumerate() {
+        let slack = row.error * row.direct[i];
+        for (found, cut) in [(row.direct[i], direct), (row.coupling[i].abs(), coupling)] {
+            assert!(found > cut - slack && found < cut + 1e-3 + slack, "{found} is not {cut}…");
+        }
+    }
+    assert!(row.coupling[2] < 0.0);
+}
+
+/// A neighbour far away feels a point load: its reaction is `α u` with `u = α/(π p)`, and for
+/// shear `u = α/(π p (1 − ν))`.
+#[test]
+fn distant_neighbours_feel_a_point_load() {
+    let poisson_ratio = 0.3;
+    for gap in [50.0, 200.0] {
+        let row = springs(gap, 1.0, poisson_ratio);
+        let pitch = gap + 2.0;
+        let normal = row.direct[1] * row.direct[1] / (PI * pitch);
+        let shear = row.direct[0] * row.direct[0] / (PI * pitch * (1.0 - poisson_ratio));
+        // The two neighbours also push on each other: next order in a/p.
+        assert!(
+            (row.coupling[1] / normal - 1.0).abs() < 1.0 / pitch,
+            "{}",
+            row.coupling[1] / normal
+        );
+        assert!((row.coupling[0] / shear - 1.0).abs() < 1.0 / pitch, "{}", row.coupling[0] / shear);
+    }
+}
+
+#[test]
+fn coupling_vanishes_with_distance() {
+    let mut last = springs(0.05, 2.0, 0.5).coupling.map(f64::abs);
+    for gap in [0.2, 1.0, 5.0, 25.0, 125.0, 625.0] {
+        let coupling = springs(gap, 2.0, 0.5).coupling.map(f64::abs);
+        assert!(coupling.iter().zip(last).all(|(now, before)| *now < before), "{coupling:?}");
+        last = coupling;
+    }
+    assert!(last[0] < 4e-3 && last[1] < 4e-3 && last[2] < 1e-6, "{last:?}");
+}
+
+/// A lone rectangle is reached smoothly: what the gap still does at `d` falls as `(a/p)²`.
+#[test]
+fn isolated_limit() {
+    let alone = springs(ALONE, 2.0, 0.5);
+    let excess = |gap: f64, i: usize| springs(gap, 2.0, 0.5).direct[i] - alone.direct[i];
+    for i in [0, 1] {
+        let ratio = excess(40.0, i) / excess(82.0, i);
+        assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
+    }
+    assert!(excess(40.0, 2).abs() < 1e-4 * alone.direct[2]);
+}
+
+/// Normal problems do not know `ν` once `E*` is divided out; shear does, and at `ν = 0` it is the
+/// normal problem.
+#[test]
+fn poisson_ratio_scaling() {
+    let [zero, some, half] = [0.0, 0.25, 0.5].map(|ratio| springs(0.3, 1.5, ratio));
+    for i in [1, 2] {
+        assert_eq!((zero.direct[i], zero.coupling[i]), (half.direct[i], half.coupling[i]));
+    }
+    assert_eq!((zero.direct[0], zero.coupling[0]), (zero.direct[1], zero.coupling[1]));
+    assert!(zero.direct[0] > some.direct[0] && some.direct[0] > half.direct[0]);
+    // x²/r³ lies between 0 and 1/r, so α_x between α_y (1 − ν) and α_y.
+    assert!(half.direct[0] > 0.5 * half.direct[1]);
+}
+
+#[test]
+fn signs() {
+    for (gap, width) in [(0.017, 0.25), (0.05, 80.0), (1.0, 2.0), (80.0, 80.0)] {
+        let row = springs(gap, width, 0.5);
+        let [x, y, phi] = row.coupling;
+        assert!(x > 0.0 && y > 0.0 && phi < 0.0, "{row:?}");
+        assert!(row.direct.iter().all(|direct| *direct > 0.0), "{row:?}");
+    }
+}

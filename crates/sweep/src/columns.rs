@@ -1,0 +1,182 @@
+//! The one list of columns: every table, and every explanation of a column, comes from here.
+
+mod comparison;
+mod course;
+mod ranking;
+mod values;
+
+use crate::cell::Cell;
+use crate::definition::Sweep;
+use crate::grid::Axis;
+use crate::measure::Measure;
+use crate::parameter::Parameter;
+use crate::parameters::PARAMETERS;
+use crate::record::Record;
+use values::VALUES;
+
+pub use comparison::{comparison_columns, difference_columns};
+pub use course::{
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
+    STEPS,
+};
+pub use ranking::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
+
+/// A column of a table whose rows are made from `R`.
+pub struct Column<R> {
+    /// Its header.
+    pub name: &'static str,
+    /// Unit, `-` if it has none.
+    pub unit: &'static str,
+    /// What it holds, in half a sentence.
+    pub meaning: &'static str,
+    cell: Source<R>,
+}
+
+/// How the cell of a row is found.
+enum Source<R> {
+    Value(fn(&R) -> Cell),
+    Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
+}
+
+impl<R> Column<R> {
+    pub(crate) const fn new(
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+        cell: fn(&R) -> Cell,
+    ) -> Self {
+        Self { name, unit, meaning, cell: Source::Value(cell) }
+    }
+
+    fn parameter(parameter: &'static Parameter, cell: fn(&R, &Parameter) -> Cell) -> Self {
+        Self {
+            name: header(parameter),
+            unit: parameter.unit,
+            meaning: parameter.meaning,
+            cell: Source::Parameter(parameter, cell),
+        }
+    }
+
+    /// The cell of this column in the row of `record`.
+    pub fn cell(&self, record: &R) -> Cell {
+        match self.cell {
+            Source::Value(cell) => cell(record),
+            Source::Parameter(parameter, cell) => cell(record, parameter),
+        }
+    }
+}
+
+/// The column of the number of a design.
+fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
+    Column::new("design", "-", "position of the design in the grid of its sweep", cell)
+}
+
+/// The header of the column of a parameter: its key, but for that of the row, which is also a
+/// value, because a row may have more scales than were asked for.
+fn header(parameter: &Parameter) -> &'static str {
+    match parameter.key {
+        "scales" => "scales_asked",
+        key => key,
+    }
+}
+
+/// The parameter whose column has that header.
+pub(crate) fn parameter_of(name: &str) -> Option<&'static Parameter> {
+    PARAMETERS.iter().find(|parameter| header(parameter) == name)
+}
+
+/// A measured value, with the tables in which it stands besides `designs.csv`.
+struct Value {
+    tables: &'static [&'static str],
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+    cell: fn(&Record) -> Cell,
+}
+
+/// The tables of one measure, named by the value that they are about.
+const MEASURE_TABLES: [(&str, Measure); 4] = [
+    ("coverage", Measure::Coverage),
+    ("critical_force", Measure::Puncture),
+    ("penetration", Measure::Puncture),
+    ("compliance", Measure::Flexure),
+];
+
+impl Value {
+    fn column(&self) -> Column<Record> {
+        Column::new(self.name, self.unit, self.meaning, self.cell)
+    }
+
+    /// Whether it is what a table of its own is about.
+    fn leads(&self) -> bool {
+        MEASURE_TABLES.iter().any(|(table, _)| *table == self.name)
+    }
+}
+
+/// The measured value of that name.
+fn value(name: &str) -> Option<&'static Value> {
+    VALUES.iter().find(|value| value.name == name)
+}
+
+/// A table: the name of its file, and its columns.
+pub struct Table<R> {
+    /// Name of the file.
+    pub file: String,
+    /// Columns, from the left.
+    pub columns: Vec<Column<R>>,
+}
+
+/// The name of a table's file.
+fn file(table: &str) -> String {
+    format!("{table}.csv")
+}
+
+/// Names of the files that a sweep with any measures may write, and of those made from them.
+pub(crate) fn all_files() -> impl Iterator<Item = String> {
+    let rankings = crate::ranking::FILES.map(str::to_owned);
+    MEASURE_TABLES.iter().map(|(table, _)| file(table)).chain(rankings)
+}
+
+/// The tables of `sweep`: `designs.csv`, and those of the measures that it asks for.
+pub fn tables(sweep: &Sweep) -> Vec<Table<Record>> {
+    let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
+    let mut tables = vec![Table { file: file("designs"), columns: design_columns(sweep) }];
+    tables.extend(
+        asked.map(|(table, _)| Table { file: file(table), columns: measure_columns(sweep, table) }),
+    );
+    tables
+}
+
+/// The columns of `designs.csv`: the same whatever is measured, but for the axes.
+pub fn design_columns(sweep: &Sweep) -> Vec<Column<Record>> {
+    let (leading, others): (Vec<_>, Vec<_>) = VALUES.iter().partition(|value| value.leads());
+    assemble(sweep, leading, others)
+}
+
+fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<Record>> {
+    let belongs = |value: &&Value| value.tables.contains(&table);
+    let (leading, others): (Vec<_>, Vec<_>) =
+        VALUES.iter().filter(belongs).partition(|value| value.name == table);
+    assemble(sweep, leading, others)
+}
+
+/// The columns that say which design a row is about.
+pub(crate) fn identity_columns(sweep: &Sweep) -> Vec<Column<Record>> {
+    assemble(sweep, Vec::new(), Vec::new())
+}
+
+/// Number and design, the leading values, the axes that not every sweep has, the other values.
+fn assemble(sweep: &Sweep, leading: Vec<&Value>, others: Vec<&Value>) -> Vec<Column<Record>> {
+    let parameter = |parameter| {
+        Column::parameter(parameter, |r: &Record, parameter| parameter.get(&r.case).into())
+    };
+    let geometry = ["gap_over_t", "length_over_t", "slant_deg"];
+    let mut columns = vec![number(|r: &Record| r.number.to_string().into())];
+    columns.extend(geometry.into_iter().filter_map(Parameter::named).map(parameter));
+    columns.extend(leading.into_iter().map(Value::column));
+    let axes = sweep.grid().axes().iter().map(Axis::parameter);
+    let extra = axes.filter(|parameter| !geometry.contains(&parameter.key));
+    columns.extend(extra.map(parameter));
+    columns.extend(others.into_iter().map(Value::column));
+    columns
+}

@@ -1,0 +1,56 @@
+//! Spearman's rank correlation.
+
+/// Spearman's rank correlation of pairs: 1 if both put them in the same order, -1 if in the
+/// opposite one. `None` if one of them has no order, because its values are all equal.
+pub(super) fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
+    let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
+    // Ranks sum to the same, whatever their ties.
+    let mean = (pairs.len() as f64 + 1.0) / 2.0;
+    let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
+        first.iter().zip(&second).map(|(a, b)| of(a - mean, b - mean)).sum()
+    };
+    let spread = (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt();
+    (spread > 0.0).then(|| sum(&|a, b| a * b) / spread)
+}
+
+/// The rank of each value, from 1; equal ones share the mean of theirs.
+fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sorted: Vec<(f64, usize)> = values.enumerate().map(|(i, value)| (value, i)).collect();
+    sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut ranks = vec![0.0; sorted.len()];
+    let mut before = 0;
+    for equal in sorted.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()) {
+        let rank = before as f64 + (equal.len() as f64 + 1.0) / 2.0;
+        equal.iter().for_each(|(_, i)| ranks[*i] = rank);
+        before += equal.len();
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn correlation(first: &[f64], second: &[f64]) -> Option<f64> {
+        let pairs: Vec<_> = first.iter().zip(second).map(|(a, b)| [*a, *b]).collect();
+        rank_correlation(&pairs)
+    }
+
+    #[test]
+    fn orders_correlate() {
+        let close = |found: Option<f64>, expected: f64| {
+            assert!(found.is_some_and(|found| (found - expected).abs() < 1e-15), "{found:?}");
+        };
+        close(correlation(&[1.0, 2.0, 30.0], &[-5.0, 0.1, 0.2]), 1.0);
+        close(correlation(&[1.0, 2.0, 30.0], &[3.0, 2.0, 1.0]), -1.0);
+        // Ranks 1, 2.5, 2.5, 4 against 1, 2, 3, 4: 4.5/√(4.5·5).
+        close(correlation(&[0.0, 1.0, 1.0, 2.0], &[0.0, 1.0, 2.0, 3.0]), 0.9_f64.sqrt());
+    }
+
+    #[test]
+    fn without_an_order_there_is_none() {
+        assert_eq!(correlation(&[], &[]), None);
+        assert_eq!(correlation(&[1.0], &[2.0]), None);
+        assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), None);
+    }
+}

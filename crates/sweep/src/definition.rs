@@ -1,0 +1,91 @@
+//! The validated sweep.
+
+use std::path::Path;
+
+use crate::grid::Grid;
+use crate::invalid::{InvalidDefinition, reason};
+use crate::measure::Measure;
+use crate::parameter::Parameter;
+use crate::parameters::PARAMETERS;
+use crate::reader::Reader;
+use crate::scalar::Scalar;
+use crate::setting::Setting;
+use crate::written::{self, Entry, Place, Table, Value};
+
+/// A sweep that can run: its name, what it measures, its designs.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    pub(crate) name: String,
+    pub(crate) measures: Vec<Measure>,
+    pub(crate) grid: Grid,
+}
+
+impl Sweep {
+    /// The sweep that the file at `path` defines once `settings` are put in its place.
+    ///
+    /// # Errors
+    /// If the file cannot be read or does not define a sweep.
+    pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
+        let file = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&text, &file, settings),
+            Err(error) => Err(InvalidDefinition::Unreadable { file, reason: reason(&error) }),
+        }
+    }
+
+    /// The sweep that `text`, from the file `name`, defines once `settings` are put in its place.
+    ///
+    /// # Errors
+    /// If the text does not define a sweep.
+    pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
+        let mut table = definition_of(written::parse(text, name)?);
+        for setting in settings {
+            setting.apply(&mut table);
+        }
+        let mut reader = Reader::default();
+        for entry in &table {
+            reader.entry(entry)?;
+        }
+        reader.finish(&Place::File { name: name.into(), line: None })
+    }
+
+    /// The name, which is also that of the folder of its results.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What is measured.
+    pub fn measures(&self) -> &[Measure] {
+        &self.measures
+    }
+
+    /// The designs.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The same sweep with design `index` alone.
+    #[must_use]
+    pub fn only(&self, index: u64) -> Self {
+        Self { grid: self.grid.only(index), ..self.clone() }
+    }
+
+    /// The parameters that all designs share, with their values.
+    pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
+        let shared = |parameter: &&Parameter| self.grid.axis(parameter.key).is_none();
+        PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
+    }
+}
+
+/// A run's own record holds its definition in a table of that name.
+fn definition_of(mut table: Table) -> Table {
+    let holds =
+        |key: &str, entry: &Entry| entry.key == key && matches!(entry.value, Value::Table(_));
+    if table.iter().any(|entry| holds("run", entry))
+        && let Some(position) = table.iter().position(|entry| holds("definition", entry))
+        && let Value::Table(definition) = table.swap_remove(position).value
+    {
+        return definition;
+    }
+    table
+}

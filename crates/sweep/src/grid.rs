@@ -1,0 +1,192 @@
+//! Every combination of the values of some parameters, numbered and never stored.
+
+use crate::case::Case;
+use crate::decimal::DecimalRange;
+use crate::parameter::Parameter;
+use crate::scalar::Scalar;
+
+/// A parameter that takes several values.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    parameter: &'static Parameter,
+    values: Values,
+}
+
+/// The values of an axis.
+#[derive(Clone, Debug)]
+pub(crate) enum Values {
+    List(Vec<Scalar>),
+    Range(DecimalRange),
+}
+
+impl Axis {
+    pub(crate) fn new(parameter: &'static Parameter, values: Values) -> Self {
+        Self { parameter, values }
+    }
+
+    /// The parameter that varies.
+    pub fn parameter(&self) -> &'static Parameter {
+        self.parameter
+    }
+
+    pub(crate) fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// How many values it takes, at least one.
+    #[expect(clippy::len_without_is_empty, reason = "an axis is never empty")]
+    pub fn len(&self) -> u64 {
+        match &self.values {
+            Values::List(list) => list.len() as u64,
+            Values::Range(range) => range.len(),
+        }
+    }
+
+    /// Value `index`, from 0.
+    pub fn value(&self, index: u64) -> Scalar {
+        match &self.values {
+            Values::List(list) => list[usize::try_from(index).unwrap_or(usize::MAX)],
+            Values::Range(range) => self.parameter.pick(range, index),
+        }
+    }
+
+    /// The smallest and the largest value, if they are numbers.
+    pub(crate) fn span(&self) -> (f64, f64) {
+        let ends = match &self.values {
+            Values::List(list) => list.clone(),
+            Values::Range(range) => [0, range.len() - 1].map(|index| self.value(index)).to_vec(),
+        };
+        let numbers = ends.into_iter().filter_map(Scalar::number);
+        numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+    }
+
+    /// Which of the values `value` is.
+    pub fn position(&self, value: Scalar) -> Option<u64> {
+        match (&self.values, value) {
+            (Values::List(list), _) => list.iter().position(|&v| v == value).map(|i| i as u64),
+            (Values::Range(range), Scalar::Number(number)) => range.position(number),
+            (Values::Range(range), Scalar::Count(count)) => range.position(count as f64),
+            (Values::Range(_), Scalar::Word(_)) => None,
+        }
+    }
+}
+
+/// The designs of a sweep: every combination of the values of its axes, the last axis fastest.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    axes: Vec<Axis>,
+    /// What all designs share.
+    base: Case,
+    count: u64,
+}
+
+/// More designs than can be numbered.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the axes span more than {} designs, expected fewer values", u64::MAX)]
+pub struct TooManyDesigns;
+
+/// A text that numbers no design of the grid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no design {found}, expected a number from 1 to {count}")]
+pub struct NoSuchDesign {
+    /// The text.
+    pub found: String,
+    /// How many designs there are.
+    pub count: u64,
+}
+
+impl Grid {
+    /// Every combination of the values of `axes`, the rest as in `base`.
+    ///
+    /// # Errors
+    /// If a `u64` cannot number the designs.
+    pub fn new(axes: Vec<Axis>, base: Case) -> Result<Self, TooManyDesigns> {
+        let product = |count: u64, axis: &Axis| count.checked_mul(axis.len());
+        let count = axes.iter().try_fold(1, product).ok_or(TooManyDesigns)?;
+        Ok(Self { axes, base, count })
+    }
+
+    /// The axes, the slowest first.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The axis of a parameter.
+    pub fn axis(&self, key: &str) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.parameter.key == key)
+    }
+
+    /// What all designs share; on the axes it says nothing.
+    pub fn base(&self) -> &Case {
+        &self.base
+    }
+
+    /// How many designs there are, at least one.
+    #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> u64 {
+        self.count
+    }
+
+    /// Design `index`, from 0 and below [`Self::len`].
+    pub fn case(&self, index: u64) -> Case {
+        let mut case = self.base;
+        let mut rest = index;
+        for axis in self.axes.iter().rev() {
+            axis.parameter.set(&mut case, axis.value(rest % axis.len()));
+            rest /= axis.len();
+        }
+        case
+    }
+
+    /// The index of the design that has the values of `case` on every axis.
+    pub fn find(&self, case: &Case) -> Option<u64> {
+        self.axes.iter().try_fold(0, |index, axis| {
+            let position = axis.position(axis.parameter.get(case))?;
+            Some(index * axis.len() + position)
+        })
+    }
+
+    /// The grid of design `index` alone.
+    pub(crate) fn only(&self, index: u64) -> Self {
+        let case = self.case(index);
+        let fix =
+            |axis: &Axis| Axis::new(axis.parameter, Values::List(vec![axis.parameter.get(&case)]));
+        Self { axes: self.axes.iter().map(fix).collect(), base: self.base, count: 1 }
+    }
+
+    /// The index of the design that `text` numbers, with or without leading zeros.
+    ///
+    /// # Errors
+    /// If it is no number of the grid.
+    pub fn parse_number(&self, text: &str) -> Result<u64, NoSuchDesign> {
+        let number = text.parse::<u64>().ok().filter(|number| (1..=self.count).contains(number));
+        let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
+        number.map(|number| number - 1).ok_or_else(error)
+    }
+
+    /// The number of design `index`.
+    pub fn number(&self, index: u64) -> DesignNumber {
+        let digits = self.count.to_string().len();
+        DesignNumber { position: index + 1, width: digits.max(4) }
+    }
+}
+
+/// The 1-based position of a design in its grid, written with leading zeros.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DesignNumber {
+    position: u64,
+    width: usize,
+}
+
+impl DesignNumber {
+    /// The position in the grid, from 0.
+    pub fn index(self) -> u64 {
+        self.position - 1
+    }
+}
+
+impl std::fmt::Display for DesignNumber {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:0width$}", self.position, width = self.width)
+    }
+}

@@ -1,0 +1,35 @@
+//! Numbers as text.
+
+/// The shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
+///
+/// Very small and very large numbers take the exponent form, which spreadsheets read as well.
+pub(crate) fn text(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-5..1e15).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::text;
+
+    #[test]
+    fn numbers_are_as_short_as_they_can_be() {
+        let texts = [0.1 + 0.2, 1.0, -0.0, 1e-7, 12345.0, 1e15, 9677.0, -1.5e-12].map(text);
+        assert_eq!(texts.join(" "), "0.30000000000000004 1 0 1e-7 12345 1e15 9677 -1.5e-12");
+    }
+
+    proptest! {
+        #[test]
+        fn the_text_reads_back_as_the_number(value in proptest::num::f64::NORMAL) {
+            prop_assert_eq!(text(value).parse::<f64>().map(f64::to_bits), Ok(value.to_bits()));
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The value of one parameter.
+
+use std::fmt;
+
+use crate::number;
+
+/// The value of one parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scalar {
+    /// A real number.
+    Number(f64),
+    /// A count.
+    Count(usize),
+    /// One of a few words.
+    Word(&'static str),
+}
+
+impl fmt::Display for Scalar {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => f.write_str(&number::text(*number)),
+            Self::Count(count) => write!(f, "{count}"),
+            Self::Word(word) => f.write_str(word),
+        }
+    }
+}
+
+impl Scalar {
+    /// The value if it is a real number.
+    pub fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(number) => Some(number),
+            Self::Count(_) | Self::Word(_) => None,
+        }
+    }
+
+    /// The value as it is written in a definition: words in quotes.
+    pub fn to_toml(self) -> String {
+        match self {
+            Self::Word(word) => format!("\"{word}\""),
+            value => value.to_string(),
+        }
+    }
+}

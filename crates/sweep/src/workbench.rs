@@ -1,0 +1,130 @@
+//! Solving one design.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use skin::flexure::{self, Flexure, Method};
+use skin::puncture::{self, Puncture};
+use substrate::{Calibrations, Footprint, Springs};
+
+use crate::case::Case;
+use crate::grid::DesignNumber;
+use crate::measure::Measure;
+use crate::outcome::Outcome;
+use crate::record::{FlexureRecord, PunctureRecord, Record};
+
+/// Most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
+const LONGEST_CHAIN: usize = 100_000;
+
+/// Solves designs, from any number of threads; those of equal footprint share one calibration.
+#[derive(Debug)]
+pub struct Workbench {
+    measures: Vec<Measure>,
+    calibrations: Calibrations,
+}
+
+/// A solved design, with its path.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// Its row in the tables.
+    pub record: Record,
+    /// The puncture, if it was asked for and ran.
+    pub puncture: Option<Puncture>,
+    /// The bending, if it was asked for and ran.
+    pub flexure: Option<Flexure>,
+}
+
+impl Workbench {
+    /// A workbench that takes these measures.
+    pub fn new(measures: &[Measure]) -> Self {
+        Self { measures: measures.to_vec(), calibrations: Calibrations::default() }
+    }
+
+    fn measures(&self, measure: Measure) -> bool {
+        self.measures.contains(&measure)
+    }
+
+    /// Calibrates the substrate of `case`, for it and for all that share it.
+    pub fn prepare(&self, case: &Case) {
+        if self.measures(Measure::Puncture) {
+            // Whatever goes wrong goes wrong again, and is recorded, when a design needs it.
+            let _ = guarded(|| self.springs(case));
+        }
+    }
+
+    /// Solves `case`. Nothing that goes wrong inside ends more than this design.
+    pub fn solve(&self, number: DesignNumber, case: &Case) -> Solved {
+        let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
+        let punctured = self.measures(Measure::Puncture).then(|| self.puncture(case));
+        let (puncture, puncture_path) = taken_apart(punctured, PunctureRecord::without_path);
+        let bent = self.measures(Measure::Flexure).then(|| flexure(case));
+        let (flexure, flexure_path) = taken_apart(bent, FlexureRecord::without_path);
+        let settings = String::new();
+        let record = Record { number, case: *case, coverage, puncture, flexure, settings };
+        Solved { record, puncture: puncture_path, flexure: flexure_path }
+    }
+
+    fn puncture(&self, case: &Case) -> Result<(PunctureRecord, Puncture), Outcome> {
+        let springs = guarded(|| self.springs(case)).flatten()?;
+        let puncture = guarded(|| puncture::solve(&case.design, &springs, &case.puncture))?;
+        // Validation lets no case without mechanical meaning come here.
+        let puncture = puncture.map_err(|_| Outcome::Internal)?;
+        Ok((PunctureRecord::new(&puncture, springs.error), puncture))
+    }
+
+    fn springs(&self, case: &Case) -> Result<Springs, Outcome> {
+        let footprint = footprint(case).ok_or(Outcome::Calibration)?;
+        self.calibrations.get(&footprint).map_err(|_| Outcome::Calibration)
+    }
+}
+
+/// What the springs of `case` depend on; `None` if its lengths are too far apart for an `f64`.
+pub fn footprint(case: &Case) -> Option<Footprint> {
+    let a = case.design.half_base();
+    Footprint::new(case.design.gap / a, case.design.width / a, case.puncture.poisson_ratio).ok()
+}
+
+fn coverage(case: &Case) -> Option<f64> {
+    guarded(|| case.design.row().ok().map(|row| row.coverage())).ok().flatten()
+}
+
+fn flexure(case: &Case) -> Result<(FlexureRecord, Flexure), Outcome> {
+    let row = case.design.row().map_err(|_| Outcome::Internal)?;
+    let gaps = flexure::gaps(&row, case.flexure.membrane_length);
+    if case.flexure.method == Method::Chain && gaps > LONGEST_CHAIN {
+        return Err(Outcome::RowLimit);
+    }
+    let flexure = guarded(|| flexure::solve(&case.design, &case.flexure))?;
+    // Validation lets no case without mechanical meaning come here.
+    let flexure = flexure.map_err(|_| Outcome::Internal)?;
+    Ok((FlexureRecord::new(&flexure), flexure))
+}
+
+/// The record of what was solved, and what was solved, if it was asked for and if it ran.
+fn taken_apart<R, S>(
+    solved: Option<Result<(R, S), Outcome>>,
+    without_path: fn(Outcome) -> R,
+) -> (Option<R>, Option<S>) {
+    match solved {
+        Some(Ok((record, solved))) => (Some(record), Some(solved)),
+        Some(Err(outcome)) => (Some(without_path(outcome)), None),
+        None => (None, None),
+    }
+}
+
+/// The value of `f`, or [`Outcome::Internal`] if it panics.
+fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
+    // Nothing of what a failed design has touched is looked at again, but for the calibrations,
+    // which hold complete entries only.
+    catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_one_design_alone() {
+        assert_eq!(guarded(|| 1), Ok(1));
+        assert_eq!(guarded(|| -> u32 { panic!("on purpose") }), Err(Outcome::Internal));
+    }
+}

@@ -1,0 +1,89 @@
+//! What a definition means.
+
+use sweep::{Setting, Sweep};
+
+use crate::sweep;
+
+#[test]
+fn a_name_alone_is_the_paper_sweep() {
+    insta::assert_snapshot!(sweep("name = 'x'").to_toml());
+}
+
+#[test]
+fn a_definition_reads_back_from_its_complete_form() {
+    let texts = [
+        "name = 'x'",
+        "name = 'a b'\nmeasures = ['coverage']\n[scale]\nbase = '2L'\nwidth_over_t = 1e-3",
+        "name = 'x'\n[designs]\nscales = ['auto', 3, 41]\nbase = ['L', '2L']\ngap_over_t = 0.3",
+        "name = 'x'\n[designs]\nscales = { from = 1, to = 9, step = 2 }\nc1 = { from = 0.25, to = 1, step = 0.25 }",
+        "name = 'x'\n[solver]\nmax_step = 0.005\n[puncture]\nscales = 7",
+        "name = 'x'\n[designs]\nmethod = ['chain', 'unit-cell']\n[flexure]\nelements_per_gap = 3",
+    ];
+    for text in texts {
+        let complete = sweep(text).to_toml();
+        assert_eq!(sweep(&complete).to_toml(), complete);
+        let grids = [text, &complete].map(|text| sweep(text).grid().clone());
+        assert_eq!(grids[0].len(), grids[1].len());
+        assert!((0..grids[0].len()).all(|i| grids[0].case(i) == grids[1].case(i)));
+    }
+}
+
+#[test]
+fn axes_vary_as_they_stand_with_the_slant_fastest() {
+    let keys = |text: &str| {
+        let sweep = sweep(text);
+        let keys: Vec<_> = sweep.grid().axes().iter().map(|axis| axis.parameter().key).collect();
+        keys.join(" ")
+    };
+    assert_eq!(keys("name = 'x'"), "gap_over_t length_over_t slant_deg");
+    assert_eq!(
+        keys("name = 'x'\n[designs]\nslant_deg = 0\nlength_over_t = 1\ngap_over_t = 1"),
+        "length_over_t gap_over_t slant_deg"
+    );
+    assert_eq!(
+        keys("name = 'x'\n[designs]\nc2 = [0.23, 1.1]\nslant_deg = 0\nc1 = 1"),
+        "gap_over_t length_over_t c2 c1 slant_deg"
+    );
+}
+
+#[test]
+fn a_range_gives_the_decimals_that_a_person_types() {
+    let sweep = sweep("name = 'x'\n[designs]\ngap_over_t = { from = 0.1, to = 1.0, step = 0.1 }");
+    let axis = sweep.grid().axis("gap_over_t").expect("an axis");
+    let values: Vec<_> = (0..axis.len()).map(|i| axis.value(i).to_string()).collect();
+    assert_eq!(values.join(" "), "0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8 0.9 1");
+}
+
+#[test]
+fn numbers_may_be_written_in_any_way_that_toml_knows() {
+    let sweep = sweep(
+        "name = 'x'\n[puncture]\nscales = 0x29\n[solver]\nmax_points = 1_000\n[contact]\nc1 = 2",
+    );
+    let case = sweep.grid().case(0);
+    assert_eq!(case.puncture.scales, skin::puncture::RowLength::Scales(41));
+    assert_eq!(case.puncture.solver.max_points, 1000);
+    assert_eq!(case.puncture.law, contact::Law { c1: 2.0, c2: 0.23 });
+    assert_eq!((case.flexure.law, case.flexure.solver), (case.puncture.law, case.puncture.solver));
+}
+
+#[test]
+fn settings_take_the_place_of_what_is_written() {
+    let file = "name = 'x'\n[scale]\nbase = 'L'\n[designs]\nc1 = [1, 2]";
+    let settings =
+        ["name=y", "scale.base=2L", "contact.c1=3", "designs.c2=[1, 2]", "measures=coverage"];
+    let settings: Vec<_> = settings.map(|text| Setting::parse(text).expect("valid")).to_vec();
+    let sweep = Sweep::parse(file, "x.toml", &settings).expect("valid");
+    let case = sweep.grid().case(0);
+    assert_eq!(
+        (sweep.name(), case.design.base, case.puncture.law.c1),
+        ("y", skin::Base::TwoL, 3.0)
+    );
+    assert_eq!(sweep.grid().len(), 1440);
+    assert_eq!(sweep.measures(), [sweep::Measure::Coverage]);
+}
+
+#[test]
+fn the_record_of_a_run_is_a_definition() {
+    let text = "[run]\nversion = '1'\n[definition]\nname = 'x'\n[definition.contact]\nc1 = 2";
+    assert_eq!(sweep(text).grid().case(0).puncture.law.c1.to_bits(), 2.0_f64.to_bits());
+}

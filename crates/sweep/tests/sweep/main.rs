@@ -1,0 +1,19 @@
+//! The promises of a sweep: what is refused and how, what a grid numbers, what a table holds.
+
+mod comparison;
+mod definitions;
+mod documentation;
+mod grids;
+mod ranking;
+mod refusals;
+mod tables;
+
+#[path = "../samples/mod.rs"]
+mod samples;
+
+use sweep::Sweep;
+
+/// The sweep that `text` defines.
+fn sweep(text: &str) -> Sweep {
+    Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
+}
