@@ -6,12 +6,12 @@ mod pareto;
 mod quaternary;
 mod stiffness;
 
+use sweep::Ranking;
+
 use crate::designs::Designs;
 use crate::label::{Anchor, label, plain};
 use crate::palette::INK;
 use crate::svg::{Element, document};
-
-pub use quaternary::{Region, Tetrahedron};
 
 /// A figure: the name of its file, which says what it shows, and the drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,9 +42,9 @@ pub(crate) const COMPLIANCE: Quantity = Quantity {
     label: "flexural compliance $C_f^*$ = $C_f E_m I_m/t$, dimensionless",
 };
 
-/// Every figure that the table has the values for. The winners of the tetrahedron of weights come from
-/// the ranking.
-pub fn figures(name: &str, designs: &Designs, tetrahedron: Option<&Tetrahedron>) -> Vec<Figure> {
+/// Every figure that the table has the values for; the Pareto front and the best designs for all weights
+/// if they can be ranked.
+pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
     let multiples = [
         ("critical-force-by-gap-aspect-slant", FORCE, None),
         ("penetration-by-gap-aspect-slant", PENETRATION, None),
@@ -66,13 +66,12 @@ pub fn figures(name: &str, designs: &Designs, tetrahedron: Option<&Tetrahedron>)
         let svg = coverage::figure(name, designs);
         figures.push(Figure { name: "coverage-maps-by-slant", svg });
     }
-    figures.extend(
-        pareto::figure(name, designs).map(|svg| Figure { name: "pareto-front-pairwise", svg }),
-    );
-    figures.extend(tetrahedron.map(|tetrahedron| Figure {
-        name: "best-designs-by-weights-tetrahedron",
-        svg: quaternary::figure(name, designs, tetrahedron),
-    }));
+    if let Some(ranking) = ranking {
+        let pareto = pareto::figure(name, designs, ranking);
+        figures.extend(pareto.map(|svg| Figure { name: "pareto-front-pairwise", svg }));
+        let svg = quaternary::figure(name, designs, ranking);
+        figures.push(Figure { name: "best-designs-by-weights-tetrahedron", svg });
+    }
     figures
 }
 

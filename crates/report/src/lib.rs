@@ -10,7 +10,6 @@
 
 mod axis;
 mod chart;
-mod criteria;
 mod curves;
 mod designs;
 pub mod drawings;
@@ -23,7 +22,7 @@ mod svg;
 
 pub use curves::{Solved, curves};
 pub use designs::Designs;
-pub use figures::{Figure, Region, Tetrahedron, figures};
+pub use figures::{Figure, figures};
 pub use page::{Fact, Page};
 pub use palette::{Mark, slant_color};
 pub use png::{NoImage, png};

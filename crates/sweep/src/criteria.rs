@@ -68,6 +68,11 @@ impl Weights {
     /// Every criterion counts the same.
     pub const BALANCED: Self = Self([0.25; 4]);
 
+    /// The weights under which one criterion counts alone, in the order of [`CRITERIA`].
+    pub fn alone() -> impl Iterator<Item = Self> {
+        (0..CRITERIA.len()).map(|own| Self(std::array::from_fn(|c| f64::from(u8::from(c == own)))))
+    }
+
     /// Weights `m, n, k, l`.
     ///
     /// # Errors

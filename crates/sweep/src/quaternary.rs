@@ -11,6 +11,13 @@ pub struct TetrahedralGrid {
     resolution: u32,
 }
 
+impl Default for TetrahedralGrid {
+    /// Steps of a twentieth.
+    fn default() -> Self {
+        Self { resolution: 20 }
+    }
+}
+
 /// Steps of a node from the face opposite to each corner; they sum to the resolution.
 pub type Steps = [u32; 4];
 
@@ -38,6 +45,11 @@ impl std::str::FromStr for TetrahedralGrid {
 impl TetrahedralGrid {
     /// Most steps from corner to corner: some 1.4 million nodes.
     pub const FINEST: u32 = 200;
+
+    /// Steps from corner to corner.
+    pub fn resolution(self) -> u32 {
+        self.resolution
+    }
 
     /// Every node, the weight of the first criterion growing slowest.
     pub fn nodes(self) -> impl Iterator<Item = Steps> {

@@ -117,6 +117,11 @@ impl<'a> Standing<'a> {
         self.candidate.values
     }
 
+    /// Its criteria, larger being better (R1), in the order of [`CRITERIA`].
+    pub fn criteria(&self) -> [f64; 4] {
+        self.candidate.criteria
+    }
+
     /// Its part of the tetrahedron of weights: where it is the best.
     pub fn share(&self) -> f64 {
         self.candidate.won as f64 / self.whole as f64
@@ -160,6 +165,11 @@ impl<'r> Ranking<'r> {
     #[expect(clippy::len_without_is_empty, reason = "a ranking is never empty")]
     pub fn len(&self) -> usize {
         self.candidates.len()
+    }
+
+    /// The grid of weights.
+    pub fn grid(&self) -> TetrahedralGrid {
+        self.grid
     }
 
     /// How many designs are left out why.

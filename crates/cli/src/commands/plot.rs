@@ -32,8 +32,8 @@ fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     sweep::make_folder(&folder)?;
     let mut files = Written::default();
-    let tetrahedron = results.tetrahedron();
-    for figure in figures(results.sweep.name(), &results.designs, tetrahedron.as_ref()) {
+    let ranking = results.ranking()?;
+    for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
         write_svg(&folder, figure.name, &figure.svg, arguments.png, &mut files)?;
     }
     print(&files.report(&folder))?;

@@ -71,14 +71,11 @@ impl Report<'_> {
 
     /// The best design by each criterion.
     fn corners(&self) -> String {
-        let corner = |c: usize| {
-            let mut weights = [0.0; 4];
-            weights[c] = 1.0;
-            Weights::new(weights).ok().map(|weights| (c, self.ranking.winner(weights)))
-        };
-        let corners: Vec<_> = (0..CRITERIA.len()).filter_map(corner).collect();
+        let corners = CRITERIA.iter().zip(Weights::alone());
         let mut rows = vec![self.header("criterion")];
-        rows.extend(corners.iter().map(|(c, s)| self.row(s, CRITERIA[*c].name.to_owned())));
+        rows.extend(corners.map(|(criterion, weights)| {
+            self.row(&self.ranking.winner(weights), criterion.name.to_owned())
+        }));
         aligned(&rows)
     }
 

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use report::{Fact, Page, Tetrahedron, drawings};
+use report::{Fact, Page, drawings};
 use skin::puncture;
+use sweep::Weights;
 use sweep::columns::design_columns;
 
 use super::draw::springs;
@@ -16,7 +17,7 @@ use crate::print::print;
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(&arguments.results)?;
-    let page = page(&results);
+    let page = page(&results)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     sweep::make_folder(&folder)?;
@@ -28,7 +29,7 @@ pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-fn page(results: &ResultsFolder) -> Page {
+fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
     let column = |header: &String| {
@@ -41,7 +42,7 @@ fn page(results: &ResultsFolder) -> Page {
     let shared = sweep.shared().map(|(parameter, value)| {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
-    Page {
+    Ok(Page {
         name: sweep.name().to_owned(),
         version: PROGRAM.version.to_owned(),
         folder: results.folder.display().to_string(),
@@ -49,15 +50,19 @@ fn page(results: &ResultsFolder) -> Page {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        drawings: drawn(results),
+        drawings: drawn(results)?,
         designs: results.designs.clone(),
-    }
+    })
 }
 
 /// Drawings of the designs that are best for one criterion or for all alike.
-fn drawn(results: &ResultsFolder) -> Vec<Fact> {
-    let rows = Tetrahedron::corners_and_middle(&results.designs);
-    rows.into_iter().filter_map(|row| drawing(results, row)).collect()
+fn drawn(results: &ResultsFolder) -> anyhow::Result<Vec<Fact>> {
+    let Some(ranking) = results.ranking()? else { return Ok(Vec::new()) };
+    let weights = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+    let mut rows: Vec<_> = weights.map(|weights| ranking.winner(weights).row()).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    Ok(rows.into_iter().filter_map(|row| drawing(results, row)).collect())
 }
 
 /// A drawing, or none if the design cannot be solved: its row in the table says why.

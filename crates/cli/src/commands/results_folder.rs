@@ -2,13 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
-use report::{Designs, Fact, Tetrahedron};
-use sweep::Sweep;
+use report::{Designs, Fact};
 use sweep::written::{self, Entry, Value};
-
-/// Steps of the tetrahedron of weights along an edge.
-const RESOLUTION: usize = 20;
+use sweep::{InvalidRanking, InvalidResults, Ranking, Results, Sweep, TetrahedralGrid};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -20,25 +16,30 @@ pub struct ResultsFolder {
     pub designs: Designs,
     /// What the run was.
     pub run: Vec<Fact>,
+    results: Results,
 }
 
 impl ResultsFolder {
     /// Reads `run.toml` and `designs.csv`.
     pub fn read(folder: &Path) -> anyhow::Result<Self> {
         let sweep = Sweep::read(&folder.join("run.toml"), &[])?;
-        let path = folder.join("designs.csv");
-        let text = std::fs::read_to_string(&path).with_context(|| {
-            format!("{}: cannot be read, expected the table of a run", path.display())
-        })?;
-        let designs =
-            Designs::parse(&text).with_context(|| format!("{}: no table", path.display()))?;
+        let results = Results::read(folder)?;
         let run = std::fs::read_to_string(folder.join("run.toml")).unwrap_or_default();
-        Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run) })
+        let designs = Designs::of(&results);
+        Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }
 
-    /// The best design for every weight of a grid; `None` if none can be ranked.
-    pub fn tetrahedron(&self) -> Option<Tetrahedron> {
-        Tetrahedron::of(&self.designs, RESOLUTION)
+    /// The ranking of the designs; `None` if there are none to rank.
+    pub fn ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
+        match Ranking::new(&self.results, TetrahedralGrid::default()) {
+            Ok(ranking) => Ok(Some(ranking)),
+            // A sweep need not measure everything.
+            Err(
+                InvalidRanking::Nothing { .. }
+                | InvalidRanking::Results(InvalidResults::NoColumn { .. }),
+            ) => Ok(None),
+            Err(error) => Err(error),
+        }
     }
 }
 

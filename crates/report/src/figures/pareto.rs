@@ -1,9 +1,10 @@
 //! The Pareto front of the four criteria, two at a time.
 
+use sweep::{Ranking, Standing, Weights};
+
 use super::{COVERAGE, sheet};
 use crate::axis::Axis;
 use crate::chart::{Area, Panel, mark, slant_legend};
-use crate::criteria::{Criteria, ranked};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::palette::INK;
@@ -24,18 +25,17 @@ const LABELS: [&str; 4] = [
 ];
 
 /// `None` if fewer than two designs have every criterion.
-pub(super) fn figure(name: &str, designs: &Designs) -> Option<String> {
-    let all = ranked(designs);
+pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> Option<String> {
+    let all = ranking.by_fitness(Weights::BALANCED);
     (all.len() > 1).then(|| draw(name, designs, &all))
 }
 
-fn draw(name: &str, designs: &Designs, all: &[(usize, Criteria)]) -> String {
-    let axes: Vec<Axis> =
-        (0..4).map(|k| Axis::fit(LABELS[k], all.iter().map(|(_, criteria)| criteria[k]))).collect();
-    let front: Vec<bool> = all.iter().map(|(_, own)| is_unbeaten(own, all)).collect();
-    let count = front.iter().filter(|on| **on).count();
+fn draw(name: &str, designs: &Designs, all: &[Standing<'_>]) -> String {
+    let axis = |k: usize| Axis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
+    let axes: Vec<Axis> = (0..4).map(axis).collect();
+    let (front, beaten): (Vec<_>, Vec<_>) = all.iter().partition(|design| design.on_front());
     let slants = designs.values("slant_deg");
-    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0]), legend(count, all.len())];
+    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0]), legend(front.len(), beaten.len())];
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
     for (k, (i, j)) in pairs.into_iter().enumerate() {
         let panel = Panel {
@@ -52,31 +52,22 @@ fn draw(name: &str, designs: &Designs, all: &[(usize, Criteria)]) -> String {
             y_labels: true,
         };
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(48.0)]);
-        let at = |criteria: &Criteria| panel.place(criteria[i], criteria[j]);
-        let beaten = all.iter().zip(&front).filter(|(_, on)| !**on);
-        let dot = |((_, criteria), _): (&(usize, Criteria), &bool)| {
-            Some(circle(at(criteria)?, 1.6).with("fill", "#b5b5b5"))
+        let at = |design: &Standing<'_>| {
+            let criteria = design.criteria();
+            panel.place(criteria[i], criteria[j])
         };
-        inside.push(Element::group("beaten").containing(beaten.filter_map(dot)));
-        let best = all.iter().zip(&front).filter(|(_, on)| **on);
-        let marked = |((row, criteria), _): (&(usize, Criteria), &bool)| {
-            Some(mark(designs.number("slant_deg", *row)?, at(criteria)?, 3.4, true))
+        let dot = |design: &&Standing<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
+        inside.push(Element::group("beaten").containing(beaten.iter().filter_map(dot)));
+        let marked = |design: &&Standing<'_>| {
+            Some(mark(designs.number("slant_deg", design.row())?, at(design)?, 3.4, true))
         };
-        inside.push(Element::group("front").containing(best.filter_map(marked)));
+        inside.push(Element::group("front").containing(front.iter().filter_map(marked)));
     }
     let title = format!("{name}: designs that no other beats in all four criteria");
     sheet(WIDTH, TOP + 2.0 * (PANEL[1] + BETWEEN[1]), &title, inside)
 }
 
-/// Whether no other design is at least as good in every criterion and better in one.
-fn is_unbeaten(own: &Criteria, all: &[(usize, Criteria)]) -> bool {
-    let beats = |other: &Criteria| {
-        other.iter().zip(own).all(|(a, b)| a >= b) && other.iter().zip(own).any(|(a, b)| a > b)
-    };
-    !all.iter().any(|(_, other)| beats(other))
-}
-
-fn legend(front: usize, all: usize) -> Element {
-    let text = format!("{front} designs on the front; grey: the other {}", all - front);
+fn legend(front: usize, beaten: usize) -> Element {
+    let text = format!("{front} designs on the front; grey: the other {beaten}");
     label(&text, [LEFT + 520.0, 54.0], 12.0, Anchor::Start).with("fill", INK)
 }

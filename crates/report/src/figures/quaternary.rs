@@ -1,9 +1,9 @@
 //! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
 
 use geometry::{Parallelogram, Row};
+use sweep::{Ranking, Standing};
 
 use super::sheet;
-use crate::criteria::{best, ranked, rescaled};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::palette::{FAINT, INK, shaded, slant_color};
@@ -31,80 +31,26 @@ const NAMES: [&str; 4] = [
     "compliance ($l$ = 1)",
 ];
 
-/// The best design for every weight of a grid.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tetrahedron {
-    /// Steps of the grid along an edge.
-    pub resolution: usize,
-    /// Weights of the four criteria, with the row of the best design.
-    pub winners: Vec<([f64; 4], usize)>,
-}
-
 /// The weights for which one design is best.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Region {
+struct Region {
     /// Its row.
-    pub row: usize,
+    row: usize,
     /// Its part of the weights, from 0 to 1.
-    pub share: f64,
+    share: f64,
 }
 
-impl Tetrahedron {
-    /// The best of `designs` for every weight of a grid with `resolution` steps along an edge; `None` if
-    /// none can be ranked.
-    pub fn of(designs: &Designs, resolution: usize) -> Option<Self> {
-        let rescaled = rescaled(&ranked(designs));
-        let winner = |parts: [usize; 4]| {
-            let weights = parts.map(|part| part as f64 / resolution as f64);
-            Some((weights, best(&rescaled, weights)?))
-        };
-        let winners: Vec<_> = parts(resolution).into_iter().filter_map(winner).collect();
-        (!winners.is_empty()).then_some(Self { resolution, winners })
-    }
-
-    /// The row of the best design for each criterion alone, and for equal weights.
-    pub fn corners_and_middle(designs: &Designs) -> Vec<usize> {
-        let rescaled = rescaled(&ranked(designs));
-        let alone = (0..4).map(|k| std::array::from_fn(|i| f64::from(u8::from(i == k))));
-        let mut rows: Vec<usize> = std::iter::once([0.25; 4])
-            .chain(alone)
-            .filter_map(|weights| best(&rescaled, weights))
-            .collect();
-        rows.sort_unstable();
-        rows.dedup();
-        rows
-    }
-
-    /// The designs that are best somewhere, the largest region first.
-    pub fn regions(&self) -> Vec<Region> {
-        let mut counts = std::collections::BTreeMap::<usize, usize>::new();
-        for (_, row) in &self.winners {
-            *counts.entry(*row).or_default() += 1;
-        }
-        let all = self.winners.len() as f64;
-        let region = |(row, count)| Region { row, share: count as f64 / all };
-        let mut regions: Vec<Region> = counts.into_iter().map(region).collect();
-        // Stable: among equals the first design comes first.
-        regions.sort_by(|a, b| b.share.total_cmp(&a.share));
-        regions
-    }
-}
-
-/// Every way to share `whole` parts among four.
-fn parts(whole: usize) -> Vec<[usize; 4]> {
-    let first = (0..=whole).flat_map(move |m| (0..=whole - m).map(move |n| (m, n)));
-    first
-        .flat_map(|(m, n)| (0..=whole - m - n).map(move |k| [m, n, k, whole - m - n - k]))
-        .collect()
-}
-
-pub(super) fn figure(name: &str, designs: &Designs, tetrahedron: &Tetrahedron) -> String {
-    let regions = tetrahedron.regions();
+pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
+    let region = |winner: &Standing<'_>| Region { row: winner.row(), share: winner.share() };
+    let regions: Vec<_> = ranking.winners().iter().map(region).collect();
+    let dots = Dots {
+        radius: 0.3 * SIZE * 1.63 / f64::from(ranking.grid().resolution().max(4)),
+        winners: ranking.quaternary().iter().map(|best| (best.weights.values(), best.row())).collect(),
+    };
     let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
-    inside.push(points(designs, tetrahedron, &regions));
+    inside.push(points(designs, &dots, &regions));
     inside.push(edges(&[[0, 1], [0, 2], [0, 3]], "none"));
     inside.push(corner_names());
-    inside.push(letters(tetrahedron, &regions));
+    inside.push(letters(&dots, &regions));
     let colors = colors(designs, &regions);
     inside.extend(regions.iter().zip(&colors).enumerate().map(|(k, (region, color))| {
         entry(designs, region, color, &letter(k), [604.0, 78.0 + 58.0 * k as f64])
@@ -117,6 +63,13 @@ pub(super) fn figure(name: &str, designs: &Designs, tetrahedron: &Tetrahedron) -
     }
     let title = format!("{name}: the best design for every weighting of the four criteria");
     sheet(WIDTH, HEIGHT, &title, inside)
+}
+
+/// A dot for every weight of a grid.
+struct Dots {
+    radius: f64,
+    /// The weights, and the row of the design that is best for them.
+    winners: Vec<([f64; 4], usize)>,
 }
 
 /// A point of the tetrahedron on paper, and how near it is.
@@ -154,17 +107,16 @@ fn corner_names() -> Element {
 }
 
 /// A dot for each weight in the colour of its best design, the far ones first.
-fn points(designs: &Designs, tetrahedron: &Tetrahedron, regions: &[Region]) -> Element {
-    let radius = 0.3 * SIZE * 1.63 / tetrahedron.resolution.max(4) as f64;
+fn points(designs: &Designs, all: &Dots, regions: &[Region]) -> Element {
     let colors = colors(designs, regions);
     let mut dots: Vec<_> =
-        tetrahedron.winners.iter().map(|(weights, row)| (projected(*weights), *row)).collect();
+        all.winners.iter().map(|(weights, row)| (projected(*weights), *row)).collect();
     dots.sort_by(|a, b| a.0.1.total_cmp(&b.0.1));
     let dot = |((at, depth), row): &((Spot, f64), usize)| {
         let listed = regions.iter().take(LISTED).position(|region| region.row == *row);
         let color = listed.map_or("#d9d9d9", |k| colors[k].as_str());
         // Far dots are smaller.
-        circle(*at, radius * (0.85 + 0.15 * depth)).with("fill", color)
+        circle(*at, all.radius * (0.85 + 0.15 * depth)).with("fill", color)
     };
     Element::group("weights")
         .with("stroke", "#fff")
@@ -189,9 +141,9 @@ fn letter(k: usize) -> String {
 }
 
 /// The letter of each listed design on the dot of its region that is nearest to the reader.
-fn letters(tetrahedron: &Tetrahedron, regions: &[Region]) -> Element {
+fn letters(all: &Dots, regions: &[Region]) -> Element {
     let letter = |(k, region): (usize, &Region)| {
-        let own = tetrahedron.winners.iter().filter(|(_, row)| *row == region.row);
+        let own = all.winners.iter().filter(|(_, row)| *row == region.row);
         let nearest =
             own.map(|(weights, _)| projected(*weights)).max_by(|a, b| a.1.total_cmp(&b.1));
         Some(badge(&letter(k), nearest?.0))

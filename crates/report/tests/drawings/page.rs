@@ -1,9 +1,10 @@
 //! Figures and page of a table.
 
-use report::{Designs, Page, Tetrahedron, figures};
+use report::{Designs, Page, figures};
+use sweep::{Ranking, Results, TetrahedralGrid};
 
 /// A table of 24 designs with made-up values.
-fn designs() -> Designs {
+fn table() -> String {
     let mut text =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,\
                     flexure_contact,max_stiffness,secant_stiffness\n"
@@ -21,7 +22,18 @@ fn designs() -> Designs {
             k % 2 == 0
         );
     }
-    Designs::parse(&text).expect("a table")
+    text
+}
+
+/// What a run with this table has left behind.
+fn results(table: &str) -> Results {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("designs.csv"), table).expect("a file");
+    Results::read(folder.path()).expect("a table")
+}
+
+fn designs() -> Designs {
+    Designs::of(&results(&table()))
 }
 
 fn page(designs: Designs) -> Page {
@@ -37,13 +49,10 @@ fn page(designs: Designs) -> Page {
 
 #[test]
 fn figures_are_named_and_the_same_every_time() {
-    let tetrahedron = Tetrahedron {
-        resolution: 1,
-        winners: (0..4)
-            .map(|k| (std::array::from_fn(|i| f64::from(u8::from(i == k))), k))
-            .collect(),
-    };
-    let all = figures("x", &designs(), Some(&tetrahedron));
+    let results = results(&table());
+    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let designs = Designs::of(&results);
+    let all = figures("x", &designs, Some(&ranking));
     let names: Vec<_> = all.iter().map(|figure| figure.name).collect();
     assert_eq!(
         names,
@@ -57,14 +66,14 @@ fn figures_are_named_and_the_same_every_time() {
             "best-designs-by-weights-tetrahedron",
         ]
     );
-    assert_eq!(all, figures("x", &designs(), Some(&tetrahedron)));
+    assert_eq!(all, figures("x", &designs, Some(&ranking)));
 }
 
 #[test]
 fn what_was_not_measured_has_no_figure() {
     let table =
         "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force\n0001,1,1,0,0,\n";
-    let designs = Designs::parse(table).expect("a table");
+    let designs = Designs::of(&results(table));
     let names: Vec<_> = figures("x", &designs, None).into_iter().map(|f| f.name).collect();
     assert_eq!(names, ["coverage-maps-by-slant"]);
 }
