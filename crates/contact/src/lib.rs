@@ -1,4 +1,38 @@
-//! contact
+//! Frictionless contact between neighbouring scales: a corner of one on an edge of the other.
+//!
+//! Scales are rigid for the kinematics and give way where they touch, by a power law between the force
+//! `λ` on a corner and the approach `δ` of the two bodies (Eq. 5 of Shafiei et al. 2021, doi
+//! 10.1016/j.jmps.2020.104176). Every contact is a complementarity condition with its force as unknown,
+//!
+//! ```text
+//! 0 ≤ λ  ⟂  g(q) + δ(λ) ≥ 0,
+//! ```
+//!
+//! where the gap `g` depends on the poses `q` of both scales and pulls on them with `λ ∇g` (Eq. 6).
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`Pose`], [`Pair`] | where a scale stands; two neighbours at a pitch |
+//! | [`Kind`], [`Gap`] | which corner meets which edge; how far, with gradient and Hessian |
+//! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
+//! | [`Level`], [`Joint`], [`JointResponse`] | the upper or lower contact of a pair, corners included; what it adds to a system |
+//! | [`overlaps`], [`overlap_polygon`] | scales that overlap, for the audit of final states and for drawings |
+//!
+//! ```
+//! use contact::{ContactLaw, Kind, Law, Pair, Pose};
+//! use geometry::Parallelogram;
+//!
+//! // Two upright blocks, 0.1 apart; the left one leans over by 0.05 radians.
+//! let pair = Pair::new(Parallelogram::new(0.5, 0.0)?, 1.1);
+//! let (left, right) = (Pose::new(0.0, 0.0, -0.05), Pose::new(0.0, 0.0, 0.0));
+//! let gap = pair.gap(Kind::TopRightOnLeftEdge, &left, &right);
+//! assert!((gap.value - (0.1 - 0.05_f64.sin() + 0.5 * (1.0 - 0.05_f64.cos()))).abs() < 1e-15);
+//!
+//! let law = ContactLaw::new(Law::PRINTED, 1.0, 1.0, 7000.0)?;
+//! // A unit force makes next to no difference: contact is nearly rigid.
+//! assert!(law.approach(1.0).value < 1e-15);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod gap;
 mod joint;

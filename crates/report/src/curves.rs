@@ -120,12 +120,10 @@ fn flexure_energies(solved: &Solved) -> Option<Energies> {
     ])
 }
 
-fn one_panel(
-    name: &str,
-    text: &Text,
-    designs: &[Solved],
-    values: fn(&Solved) -> Option<[Vec<[f64; 2]>; 2]>,
-) -> Option<String> {
+/// Points and crosses of a curve; `None` where there is none.
+type Values = fn(&Solved) -> Option<[Vec<[f64; 2]>; 2]>;
+
+fn one_panel(name: &str, text: &Text, designs: &[Solved], values: Values) -> Option<String> {
     let mut curves: Vec<Curve> = Vec::new();
     for solved in designs {
         let Some([points, crosses]) = values(solved) else { continue };
@@ -139,7 +137,8 @@ fn one_panel(
         return None;
     }
     let top = 62.0 + 20.0 * curves.len() as f64;
-    let (x, mut y) = axes(text, curves.iter().flat_map(|curve| &curve.points));
+    let (x, mut y) =
+        axes(text, &curves.iter().flat_map(|curve| curve.points.clone()).collect::<Vec<_>>());
     if let Some(log) = logarithmic(text, &curves) {
         y = log;
     }
@@ -167,9 +166,9 @@ fn one_panel(
 }
 
 /// Axes for points, both from zero.
-fn axes<'a>(text: &Text, points: impl Iterator<Item = &'a [f64; 2]> + Clone) -> (Axis, Axis) {
+fn axes(text: &Text, points: &[[f64; 2]]) -> (Axis, Axis) {
     let axis = |name: &str, k: usize| {
-        let (low, high) = crate::axis::ends(points.clone().map(|point| point[k]));
+        let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
         Axis::linear(name, low.min(0.0), high)
     };
     (axis(text.x, 0), axis(text.y, 1))
@@ -219,7 +218,8 @@ fn panels(
     let [w, h] = [330.0, 300.0];
     let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (k, (design, energies)) in solved.iter().enumerate() {
-        let (x, y) = axes(text, energies.iter().flat_map(|(_, points)| points));
+        let (x, y) =
+            axes(text, &energies.iter().flat_map(|(_, points)| points.clone()).collect::<Vec<_>>());
         let panel = Panel {
             area: Area {
                 left: MARGINS[0] + (k % columns) as f64 * (w + 84.0),

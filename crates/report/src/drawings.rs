@@ -57,14 +57,15 @@ fn stacked(title: &str, panels: Vec<Panel>) -> String {
     ];
     let mut top = HEAD;
     for (k, panel) in panels.into_iter().enumerate() {
-        inside.push(placed(panel.caption, panel.inside, top, k));
-        top += CAPTION + panel.height;
+        let height = panel.height;
+        inside.push(placed(panel, top, k));
+        top += CAPTION + height;
     }
     document(WIDTH, top + 0.5 * MARGIN, &plain(title), inside)
 }
 
 /// A panel with its letter and caption at a height.
-fn placed(caption: String, inside: Vec<Element>, top: f64, number: usize) -> Element {
+fn placed(Panel { caption, inside, .. }: Panel, top: f64, number: usize) -> Element {
     let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
     let text = format!("({letter})  {caption}");
     // A caption that would leave the paper is set smaller.

@@ -33,11 +33,7 @@ fn runs(source: &str) -> Vec<Run> {
             '{' if level != 0 => braced = true,
             '}' if braced => (braced, level) = (false, 0),
             c => {
-                push(
-                    &mut runs,
-                    c,
-                    Run { text: String::new(), italic: italic && level == 0, level },
-                );
+                push(&mut runs, c, italic && level == 0, level);
                 if !braced {
                     level = 0;
                 }
@@ -48,10 +44,10 @@ fn runs(source: &str) -> Vec<Run> {
     runs
 }
 
-fn push(runs: &mut Vec<Run>, c: char, kind: Run) {
+fn push(runs: &mut Vec<Run>, c: char, italic: bool, level: i8) {
     match runs.last_mut() {
-        Some(run) if run.italic == kind.italic && run.level == kind.level => run.text.push(c),
-        _ => runs.push(Run { text: c.to_string(), ..kind }),
+        Some(run) if run.italic == italic && run.level == level => run.text.push(c),
+        _ => runs.push(Run { text: c.to_string(), italic, level }),
     }
 }
 

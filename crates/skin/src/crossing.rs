@@ -87,7 +87,7 @@ impl<Q> Crossing<Q> {
             let fraction = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
             let state = path.between(from, to, fraction)?.state;
             let off = self.off(path.system(), &state);
-            if self.is_at(path.system(), &state) || high.0 - low.0 < f64::EPSILON {
+            if self.is_at(path.system(), &state) || (high.0 - low.0).abs() < f64::EPSILON {
                 return Some(state);
             }
             if off.signum() == high.1.signum() {

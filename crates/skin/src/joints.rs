@@ -68,7 +68,7 @@ impl Change {
 pub(crate) struct Joints {
     pair: Pair,
     law: ContactLaw,
-    joints: Vec<Joint>,
+    all: Vec<Joint>,
     /// First of the three unknowns of each scale; `None` for a scale that is held.
     scales: Vec<Option<usize>>,
     /// Whether each scale is placed in the frame of its left neighbour.
@@ -89,7 +89,7 @@ impl Joints {
         Self {
             pair: Pair::new(*row.scale(), row.pitch()),
             law,
-            joints: [Joint::new(Level::Upper), Joint::new(Level::Lower)].repeat(pairs),
+            all: [Joint::new(Level::Upper), Joint::new(Level::Lower)].repeat(pairs),
             scales,
             relative: false,
             forces,
@@ -114,7 +114,7 @@ impl Joints {
 
     /// One of the joints.
     pub(crate) fn joint(&self, joint: usize) -> Joint {
-        self.joints[joint]
+        self.all[joint]
     }
 
     /// Pose of a scale, in the frame in which it is placed.
@@ -150,12 +150,12 @@ impl Joints {
     /// Force of a joint on the left scale of its pair.
     pub(crate) fn force(&self, z: &[f64], joint: usize) -> Vec2 {
         let [left, right] = self.pair_poses(z, joint);
-        self.joints[joint].force(&self.pair, [&left, &right], self.pair_forces(z, joint))
+        self.all[joint].force(&self.pair, [&left, &right], self.pair_forces(z, joint))
     }
 
     /// Elastic energy of all contacts.
     pub(crate) fn energy(&self, z: &[f64]) -> f64 {
-        (0..self.joints.len()).map(|joint| self.law.energy(self.force(z, joint).norm())).sum()
+        (0..self.all.len()).map(|joint| self.law.energy(self.force(z, joint).norm())).sum()
     }
 
     /// Whether any two scales overlap by more than the approach of their contacts.
@@ -191,7 +191,7 @@ impl Joints {
                 let rows = if active[FORCES * joint] {
                     self.response(joint, &poses, z, active).residual
                 } else {
-                    let [gap, short] = self.joints[joint].open(&self.pair, poses.each_ref());
+                    let [gap, short] = self.all[joint].open(&self.pair, poses.each_ref());
                     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, gap, short]
                 };
                 for Entry { unknown, coordinate, sign } in self.entries(joint).into_iter().flatten()
@@ -226,9 +226,9 @@ impl Joints {
         let [left, right] = self.pair_poses(&state.z, joint);
         let poses = [&left, &right];
         let facing = if Self::is_closed(state, joint) {
-            self.joints[joint]
+            self.all[joint]
         } else {
-            self.joints[joint].facing(&self.pair, poses)
+            self.all[joint].facing(&self.pair, poses)
         };
         let forces = self.pair_forces(&state.z, joint);
         let response = facing.response(&self.pair, &self.law, poses, forces, false);
@@ -248,7 +248,7 @@ impl Joints {
         let passed_on = force == own && state.active[partner];
         let flush = force == partner && state.active[partner] && Joint::is_flush(poses);
         if passed_on || flush {
-            self.joints[joint].hand_over();
+            self.all[joint].hand_over();
             if passed_on {
                 state.z.swap(self.forces[own], self.forces[partner]);
                 state.active[own] = true;
@@ -257,7 +257,7 @@ impl Joints {
             return partner;
         }
         if force == own && state.active[own] {
-            self.joints[joint] = self.joints[joint].facing(&self.pair, poses);
+            self.all[joint] = self.all[joint].facing(&self.pair, poses);
         }
         force
     }
@@ -271,7 +271,7 @@ impl Joints {
     ) -> JointResponse {
         let at_corner = active[FORCES * joint + 1];
         let forces = self.pair_forces(z, joint);
-        self.joints[joint].response(&self.pair, &self.law, [left, right], forces, at_corner)
+        self.all[joint].response(&self.pair, &self.law, [left, right], forces, at_corner)
     }
 
     /// The two forces of a joint.

@@ -1,4 +1,54 @@
 //! Equilibrium paths of mixed complementarity systems.
+//!
+//! `n − 1` equations in `n` unknowns, one of them the load, have a curve of solutions. Some equations are
+//! switched on and off by conditions `0 ≤ z_c ⟂ r_c(z) ≥ 0`, so that the curve has kinks. This crate
+//! follows it from a first equilibrium to the place where a chosen coordinate, the driver, reaches a target: past
+//! load maxima, past points where the driver itself turns, from kink to kink. It knows no mechanics.
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`System`] | the problem: equations, tangent, constraints, and what drives it |
+//! | [`State`], [`Residual`], [`Control`] | unknowns with the active set; values and sizes of the equations; a driver |
+//! | [`Path`], [`Point`] | an iterator over the equilibria; one of them, with its directions |
+//! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
+//! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
+//! | [`Peak`] | the largest value of a quantity along the path, between its points too |
+//! | [`Newton`], [`Condition`], [`ActiveSet`] | one equilibrium, the semismooth Newton method |
+//! | [`BandMatrix`], [`BandLu`] | linear solves |
+//!
+//! ```
+//! use solver::{BandMatrix, Control, Path, Residual, Settings, State, Stop, System};
+//!
+//! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
+//! #[derive(Clone)]
+//! struct SnapThrough([Control; 1]);
+//!
+//! impl System for SnapThrough {
+//!     fn size(&self) -> usize { 2 }
+//!     fn half_bandwidth(&self) -> usize { 1 }
+//!     fn load(&self) -> usize { 1 }
+//!     fn controls(&self) -> &[Control] { &self.0 }
+//!     fn residual(&self, z: &[f64], _: &[bool], residual: &mut Residual) {
+//!         residual.clear(&[1.0, 1.0]);
+//!         residual.add(0, z[0] * (1.0 - z[0] * z[0]));
+//!         residual.add(0, -z[1]);
+//!     }
+//!     fn tangent(&self, z: &[f64], _: &[bool], matrix: &mut BandMatrix) {
+//!         matrix.add(0, 0, 1.0 - 3.0 * z[0] * z[0]);
+//!         matrix.add(0, 1, -1.0);
+//!     }
+//! }
+//!
+//! // Driven by u, to u = 1: the load rises to 2/√27 at u = 1/√3, and falls to zero.
+//! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
+//! let rest = State::at_rest(&system);
+//! let mut path = Path::new(system, rest, Settings::default());
+//! let loads: Vec<f64> = path.by_ref().map(|point| point.state.z[1]).collect();
+//! assert_eq!(path.stop(), Some(Stop::Reached));
+//! let largest = loads.iter().copied().fold(0.0, f64::max);
+//! assert!((largest - 2.0 / 27_f64.sqrt()).abs() < 1e-12);
+//! assert!(loads.last().is_some_and(|load| load.abs() < 1e-12));
+//! ```
 
 mod event;
 mod linear;

@@ -23,7 +23,8 @@ pub fn pareto_front(points: &[Criteria]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(&points[b], &points[a]));
     let groups: Vec<&[usize]> = order.chunk_by(|&a, &b| points[a] == points[b]).collect();
-    let thirds = descending_ranks(groups.iter().map(|group| points[group[0]][2]).collect());
+    let thirds =
+        descending_ranks(&groups.iter().map(|group| points[group[0]][2]).collect::<Vec<_>>());
     let candidate = |(group, members): (usize, &&[usize])| {
         let [_, second, _, fourth] = points[members[0]];
         Candidate { group, second, third: thirds[group], fourth, beaten: false }
@@ -45,8 +46,8 @@ fn compare(a: &Criteria, b: &Criteria) -> Ordering {
 }
 
 /// The place of each value among the distinct ones, the largest first.
-fn descending_ranks(values: Vec<f64>) -> Vec<usize> {
-    let mut distinct = values.clone();
+fn descending_ranks(values: &[f64]) -> Vec<usize> {
+    let mut distinct = values.to_vec();
     distinct.sort_by(|a, b| b.total_cmp(a));
     distinct.dedup();
     values.iter().map(|value| distinct.partition_point(|other| other > value)).collect()

@@ -191,7 +191,7 @@ fn read_table(path: &Path) -> Result<Table, csv::Error> {
     let header = table.headers()?.iter().map(str::to_owned).collect();
     let plain = |row: csv::StringRecord| match dialect {
         Dialect::Plain => row,
-        other => row.iter().map(|cell| plain(other, cell)).collect(),
+        Dialect::ExcelEu => row.iter().map(|cell| plain(dialect, cell)).collect(),
     };
     let rows = table.records().map(|row| row.map(plain));
     Ok((dialect, header, rows.collect::<Result<_, _>>()?))

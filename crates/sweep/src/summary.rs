@@ -12,8 +12,8 @@ pub struct Summary {
     pub designs: u64,
     /// Designs that lack a value that was asked for.
     pub failed: u64,
-    /// How many designs have which status, by the column of the status.
-    pub statuses: BTreeMap<String, BTreeMap<String, u64>>,
+    /// How many designs have which status, for each column of statuses in the order of the table.
+    pub statuses: Vec<(String, BTreeMap<String, u64>)>,
     /// The best values, those that exist.
     pub best: Vec<Best>,
     /// Where the columns stand that are looked at.
@@ -73,13 +73,25 @@ impl Summary {
             let Some(cell) = cells.get(*place).filter(|cell| !cell.is_empty()) else { continue };
             match watched {
                 Watched::Status(name) => {
-                    let counts = self.statuses.entry(name.clone()).or_default();
-                    *counts.entry((*cell).to_owned()).or_default() += 1;
+                    *counts(&mut self.statuses, name).entry((*cell).to_owned()).or_default() += 1;
                 }
                 Watched::Value(what, better) => keep(&mut self.best, what, cell, *better, design),
             }
         }
     }
+}
+
+/// The counts of a column, which stands behind those that came before it.
+fn counts<'s>(
+    statuses: &'s mut Vec<(String, BTreeMap<String, u64>)>,
+    name: &str,
+) -> &'s mut BTreeMap<String, u64> {
+    let known = statuses.iter().position(|(column, _)| column == name);
+    let place = known.unwrap_or_else(|| {
+        statuses.push((name.to_owned(), BTreeMap::new()));
+        statuses.len() - 1
+    });
+    &mut statuses[place].1
 }
 
 fn keep(best: &mut Vec<Best>, what: &'static str, cell: &str, better: Better, design: &str) {
@@ -108,7 +120,8 @@ mod tests {
             summary.add(&Entry { design, at: 0.0, seconds: 0.0, rerun: 0, row, failures });
         }
         assert_eq!((summary.designs, summary.failed), (3, 1));
-        let counts = &summary.statuses["puncture_status"];
+        let (column, counts) = &summary.statuses[0];
+        assert_eq!(column, "puncture_status");
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
         let best: Vec<_> = summary.best.iter().map(|b| (b.what, b.design.as_str())).collect();
         assert_eq!(best, [("least penetration", "0003"), ("largest critical force", "0001")]);

@@ -229,11 +229,11 @@ impl Sheet {
 
     fn overlaps(&self, state: &Snapshot) -> Element {
         let poses: Vec<_> = state.scales.iter().map(pose).collect();
-        contacts::overlaps(&self.from_left(state), &overlaps(&self.row, &poses))
+        contacts::overlaps(&self.measured_from_left(state), &overlaps(&self.row, &poses))
     }
 
     fn contacts(&self, state: &Snapshot) -> Element {
-        let view = self.from_left(state);
+        let view = self.measured_from_left(state);
         let radius = (0.09 * self.view.scale).clamp(4.0, 9.0);
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         let shown = |contact: &&skin::Contact| {
@@ -248,7 +248,7 @@ impl Sheet {
     }
 
     /// The view of what is measured from the left end of the row.
-    fn from_left(&self, state: &Snapshot) -> View {
+    fn measured_from_left(&self, state: &Snapshot) -> View {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }

@@ -44,7 +44,11 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
     let regions: Vec<_> = ranking.winners().iter().map(region).collect();
     let dots = Dots {
         radius: 0.3 * SIZE * 1.63 / f64::from(ranking.grid().resolution().max(4)),
-        winners: ranking.quaternary().iter().map(|best| (best.weights.values(), best.row())).collect(),
+        winners: ranking
+            .quaternary()
+            .iter()
+            .map(|best| (best.weights.values(), best.row()))
+            .collect(),
     };
     let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
     inside.push(points(designs, &dots, &regions));

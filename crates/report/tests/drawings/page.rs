@@ -1,5 +1,7 @@
 //! Figures and page of a table.
 
+use std::fmt::Write as _;
+
 use report::{Designs, Page, figures};
 use sweep::{Ranking, Results, TetrahedralGrid};
 
@@ -13,8 +15,9 @@ fn table() -> String {
         let (gap, length, slant) =
             ([0.1, 0.5][(k / 12) as usize], [0.2, 0.5, 1.0][(k / 4 % 3) as usize], 15 * (k % 4));
         let value = 0.1 * f64::from(k + 1);
-        text += &format!(
-            "{:04},{gap},{length},{slant},{},{value},{},{},{},{value},{value}\n",
+        let _ = writeln!(
+            text,
+            "{:04},{gap},{length},{slant},{},{value},{},{},{},{value},{value}",
             k + 1,
             0.01 * f64::from(k),
             1.0 / value,
@@ -82,8 +85,10 @@ fn what_was_not_measured_has_no_figure() {
 fn a_page_is_whole_and_the_same_every_time() {
     let html = page(designs()).html();
     assert_eq!(html, page(designs()).html());
-    assert!(!html.contains("{{"), "every place is filled");
-    for outside in ["src=\"http", "href=\"http", "@import"] {
+    for place in ["title", "version", "style", "licence", "plotly", "scripts", "data"] {
+        assert!(!html.contains(&format!("{{{{{place}}}}}")), "{place} is filled");
+    }
+    for outside in ["src=\"http", "<link", "@import"] {
         assert!(!html.contains(outside), "{outside}");
     }
     // A name cannot end the script that holds the data.

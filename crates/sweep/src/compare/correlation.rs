@@ -5,7 +5,7 @@
 pub(super) fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
     // Ranks sum to the same, whatever their ties.
-    let mean = (pairs.len() as f64 + 1.0) / 2.0;
+    let mean = 0.5 * (pairs.len() as f64 + 1.0);
     let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
         first.iter().zip(&second).map(|(a, b)| of(a - mean, b - mean)).sum()
     };
@@ -20,8 +20,10 @@ fn ranks(values: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut ranks = vec![0.0; sorted.len()];
     let mut before = 0;
     for equal in sorted.chunk_by(|a, b| a.0.to_bits() == b.0.to_bits()) {
-        let rank = before as f64 + (equal.len() as f64 + 1.0) / 2.0;
-        equal.iter().for_each(|(_, i)| ranks[*i] = rank);
+        let rank = before as f64 + 0.5 * (equal.len() as f64 + 1.0);
+        for (_, i) in equal {
+            ranks[*i] = rank;
+        }
         before += equal.len();
     }
     ranks
