@@ -65,7 +65,7 @@ impl Archive {
         Self::read_from(BufReader::with_capacity(1 << 16, file), path)
     }
 
-    /// As reading a folder, from any source of bytes, said to be the file `path`.
+    /// What stands in any source of bytes, said to be the file `path`.
     ///
     /// # Errors
     /// If it cannot be read or is damaged.
