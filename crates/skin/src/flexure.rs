@@ -5,6 +5,8 @@ mod measures;
 mod record;
 mod snapshot;
 mod strip;
+#[cfg(test)]
+mod tests;
 
 use contact::{ContactLaw, Law};
 use frame::{Frame, Step};
@@ -50,6 +52,24 @@ pub struct Parameters {
     pub max_end_rotation_deg: f64,
     /// Path following.
     pub solver: Settings,
+}
+
+impl Default for Parameters {
+    /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa`, 8 mm thick, on a membrane of
+    /// `E_m = 4.5 MPa`, 1 mm thick.
+    fn default() -> Self {
+        Self {
+            law: Law::PRINTED,
+            contact_modulus_over_membrane: 667.0,
+            method: Method::UnitCell,
+            membrane_length: 100.0,
+            membrane_thickness: 0.125,
+            membrane_axis_offset: 0.0,
+            elements_per_gap: 1,
+            max_end_rotation_deg: 180.0,
+            solver: Settings::default(),
+        }
+    }
 }
 
 /// How bending ended.

@@ -30,26 +30,8 @@ impl Default for Case {
     fn default() -> Self {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
-            puncture: puncture::Parameters {
-                poisson_ratio: 0.5,
-                law: Law::PRINTED,
-                contact_modulus_over_substrate: 9677.0,
-                scales: RowLength::Auto,
-                load_position: 1.0,
-                critical_tilt_deg: 10.0,
-                solver: Settings::default(),
-            },
-            flexure: flexure::Parameters {
-                law: Law::PRINTED,
-                contact_modulus_over_membrane: 667.0,
-                method: Method::UnitCell,
-                membrane_length: 100.0,
-                membrane_thickness: 0.125,
-                membrane_axis_offset: 0.0,
-                elements_per_gap: 1,
-                max_end_rotation_deg: 180.0,
-                solver: Settings::default(),
-            },
+            puncture: puncture::Parameters::default(),
+            flexure: flexure::Parameters::default(),
         }
     }
 }

@@ -85,7 +85,9 @@ impl Strip {
         let layout = Layout { gaps, elements: membrane.elements() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..PAIR_FORCES * gaps).map(|force| layout.force(force)).collect();
-        let [axial, bending] = stiffness.map(|stiffness| stiffness / row.gap());
+        // Forces of an element: a finer mesh is stiffer, and rounds off as much more.
+        let element = row.gap() / membrane.elements() as f64;
+        let [axial, bending] = stiffness.map(|stiffness| stiffness / element);
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             for node in (1..=membrane.elements()).filter_map(|node| layout.node(gap, node)) {

@@ -64,6 +64,14 @@ pub fn reference_study(base: Base) -> Vec<Design> {
     designs
 }
 
+/// Forty designs of the reference study, evenly spread over both bases; the steepest with the smallest gap
+/// among them.
+pub fn forty() -> Vec<Design> {
+    let all = BASES.into_iter().flat_map(reference_study);
+    // 37 has no factor in common with the numbers of slants, lengths and gaps.
+    all.skip(5).step_by(37).take(39).chain([design(0.1, 1.0, 75.0, Base::TwoL)]).collect()
+}
+
 /// Designs drawn evenly from `d/t` 0.05 to 2, `L/t` 0.02 to 3, slants from 0° to 80° and both bases.
 pub fn random(count: usize, seed: u64) -> Vec<Design> {
     let mut random = SplitMix64(seed);

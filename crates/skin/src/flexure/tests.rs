@@ -1,0 +1,77 @@
+//! What only the assembled system shows: the balance of energy along a path.
+
+use contact::Law;
+use solver::{Path, Point, Settings, State};
+
+use super::strip::Strip;
+use super::{Method, Parameters, set_up};
+use crate::{Base, Design};
+
+/// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
+fn work(before: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
+    let inner = [0.25, 0.5, 0.75].map(|x| before.between(from, to, x).unwrap().state);
+    let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
+    let strip = before.system();
+    let moments = states.iter().zip([7.0, 32.0, 12.0, 32.0, 7.0]);
+    let mean = moments.map(|(state, weight)| weight * strip.moment(&state.z)).sum::<f64>() / 90.0;
+    mean * (strip.rotation(&to.state.z) - strip.rotation(&from.state.z))
+}
+
+/// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
+/// the membrane's stretching and of the contacts in the energy at its end.
+fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
+    let strip = set_up(design, parameters).unwrap().strip;
+    let rest = State::at_rest(&strip);
+    let mut path = Path::new(strip, rest, parameters.solver);
+    let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
+    loop {
+        let mut before = path.clone();
+        let from = before.point().clone();
+        let Some(to) = path.next() else { break };
+        done += work(&mut before, &from, &to);
+        energies = before.system().energies(&to.state);
+        off = off.max((done - energies.iter().sum::<f64>()).abs());
+    }
+    let whole = energies.iter().sum::<f64>();
+    [off / whole, energies[1] / whole, energies[2] / whole]
+}
+
+#[test]
+fn the_work_of_the_moment_is_stored() {
+    let design =
+        |gap, length, slant_deg| Design { gap, length, slant_deg, base: Base::L, width: 1.0 };
+    let solver = Settings { max_step: 0.004, ..Settings::default() };
+    let (mut most_axial, mut most_contact) = (0.0_f64, 0.0_f64);
+    for (gap, length, slant_deg) in
+        [(0.1, 1.0, 75.0), (0.1, 0.1, 45.0), (0.3, 0.5, 60.0), (1.0, 0.2, 75.0), (0.5, 1.0, 0.0)]
+    {
+        // The last contacts are so soft that they take a part of the energy.
+        for (law, modulus) in
+            [(Law::PRINTED, 667.0), (Law::EXCHANGED, 667.0), (Law::EXCHANGED, 1.0)]
+        {
+            let parameters = Parameters {
+                law,
+                solver,
+                contact_modulus_over_membrane: modulus,
+                membrane_length: 20.0,
+                ..Parameters::default()
+            };
+            let [off, axial, contact] = balance(&design(gap, length, slant_deg), &parameters);
+            assert!(off < 1e-6, "{gap} {length} {slant_deg} {law:?} {modulus}: {off:e}");
+            most_axial = most_axial.max(axial);
+            most_contact = most_contact.max(contact);
+        }
+    }
+    assert!(most_axial > 0.1 && most_contact > 0.1, "{most_axial} {most_contact}");
+}
+
+#[test]
+fn a_chain_stores_what_its_cells_do() {
+    let design = Design { gap: 0.3, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
+    let solver = Settings { max_step: 0.01, ..Settings::default() };
+    let chain =
+        Parameters { method: Method::Chain, membrane_length: 8.0, solver, ..Parameters::default() };
+    let [off, axial, _] = balance(&design, &chain);
+    assert!(off < 1e-6, "{off:e}");
+    assert!(axial > 0.01, "{axial}");
+}

@@ -1,0 +1,61 @@
+//! The assembled chain and the unit cell are the same strip.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use rayon::prelude::*;
+use skin::Design;
+use skin::flexure::{Method, Parameters, Snapshot, Status, snapshots, solve};
+
+use crate::samples::forty;
+
+/// End rotations at which both are compared, degrees: all of the path, with some from just behind the contacts.
+const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
+
+fn compare(design: &Design, law: Law) -> usize {
+    let with = |method| {
+        let parameters = Parameters { law, method, ..Parameters::default() };
+        let shots = snapshots(design, &parameters, &AT).unwrap();
+        shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<Snapshot>>()
+    };
+    let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
+    for (cell, chain) in cell.iter().zip(&chain) {
+        assert_relative_eq!(cell.curvature, chain.curvature, max_relative = 1e-11);
+        assert_relative_eq!(cell.moment, chain.moment, max_relative = 1e-8);
+        assert_eq!(cell.contacts.len(), chain.contacts.len(), "{design:?}");
+    }
+    cell.iter().map(|shot| shot.contacts.len()).sum()
+}
+
+#[test]
+fn forty_designs_have_the_same_moments_with_both() {
+    let designs = forty();
+    assert_eq!(designs.len(), 40);
+    for law in [Law::PRINTED, Law::EXCHANGED] {
+        let contacts: usize = designs.par_iter().map(|design| compare(design, law)).sum();
+        assert!(contacts > 1000, "{contacts}");
+    }
+}
+
+#[test]
+fn and_the_same_measures() {
+    for design in forty().iter().step_by(5) {
+        let with = |method| {
+            let parameters = Parameters { method, ..Parameters::default() };
+            let flexure = solve(design, &parameters).unwrap();
+            assert_eq!(flexure.status, Status::Complete);
+            flexure.measures
+        };
+        let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
+        assert_eq!((cell.contact, cell.gaps), (chain.contact, chain.gaps));
+        for (cell, chain) in [
+            (cell.initial_compliance, chain.initial_compliance),
+            (cell.first_contact_curvature, chain.first_contact_curvature),
+            (cell.max_moment, chain.max_moment),
+        ] {
+            assert_eq!(cell.is_some(), chain.is_some());
+            if let (Some(cell), Some(chain)) = (cell, chain) {
+                assert_relative_eq!(cell, chain, max_relative = 1e-7);
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! What the bending model must show.
+//!
+//! | File | Against |
+//! |---|---|
+//! | `closed_forms` | the strip before contact, and the first contact of upright blocks |
+//! | `chain` | the assembled chain against the unit cell |
+//! | `steps` | the same path with steps a tenth as long |
+//! | `robustness` | the 720 designs of the reference study |
+
+mod chain;
+mod closed_forms;
+mod robustness;
+#[path = "../samples/mod.rs"]
+mod samples;
+mod steps;
