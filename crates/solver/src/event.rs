@@ -206,13 +206,52 @@ impl<S: System> Path<S> {
         Err(NewtonFailure::TooManyIterations)
     }
 
-    /// Lets constraints change sides, and returns the direction in which the path goes on.
-    ///
-    /// The first of `changes` does for certain. The others are about to, but may not be once the path
+    /// Lets constraints change sides, and returns the direction in which the path goes on. `changes` is
+    /// left with what has changed.
+    pub(crate) fn turn(
+        &mut self,
+        state: &mut State,
+        arriving: &[f64],
+        changes: &mut Vec<Change>,
+    ) -> Result<Vec<f64>, Stop> {
+        self.count_idle(state)?;
+        match self.turn_together(state, arriving, changes) {
+            Some(leaving) => Ok(leaving),
+            None => self.turn_in_turn(state, arriving, changes),
+        }
+    }
+
+    /// All constraints change sides at once, as they do by symmetry. `None`, and nothing has changed, if the path
+    /// does not go on in a direction in which they all stay valid.
+    fn turn_together(
+        &mut self,
+        state: &mut State,
+        arriving: &[f64],
+        changes: &[Change],
+    ) -> Option<Vec<f64>> {
+        if changes.len() == 1 {
+            return None;
+        }
+        let system = Arc::clone(&self.system);
+        let mut trial = state.clone();
+        let valid: Vec<usize> =
+            changes.iter().map(|&change| self.change(&mut trial, change)).collect();
+        let leaving = self.leave(&mut trial, arriving, valid[0]).ok();
+        let leaving =
+            leaving.filter(|leaving| self.most_violated(&trial, leaving, &valid).is_none());
+        if leaving.is_some() {
+            *state = trial;
+        } else {
+            self.system = system;
+        }
+        leaving
+    }
+
+    /// The first of `changes` happens for certain. The others are about to, but may not be once the path
     /// has turned, and one that has may have to change back: while the direction violates one of
     /// them, it changes sides and the path turns to where it stays valid. This is the path
-    /// through events that follow each other at no distance. `changes` is left with what has changed.
-    pub(crate) fn turn(
+    /// through events that follow each other at no distance.
+    fn turn_in_turn(
         &mut self,
         state: &mut State,
         arriving: &[f64],
@@ -221,7 +260,6 @@ impl<S: System> Path<S> {
         let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
         let mut next = changes[0];
         changes.clear();
-        self.count_idle(state)?;
         for _ in 0..self.most_changes() {
             let valid = self.change(state, next);
             if !meeting.contains(&valid) {

@@ -1,0 +1,50 @@
+//! Cost of bending: the reference study as unit cells, on all cores; and chains of 100 to 800 gaps through
+//! their whole path, which should grow with the chain and no faster.
+
+#[path = "../tests/samples/mod.rs"]
+mod samples;
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use rayon::prelude::*;
+use skin::Base;
+use skin::flexure::{Method, Parameters, solve};
+
+fn reference_study(c: &mut Criterion) {
+    let designs = samples::reference_study(Base::L);
+    let parameters = Parameters::default();
+    let mut group = c.benchmark_group("720 designs");
+    group.sample_size(10);
+    group.bench_function("unit cell", |b| {
+        b.iter(|| {
+            designs.par_iter().for_each(|design| {
+                black_box(solve(design, &parameters)).expect("a design");
+            });
+        });
+    });
+    group.finish();
+}
+
+fn chain_length(c: &mut Criterion) {
+    // Touches early, and slides on.
+    let design = samples::design(0.1, 0.1, 75.0, Base::L);
+    let pitch = design.row().expect("a row").pitch();
+    let mut group = c.benchmark_group("chain");
+    group.sample_size(10);
+    for gaps in [100_u32, 200, 400, 800] {
+        let parameters = Parameters {
+            method: Method::Chain,
+            membrane_length: f64::from(gaps) * pitch,
+            ..Parameters::default()
+        };
+        group.throughput(Throughput::Elements(u64::from(gaps)));
+        group.bench_function(BenchmarkId::from_parameter(gaps), |b| {
+            b.iter(|| black_box(solve(&design, &parameters)).expect("a design"));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, reference_study, chain_length);
+criterion_main!(benches);
