@@ -1,10 +1,8 @@
 //! Everything that one design of a sweep is solved with.
 
-use contact::Law;
-use skin::flexure::{self, Method};
-use skin::puncture::{self, RowLength};
+use skin::flexure;
+use skin::puncture;
 use skin::{Base, Design};
-use solver::Settings;
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]

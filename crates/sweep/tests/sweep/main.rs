@@ -5,6 +5,7 @@ mod definitions;
 mod documentation;
 mod grids;
 mod ranking;
+mod reference;
 mod refusals;
 mod tables;
 
