@@ -1,0 +1,3 @@
+fn main() {
+    print!("{}", validation::Validation::run().unwrap().page());
+}

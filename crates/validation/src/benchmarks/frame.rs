@@ -1,0 +1,148 @@
+//! Plane frames of co-rotational beams under one load, followed along their equilibrium path.
+
+use membrane::{CorotationalBeam, Ends};
+use solver::{BandMatrix, Control, Event, Path, Residual, Settings, State, Stop, System};
+
+/// A joint of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    pub(super) place: [f64; 2],
+    /// Which of `u_x`, `u_y`, `φ` is held.
+    pub(super) held: [bool; 3],
+}
+
+impl Node {
+    pub(super) fn free(place: [f64; 2]) -> Self {
+        Self { place, held: [false; 3] }
+    }
+}
+
+/// What drives a frame along its path, and how far.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Drive {
+    /// The loaded node sinks by this depth.
+    Depth(f64),
+    /// The load grows to this.
+    Load(f64),
+}
+
+/// A chain of beams of bending stiffness 1 from node to node, with a dead load down on one of them.
+///
+/// The unknowns are the displacements and rotations of the nodes, and the load behind those of the loaded one.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    nodes: Vec<Node>,
+    beams: Vec<CorotationalBeam>,
+    loaded: usize,
+    controls: [Control; 3],
+    units: Vec<f64>,
+}
+
+impl Frame {
+    /// A frame of beams of axial stiffness `axial`. `None` if one of them has no length.
+    pub(super) fn new(nodes: Vec<Node>, axial: f64, loaded: usize, drive: Drive) -> Option<Self> {
+        let beam = |pair: &[Node]| {
+            let [from, to] = [pair[0].place, pair[1].place];
+            CorotationalBeam::new((to[0] - from[0]).hypot(to[1] - from[1]), axial, 1.0).ok()
+        };
+        let beams = nodes.windows(2).map(beam).collect::<Option<Vec<_>>>()?;
+        let control = |k: usize, scale| Control { index: 3 * loaded + k, scale };
+        let stiffest = beams.iter().map(|beam| axial / beam.length()).fold(1.0, f64::max);
+        let units = vec![stiffest; 3 * nodes.len() + 1];
+        let controls = match drive {
+            Drive::Depth(depth) => [control(1, -depth), control(0, depth), control(2, 1.0)],
+            Drive::Load(load) => [control(3, load), control(1, -1.0), control(0, 1.0)],
+        };
+        Some(Self { nodes, beams, loaded, controls, units })
+    }
+
+    fn unknown(&self, node: usize, k: usize) -> usize {
+        3 * node + k + usize::from(node > self.loaded)
+    }
+
+    /// Poses of the ends of a beam, and the unknowns that they are made of. A rotation is counted from the
+    /// axis at rest.
+    fn ends(&self, z: &[f64], beam: usize) -> (Ends, [usize; 6]) {
+        let [from, to] = [self.nodes[beam].place, self.nodes[beam + 1].place];
+        let direction = (to[1] - from[1]).atan2(to[0] - from[0]);
+        let unknowns = std::array::from_fn(|k| self.unknown(beam + k / 3, k % 3));
+        let rest = [from[0], from[1], direction, to[0], to[1], direction];
+        (Ends::from_fn(|k, _| rest[k] + z[unknowns[k]]), unknowns)
+    }
+
+    fn is_held(&self, end: usize, beam: usize) -> bool {
+        self.nodes[beam + end / 3].held[end % 3]
+    }
+
+    /// The path to where its drive ends, if it gets there.
+    pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Point>> {
+        let settings = Settings { first_step: max_step, max_step, ..Settings::default() };
+        let rest = State::at_rest(&self);
+        let mut path = Path::new(self, rest, settings);
+        let points: Vec<_> = path.by_ref().collect();
+        (path.stop() == Some(Stop::Reached)).then_some(points)
+    }
+
+    /// The load at the first extremum of a path.
+    pub(super) fn limit_load(self, max_step: f64) -> Option<f64> {
+        let load = self.load();
+        let points = self.path(max_step)?;
+        let limit = points.iter().find(|point| point.event == Some(Event::LoadExtremum))?;
+        Some(limit.state.z[load])
+    }
+}
+
+impl System for Frame {
+    fn size(&self) -> usize {
+        3 * self.nodes.len() + 1
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        6
+    }
+
+    fn load(&self) -> usize {
+        3 * self.loaded + 3
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn residual(&self, z: &[f64], _: &[bool], residual: &mut Residual) {
+        residual.clear(&self.units);
+        for (i, beam) in self.beams.iter().enumerate() {
+            let (ends, unknowns) = self.ends(z, i);
+            let force = beam.response(&ends).force;
+            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_held(*k, i)) {
+                residual.add(row, force[k]);
+            }
+        }
+        for (node, Node { held, .. }) in self.nodes.iter().enumerate() {
+            for k in (0..3).filter(|&k| held[k]) {
+                let row = self.unknown(node, k);
+                residual.add(row, self.units[row] * z[row]);
+            }
+        }
+        residual.add(self.unknown(self.loaded, 1), z[self.load()]);
+    }
+
+    fn tangent(&self, z: &[f64], _: &[bool], matrix: &mut BandMatrix) {
+        for (i, beam) in self.beams.iter().enumerate() {
+            let (ends, unknowns) = self.ends(z, i);
+            let tangent = beam.response(&ends).tangent;
+            for (k, &row) in unknowns.iter().enumerate().filter(|(k, _)| !self.is_held(*k, i)) {
+                for (l, &column) in unknowns.iter().enumerate() {
+                    matrix.add(row, column, tangent[(k, l)]);
+                }
+            }
+        }
+        for (node, Node { held, .. }) in self.nodes.iter().enumerate() {
+            for k in (0..3).filter(|&k| held[k]) {
+                let row = self.unknown(node, k);
+                matrix.add(row, row, self.units[row]);
+            }
+        }
+        matrix.add(self.unknown(self.loaded, 1), self.load(), 1.0);
+    }
+}

@@ -1,0 +1,130 @@
+//! The claims of the paper, one by one.
+
+mod bending;
+mod finding;
+mod optimum;
+mod puncture;
+mod statistics;
+
+use serde::Deserialize;
+
+pub use finding::{Finding, Verdict};
+
+use crate::Error;
+use crate::study::Study;
+
+/// The claims as they are written down, with where the paper has them.
+const CLAIMS: &str = include_str!("../claims.csv");
+
+/// A checkable statement of Shafiei et al. (2021).
+#[derive(Clone, Debug, Deserialize)]
+pub struct Claim {
+    /// Its number, `C01` and so on.
+    pub id: String,
+    /// Section or figure.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Which measure it is about.
+    pub about: String,
+    /// What it says.
+    pub claim: String,
+    /// What it is checked by.
+    pub quantity: String,
+    /// What the paper reports.
+    pub reported: String,
+}
+
+/// A claim with what was found, for each sweep.
+#[derive(Clone, Debug)]
+pub struct CheckedClaim {
+    /// The claim.
+    pub claim: Claim,
+    /// With a base of `L`, and of `2L`.
+    pub found: [Finding; 2],
+    /// Why, where it is known.
+    pub reason: &'static str,
+}
+
+/// How a claim is checked against a sweep.
+type Check = fn(&Study) -> Option<Finding>;
+
+/// The check of each claim, and the reason for what comes out, where it is known.
+const CHECKS: [(&str, Check, &str); 30] = [
+    ("C01", puncture::unslanted_coverage, "by the definition of coverage"),
+    (
+        "C02",
+        puncture::best_coverage,
+        "decides for the base L: of a base 2L the steepest slant covers best",
+    ),
+    ("C03", puncture::first_contact_unslanted, "decides for the base L"),
+    ("C04", puncture::first_contact_at_45, "between the two bases, nearer to L"),
+    ("C05", puncture::steep_scales_touch_first, "the lever arm of the load grows with the slant"),
+    ("C06", puncture::initial_stiffness_by_slant, "the lever arm of the load grows with the slant"),
+    ("C07", puncture::stiffness_by_slant, "more scales share the load"),
+    ("C08", puncture::unslanted_contact, "the corner slides down the neighbour's side"),
+    (
+        "C09",
+        puncture::stiffness_by_length,
+        "the slope of F* over u*, for L/t from 0.1; it falls for the longer half only",
+    ),
+    (
+        "C10",
+        puncture::stiffness_by_gap,
+        "neighbours couple through the substrate, so the gap cannot be without effect",
+    ),
+    ("C11", puncture::force_by_gap, ""),
+    ("C12", puncture::largest_force, ""),
+    (
+        "C13",
+        puncture::largest_force_value,
+        "depends on the width and the row length, which the paper does not give",
+    ),
+    ("C14", puncture::force_and_stiffness, ""),
+    ("C15", puncture::largest_stiffness, ""),
+    ("C16", puncture::strongest_parameter, ""),
+    ("C17", puncture::unslanted_load, ""),
+    ("C18", puncture::domino, "the paper does not say at which force; this is the critical tilt"),
+    ("C19", bending::axial_energy, "the membrane is pulled against the contacts"),
+    ("C20", bending::softening, "contacts slide, and their lever arm grows"),
+    (
+        "C21",
+        bending::loss_of_compliance,
+        "contact is nearly rigid, so the thin membrane alone decides; the reduction grows with the slant and as the gap shrinks",
+    ),
+    (
+        "C22",
+        bending::most_compliant_at_small_slants,
+        "before contact the compliance is d/(2a + d), which grows with the gap, and scales of small slant that touch lose it all",
+    ),
+    ("C23", bending::most_compliant_at_large_slants, "as C22"),
+    ("C24", bending::compliance_by_length, "before contact the compliance is d/(2a + d)"),
+    ("C25", optimum::least_penetration, "a scale that touches no neighbour tilts before it sinks"),
+    ("C26", optimum::most_compliant, ""),
+    ("C27", optimum::largest_force, ""),
+    (
+        "C28",
+        optimum::balanced,
+        "no setting of the open parameters gives the printed optimum, see docs/open-questions.md",
+    ),
+    ("C29", optimum::share_of_the_balanced, "for the optimum that we find"),
+    ("C30", puncture::two_blocks, ""),
+];
+
+/// The claims as the paper has them.
+///
+/// # Errors
+/// If the table of claims cannot be read.
+pub fn claims() -> Result<Vec<Claim>, csv::Error> {
+    csv::Reader::from_reader(CLAIMS.as_bytes()).deserialize().collect()
+}
+
+/// Every claim against two studies: with the base `L`, and with `2L`.
+pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, Error> {
+    let checked = claims()?.into_iter().map(|claim| {
+        let known = CHECKS.iter().find(|(id, ..)| *id == claim.id);
+        let (_, check, reason) = known.ok_or_else(|| Error::UncheckedClaim(claim.id.clone()))?;
+        let found = studies.map(|study| check(study).unwrap_or_else(Finding::nothing));
+        Ok(CheckedClaim { claim, found, reason })
+    });
+    checked.collect()
+}

@@ -1,0 +1,106 @@
+//! Trends along the lines of a grid, correlation, and shares of variance.
+
+use std::collections::BTreeMap;
+
+use crate::study::Design;
+
+/// A parameter of the grid.
+pub(crate) type Parameter = fn(&Design) -> f64;
+/// A value of a design, if it has one.
+pub(crate) type Value = fn(&Design) -> Option<f64>;
+
+/// Values along a line of designs that differ in one parameter, ordered by it; lines without a value
+/// somewhere are left out.
+pub(crate) fn lines<'d>(
+    designs: impl Iterator<Item = &'d Design>,
+    along: Parameter,
+    fixed: [Parameter; 2],
+    value: Value,
+) -> Vec<Vec<f64>> {
+    let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
+    for design in designs {
+        // Parameters are positive, so their bits are in their order.
+        let key = fixed.map(|parameter| parameter(design).to_bits());
+        lines.entry(key).or_default().push((along(design), value(design)));
+    }
+    let ordered = lines.into_values().map(|mut line| {
+        line.sort_by(|a, b| a.0.total_cmp(&b.0));
+        line.into_iter().map(|(_, value)| value).collect::<Option<Vec<_>>>()
+    });
+    ordered.flatten().collect()
+}
+
+/// Whether values fall from each to the next.
+pub(crate) fn falls(line: &[f64]) -> bool {
+    line.windows(2).all(|pair| pair[1] < pair[0])
+}
+
+/// Whether values rise from each to the next.
+pub(crate) fn rises(line: &[f64]) -> bool {
+    line.windows(2).all(|pair| pair[1] > pair[0])
+}
+
+/// The part of the lines of which something holds.
+pub(crate) fn share(lines: &[Vec<f64>], holds: fn(&[f64]) -> bool) -> f64 {
+    lines.iter().filter(|line| holds(line)).count() as f64 / lines.len() as f64
+}
+
+/// Pearson's correlation of two lists.
+pub(crate) fn correlation(pairs: &[(f64, f64)]) -> f64 {
+    let n = pairs.len() as f64;
+    let mean = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
+    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
+    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
+    let covariance = sum(&|p| (p.0 - x) * (p.1 - y));
+    covariance / (sum(&|p| (p.0 - x).powi(2)) * sum(&|p| (p.1 - y).powi(2))).sqrt()
+}
+
+/// Spearman's rank correlation; no two values of a list are equal but by accident.
+pub(crate) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
+    let (x, y): (Vec<_>, Vec<_>) = pairs.iter().copied().unzip();
+    correlation(&ranks(&x).into_iter().zip(ranks(&y)).collect::<Vec<_>>())
+}
+
+fn ranks(values: &[f64]) -> Vec<f64> {
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+    let mut ranks = vec![0.0; values.len()];
+    for (rank, &i) in order.iter().enumerate() {
+        ranks[i] = rank as f64;
+    }
+    ranks
+}
+
+/// The part of the variance of `value` that a parameter alone explains: the variance of the means over
+/// all designs that share a value of it (the first-order effect, Sobol 1993).
+pub(crate) fn explained(designs: &[(&Design, f64)], parameter: Parameter) -> f64 {
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let mut groups = BTreeMap::<u64, Vec<f64>>::new();
+    for (design, value) in designs {
+        groups.entry(parameter(design).to_bits()).or_default().push(*value);
+    }
+    let all: Vec<f64> = designs.iter().map(|(_, value)| *value).collect();
+    let centre = mean(&all);
+    let between: f64 = groups.values().map(|g| g.len() as f64 * (mean(g) - centre).powi(2)).sum();
+    between / all.iter().map(|value| (value - centre).powi(2)).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{falls, rank_correlation, rises, share};
+
+    #[test]
+    fn trends() {
+        assert!(falls(&[3.0, 2.0, 1.0]) && !falls(&[3.0, 3.0, 1.0]));
+        assert!(rises(&[1.0, 2.0]) && !rises(&[1.0, 2.0, 1.5]));
+        assert!((share(&[vec![2.0, 1.0], vec![1.0, 2.0]], falls) - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn ranks_correlate_whatever_the_scale() {
+        let pairs: Vec<_> = (0..20).map(|i| (f64::from(i), f64::from(i).exp())).collect();
+        assert!((rank_correlation(&pairs) - 1.0).abs() < 1e-12);
+        let back: Vec<_> = pairs.iter().map(|(x, y)| (*x, -y)).collect();
+        assert!((rank_correlation(&back) + 1.0).abs() < 1e-12);
+    }
+}

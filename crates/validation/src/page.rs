@@ -1,0 +1,88 @@
+//! The page that says what was found.
+
+use std::fmt::Write as _;
+
+use crate::{Benchmark, CheckedClaim, Finding, Validation, Verdict};
+
+impl Validation {
+    /// All tables as Markdown.
+    pub fn page(&self) -> String {
+        let mut page = String::from(
+            "# Validation\n\n\
+             Made by `squama validate`, which anyone can run again; this page is checked against it by a test.\n\n",
+        );
+        let _ = write!(page, "{}\n{}", self.benchmark_section(), self.claim_section());
+        page
+    }
+
+    fn benchmark_section(&self) -> String {
+        let mut text = String::from(
+            "## Benchmarks\n\n\
+             Problems with known answers. *Order* is the observed order of convergence, where meshes are refined. A reference \
+             that is itself an approximation has its known error as band. `squama validate` exits with 1 if a \
+             difference leaves its band.\n\n\
+             | Problem | Source | Reference | Ours | Difference | Band | Order |\n|---|---|--:|--:|--:|--:|--:|\n",
+        );
+        for benchmark in &self.benchmarks {
+            let _ = writeln!(text, "{}", benchmark.row());
+        }
+        text
+    }
+
+    fn claim_section(&self) -> String {
+        let count = |sweep: usize, verdict| {
+            self.claims.iter().filter(|claim| claim.found[sweep].verdict == verdict).count()
+        };
+        let counts = |sweep| {
+            let [yes, part, no] = [Verdict::Reproduced, Verdict::InPart, Verdict::NotReproduced]
+                .map(|verdict| count(sweep, verdict));
+            format!("{yes} reproduced, {part} in part, {no} not")
+        };
+        let mut text = format!(
+            "## The paper's claims\n\n\
+             Every checkable statement of Shafiei et al. (2021), on both readings of \"length\": with a base of `L` \
+             (`sweeps/paper.toml`) {}; with a base of `2L` (`sweeps/paper-as-written.toml`) {}. Nothing is tuned. A number counts \
+             as reproduced within 10 % and in part within 30 %, a trend in part if it holds for what the figure shows. \
+             Designs are `(d/t, L/t, slant)`.\n\n\
+             | | Where | Claim | Paper | Base L | Base 2L | Why |\n|---|---|---|---|---|---|---|\n",
+            counts(0),
+            counts(1)
+        );
+        for claim in &self.claims {
+            let _ = writeln!(text, "{}", claim.row());
+        }
+        text
+    }
+}
+
+impl Benchmark {
+    /// A row of the table.
+    pub fn row(&self) -> String {
+        let order = self.order.map_or_else(String::new, |order| format!("{order:.2}"));
+        // Differences at the level of round-off are not the same on every machine.
+        let difference = match self.difference() {
+            off if off.abs() < 1e-9 => "< 1e-9".to_owned(),
+            off => format!("{off:+.1e}"),
+        };
+        format!(
+            "| {} | {} | {:.5} | {:.5} | {difference} | {:.0e} | {order} |",
+            self.name, self.source, self.reference, self.ours, self.band
+        )
+    }
+}
+
+impl CheckedClaim {
+    /// A row of the table.
+    pub fn row(&self) -> String {
+        let cell = |finding: &Finding| match finding.verdict {
+            Verdict::Reproduced => format!("**{}**: {}", finding.verdict, finding.ours),
+            verdict => format!("{verdict}: {}", finding.ours),
+        };
+        let [paper, as_written] = [cell(&self.found[0]), cell(&self.found[1])];
+        let claim = &self.claim;
+        format!(
+            "| {} | {} | {} | {} | {paper} | {as_written} | {} |",
+            claim.id, claim.place, claim.claim, claim.reported, self.reason
+        )
+    }
+}
