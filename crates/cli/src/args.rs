@@ -55,6 +55,8 @@ pub enum Command {
     Check(Check),
     /// Print the springs that stand for the substrate under a row of scales
     Calibrate(Calibrate),
+    /// Show what squama reproduces: benchmarks, the claims of the paper, sensitivity
+    Validate(Validate),
 }
 
 /// A definition and what is put in its place.
@@ -512,4 +514,21 @@ pub struct Calibrate {
     /// Poisson's ratio of the substrate
     #[arg(long, value_name = "RATIO", allow_hyphen_values = true, default_value = "0.5")]
     pub poisson_ratio: String,
+}
+
+/// Arguments of `squama validate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama validate
+  squama validate --out validation.md
+
+Solves problems with known answers, both sweeps of the paper, and sweeps over what the paper leaves
+open; prints the tables and writes them down. Takes about a minute on two cores.
+Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
+change it.")]
+pub struct Validate {
+    /// The page
+    #[arg(long, value_name = "FILE", default_value = "docs/validation.md")]
+    pub out: PathBuf,
 }

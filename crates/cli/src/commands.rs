@@ -14,6 +14,7 @@ mod rerun;
 mod results_folder;
 mod run;
 mod status;
+mod validate;
 
 pub use calibrate::calibrate;
 pub use check::check;
@@ -27,6 +28,7 @@ pub use report::report;
 pub use rerun::rerun;
 pub use run::run;
 pub use status::status;
+pub use validate::validate;
 
 use std::path::{Path, PathBuf};
 

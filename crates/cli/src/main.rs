@@ -43,6 +43,7 @@ fn main() -> ExitCode {
         Command::Report(arguments) => commands::report(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
         Command::Calibrate(arguments) => commands::calibrate(&arguments),
+        Command::Validate(arguments) => commands::validate(&arguments),
     };
     done.map_or_else(|error| refuse(&error), ExitCode::from)
 }

@@ -99,6 +99,13 @@ impl Results {
         })
     }
 
+    /// Some of the designs, by their rows.
+    #[must_use]
+    pub fn only(&self, rows: &[usize]) -> Self {
+        let rows = rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect();
+        Self { rows, ..self.clone() }
+    }
+
     /// Where they stand.
     pub fn folder(&self) -> &Path {
         &self.folder

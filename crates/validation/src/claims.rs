@@ -9,6 +9,7 @@ mod statistics;
 use serde::Deserialize;
 
 pub use finding::{Finding, Verdict};
+pub(crate) use finding::{digits, named};
 
 use crate::Error;
 use crate::study::Study;

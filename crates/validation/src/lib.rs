@@ -4,17 +4,20 @@
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`] | what the paper reports, and what comes out here |
+//! | [`sensitivity()`], [`Sensitivity`], [`Headlines`] | how far the headline results depend on what the paper leaves open |
 //! | [`Validation`] | all of it, and the page that says so |
 
 mod benchmarks;
 mod claims;
 mod page;
+mod sensitivity;
 mod study;
 
 use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
 pub use claims::{CheckedClaim, Claim, Finding, Verdict, claims};
+pub use sensitivity::{Headlines, Sensitivity, sensitivity};
 use study::Study;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
@@ -53,6 +56,8 @@ pub struct Validation {
     pub benchmarks: Vec<Benchmark>,
     /// Claims of the paper.
     pub claims: Vec<CheckedClaim>,
+    /// What the headline results depend on.
+    pub sensitivity: Vec<Sensitivity>,
 }
 
 impl Validation {
@@ -65,7 +70,7 @@ impl Validation {
         let study = |text: &str| Study::run(Sweep::parse(text, "paper", &[])?);
         let [paper, as_written] = [study(SWEEPS[0])?, study(SWEEPS[1])?];
         let claims = claims::check([&paper, &as_written])?;
-        Ok(Self { benchmarks, claims })
+        Ok(Self { benchmarks, claims, sensitivity: sensitivity()? })
     }
 
     /// Whether every benchmark lies within its band.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::{Benchmark, CheckedClaim, Finding, Validation, Verdict};
+use crate::{Benchmark, CheckedClaim, Finding, Headlines, Sensitivity, Validation, Verdict};
 
 impl Validation {
     /// All tables as Markdown.
@@ -11,7 +11,8 @@ impl Validation {
             "# Validation\n\n\
              Made by `squama validate`, which anyone can run again; this page is checked against it by a test.\n\n",
         );
-        let _ = write!(page, "{}\n{}", self.benchmark_section(), self.claim_section());
+        let sections = [self.benchmark_section(), self.claim_section(), self.sensitivity_section()];
+        page.push_str(&sections.join("\n"));
         page
     }
 
@@ -52,6 +53,33 @@ impl Validation {
             let _ = writeln!(text, "{}", claim.row());
         }
         text
+    }
+
+    fn sensitivity_section(&self) -> String {
+        let mut text = String::from(
+            "## Sensitivity\n\n\
+             What the paper leaves open, one thing at a time, on 288 of its designs; the sweeps are in `sweeps/sensitivity/`. Designs are \
+             `(d/t, L/t, slant)`: the one that is best with equal weights, and the four that are best in one criterion alone.\n\n\
+             | Sweep | Setting | F_c* at (0.1, 0.1, 75°) | Balanced | Coverage | Critical force | Penetration | Compliance |\n\
+             |---|---|--:|---|---|---|---|---|\n",
+        );
+        for setting in &self.sensitivity {
+            let _ = writeln!(text, "{}", setting.row());
+        }
+        text
+    }
+}
+
+impl Sensitivity {
+    /// A row of the table.
+    pub fn row(&self) -> String {
+        let Headlines { force, balanced, corners } = &self.headlines;
+        format!(
+            "| {} | {} | {force} | {balanced} | {} |",
+            self.sweep,
+            self.setting,
+            corners.join(" | ")
+        )
     }
 }
 

@@ -8,6 +8,7 @@ mod reruns;
 mod runs;
 mod shards;
 mod survival;
+mod validation;
 
 use std::path::{Path, PathBuf};
 

@@ -1,3 +1,0 @@
-fn main() {
-    print!("{}", validation::Validation::run().unwrap().page());
-}
