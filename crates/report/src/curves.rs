@@ -9,16 +9,21 @@ use crate::chart::{Area, Panel};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
-use crate::palette::{INK, slant_color};
+use crate::palette::{INK, shaded, slant_color};
 use crate::svg::{Element, Spot, line, polyline};
 
 const WIDTH: f64 = 760.0;
 /// Room for the axes, px: left, right, below.
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
+/// Where the first line of the legend stands, px.
+const LEGEND: f64 = 56.0;
+/// Width and height of a panel of energies, px.
+const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 
-/// Dashes that tell designs of one slant from each other.
+/// Dashes and shades that tell designs of one slant from each other.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
+const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
 /// A solved design.
 #[derive(Clone, Debug)]
@@ -124,45 +129,44 @@ fn flexure_energies(solved: &Solved) -> Option<Energies> {
 type Values = fn(&Solved) -> Option<[Vec<[f64; 2]>; 2]>;
 
 fn one_panel(name: &str, text: &Text, designs: &[Solved], values: Values) -> Option<String> {
-    let mut curves: Vec<Curve> = Vec::new();
-    for solved in designs {
-        let Some([points, crosses]) = values(solved) else { continue };
-        let color = slant_color(solved.design.slant_deg);
-        let alike = curves.iter().filter(|other| other.color == color).count();
-        let dashes = DASHES[alike % DASHES.len()];
-        let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
-        curves.push(Curve { name, color, dashes, points, crosses });
-    }
+    let curves = curves_of(designs, values);
     if curves.is_empty() {
         return None;
     }
-    let top = 62.0 + 20.0 * curves.len() as f64;
-    let (x, mut y) =
-        axes(text, &curves.iter().flat_map(|curve| curve.points.clone()).collect::<Vec<_>>());
-    if let Some(log) = logarithmic(text, &curves) {
-        y = log;
-    }
-    let panel = Panel {
-        area: Area {
-            left: MARGINS[0],
-            top,
-            width: WIDTH - MARGINS[0] - MARGINS[1],
-            height: HEIGHT - 62.0 - MARGINS[2],
-        },
-        x: &x,
-        y: &y,
-        title: String::new(),
-        x_labels: true,
-        y_labels: true,
+    let points: Vec<_> = curves.iter().flat_map(|curve| curve.points.iter().copied()).collect();
+    let (x, y) = axes(text, &points);
+    let y = logarithmic(text, &curves).unwrap_or(y);
+    let area = Area {
+        left: MARGINS[0],
+        top: LEGEND + 6.0 + 20.0 * curves.len() as f64,
+        width: WIDTH - MARGINS[0] - MARGINS[1],
+        height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
     };
+    let (x, y, title) = (&x, &y, String::new());
+    let panel = Panel { area, x, y, title, x_labels: true, y_labels: true };
+    let note = [WIDTH - MARGINS[1], LEGEND + 4.0];
     let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
-    inside.extend(curves.iter().map(|curve| drawn(&panel, curve)));
-    inside
-        .extend(curves.iter().enumerate().map(|(k, curve)| legend(curve, 56.0 + 20.0 * k as f64)));
-    let note = [WIDTH - MARGINS[1], 56.0 + 4.0];
     inside.push(label(text.note, note, 12.0, Anchor::End).with("fill", INK));
-    let height = panel.area.bottom() + MARGINS[2] - 8.0;
+    for (k, curve) in curves.iter().enumerate() {
+        inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
+    }
+    let height = area.bottom() + MARGINS[2] - 8.0;
     Some(sheet(WIDTH, height, &format!("{name}: {}", text.title), inside))
+}
+
+/// A curve for each design, darker and with other dashes where slants repeat.
+fn curves_of(designs: &[Solved], values: Values) -> Vec<Curve> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for (k, solved) in designs.iter().enumerate() {
+        let Some([points, crosses]) = values(solved) else { continue };
+        let slant = solved.design.slant_deg;
+        let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
+        let color = shaded(&slant_color(slant), SHADES[before % SHADES.len()]);
+        let dashes = DASHES[before % DASHES.len()];
+        let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
+        curves.push(Curve { name, color, dashes, points, crosses });
+    }
+    curves
 }
 
 /// Axes for points, both from zero.
@@ -215,34 +219,33 @@ fn panels(
         return None;
     }
     let columns = columns(solved.len()).min(3);
-    let [w, h] = [330.0, 300.0];
+    let [w, h] = ENERGY_PANEL;
     let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (k, (design, energies)) in solved.iter().enumerate() {
-        let (x, y) =
-            axes(text, &energies.iter().flat_map(|(_, points)| points.clone()).collect::<Vec<_>>());
-        let panel = Panel {
-            area: Area {
-                left: MARGINS[0] + (k % columns) as f64 * (w + 84.0),
-                top: 86.0 + (k / columns) as f64 * (h + 84.0),
-                width: w,
-                height: h,
-            },
-            x: &x,
-            y: &y,
-            title: format!("{}:  {}", design.number, geometry_label(design.design)),
-            x_labels: true,
-            y_labels: true,
-        };
-        inside.extend([panel.frame(), panel.x_name(), panel.y_name(58.0)]);
-        inside.extend(energies.iter().map(|(dashes, points)| {
-            let color = slant_color(design.design.slant_deg);
-            let (points, crosses) = (points.clone(), Vec::new());
-            drawn(&panel, &Curve { name: String::new(), color, dashes, points, crosses })
-        }));
+        let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
+        let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
+        inside.extend(energies_of(text, design, energies, area));
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
     let paper = MARGINS[0] + columns as f64 * (w + 84.0) - 60.0;
     let paper = paper.max(width(&title, 15.0) + 60.0);
     Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
+}
+
+/// The energies of one design.
+fn energies_of(text: &Text, solved: &Solved, energies: &Energies, area: Area) -> Vec<Element> {
+    let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
+    let (x, y) = axes(text, &points);
+    let title = format!("{}:  {}", solved.number, geometry_label(solved.design));
+    let panel = Panel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
+    let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
+        name: String::new(),
+        color: slant_color(solved.design.slant_deg),
+        dashes,
+        points: points.clone(),
+        crosses: Vec::new(),
+    };
+    let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
+    [panel.frame(), panel.x_name(), panel.y_name(58.0)].into_iter().chain(curves).collect()
 }

@@ -18,6 +18,9 @@ use crate::print::print;
 /// Largest step along a curve, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.004;
 
+/// Curves that end where the puncture does.
+const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
+
 /// Draws the figures of a sweep, or the curves of designs.
 pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
@@ -60,7 +63,10 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
     let mut files = Written::default();
     let names = numbers(&sweep, &arguments.designs);
     for figure in curves(sweep.name(), &shown) {
-        let file = format!("{}-of-{names}", figure.name);
+        // Where a puncture ends is a part of what its curves show.
+        let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name));
+        let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
+        let file = format!("{}{to}-of-{names}", figure.name);
         write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
     }
     print(&files.report(&folder))?;

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use rayon::prelude::*;
 use report::{Fact, Page, drawings};
 use skin::puncture;
 use sweep::Weights;
@@ -13,6 +14,11 @@ use super::results_folder::ResultsFolder;
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::print::print;
+
+/// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
+const DRAWN: usize = 24;
+/// Bytes of all their drawings, at most.
+const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
@@ -55,14 +61,25 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     })
 }
 
-/// Drawings of the designs that are best for one criterion or for all alike.
+/// Drawings of the designs that are best for all criteria alike, for one alone, or for other weights,
+/// as many as there is room for.
 fn drawn(results: &ResultsFolder) -> anyhow::Result<Vec<Fact>> {
     let Some(ranking) = results.ranking()? else { return Ok(Vec::new()) };
-    let weights = std::iter::once(Weights::BALANCED).chain(Weights::alone());
-    let mut rows: Vec<_> = weights.map(|weights| ranking.winner(weights).row()).collect();
-    rows.sort_unstable();
-    rows.dedup();
-    Ok(rows.into_iter().filter_map(|row| drawing(results, row)).collect())
+    let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+    let named = named.map(|weights| ranking.winner(weights));
+    let mut rows: Vec<usize> = Vec::new();
+    for winner in named.chain(ranking.winners()).map(|winner| winner.row()) {
+        if rows.len() < DRAWN && !rows.contains(&winner) {
+            rows.push(winner);
+        }
+    }
+    let drawings: Vec<_> = rows.par_iter().filter_map(|&row| drawing(results, row)).collect();
+    let mut room = ROOM;
+    let fits = |(_, svg): &Fact| {
+        room = room.saturating_sub(svg.len());
+        room > 0
+    };
+    Ok(drawings.into_iter().take_while(fits).collect())
 }
 
 /// A drawing, or none if the design cannot be solved: its row in the table says why.

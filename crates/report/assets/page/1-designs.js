@@ -36,6 +36,21 @@ squama.short = (value) => {
   return size >= 1e5 || size < 1e-3 ? value.toExponential(3) : String(Number(value.toPrecision(4)));
 };
 
+/** A column as people call it. */
+squama.label = (name) => ({
+  gap_over_t: "gap d/t", length_over_t: "length L/t", width_over_t: "width b/t", slant_deg: "slant α",
+}[name] ?? name.replaceAll("_", " "));
+
+/** A value with its unit; lengths over t are numbers. */
+squama.withUnit = (name, value, unit) => {
+  const text = squama.short(value);
+  if (unit === "deg" && text !== "–") return [`${text}°`];
+  if (unit === "-" || text === "–" || name.endsWith("_over_t")) return [text];
+  const pretty = unit.replaceAll("nu", "ν").replaceAll("^2", "²").replaceAll("-", "−");
+  const parts = pretty.split(/_([a-z]+)/).map((part, k) => (k % 2 ? squama.element("sub", {}, part) : part));
+  return [`${text} `, squama.element("small", {}, ...parts)];
+};
+
 /** Colour and symbol of a slant: the same everywhere. */
 squama.slant = (row) => squama.slants.find((slant) => slant.degrees === squama.cell(row, "slant_deg"))
   ?? { color: "#888888", symbol: "circle" };
@@ -62,3 +77,14 @@ squama.element = (name, attributes = {}, ...children) => {
   element.append(...children);
   return element;
 };
+
+/** What makes an element choose a row, by click or by key. */
+squama.chooser = (row) => ({
+  tabindex: 0,
+  onclick: () => squama.choose(row),
+  onkeydown: (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    squama.choose(row);
+  },
+});

@@ -2,44 +2,49 @@
 // The ranking: every criterion rescaled to [0, 1], f = Π criterion^weight.
 
 squama.criteria = [
-  { key: "m", name: "coverage", label: "m  coverage", value: (row) => squama.cell(row, "coverage") },
-  { key: "n", name: "critical force", label: "n  critical force", value: (row) => squama.cell(row, "critical_force") },
-  { key: "k", name: "penetration resistance", label: "k  penetration resist.", value: (row) => 1 / squama.cell(row, "penetration") },
-  { key: "l", name: "flexural compliance", label: "l  flexural compliance", value: (row) => squama.cell(row, "compliance") },
+  { key: "m", name: "coverage", value: (row) => squama.cell(row, "coverage") },
+  { key: "n", name: "critical force", value: (row) => squama.cell(row, "critical_force") },
+  { key: "k", name: "penetration resistance", value: (row) => 1 / squama.cell(row, "penetration") },
+  { key: "l", name: "flexural compliance", value: (row) => squama.cell(row, "compliance") },
 ];
 
 /** Rows that take part: designs with coverage and every criterion. */
 squama.ranked = squama.rowsWith("coverage", "critical_force", "penetration", "compliance")
   .filter((row) => squama.cell(row, "coverage") > 0 && squama.cell(row, "penetration") > 0);
 
-/** Rescaled criteria of the rows that take part. */
-squama.rescaled = (() => {
+/** Logarithms of the rescaled criteria of the rows that take part. */
+squama.logs = (() => {
   const columns = squama.criteria.map((criterion) => {
     const values = squama.ranked.map(criterion.value);
     const low = values.reduce((a, b) => Math.min(a, b), Infinity);
     const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
-    return values.map((value) => (high > low ? (value - low) / (high - low) : 1));
+    return values.map((value) => Math.log(high > low ? (value - low) / (high - low) : 1));
   });
   return squama.ranked.map((_, i) => columns.map((column) => column[i]));
 })();
 
-/** Fitness of the `i`-th row that takes part. A weight of 0 leaves its criterion out. */
-squama.fitness = (i, weights) =>
-  squama.rescaled[i].reduce((product, value, k) => product * Math.pow(value, weights[k]), 1);
+/**
+ * Logarithm of the fitness of the `i`-th row that takes part. A weight of 0 leaves its criterion out.
+ * `squama rank` sums in the same order, so that designs as good as equal stand in the same order too.
+ */
+squama.logFitness = (i, weights) =>
+  squama.logs[i].reduce((sum, log, k) => (weights[k] > 0 ? sum + weights[k] * log : sum), 0);
 
 /** The rows that take part with their fitness, the best first; of equals the first design first. */
 squama.rank = (weights) => squama.ranked
-  .map((row, i) => ({ row, fitness: squama.fitness(i, weights) }))
-  .sort((a, b) => b.fitness - a.fitness || a.row - b.row);
+  .map((row, i) => ({ row, log: squama.logFitness(i, weights) }))
+  // Two that are as bad as can be are both -∞, whose difference is no number.
+  .sort((a, b) => (a.log === b.log ? a.row - b.row : b.log - a.log))
+  .map(({ row, log }) => ({ row, fitness: Math.exp(log) }));
 
 /** The best row for a weighting. */
 squama.best = (weights) => {
-  let best = -1, most = -1;
+  let best = 0, most = -Infinity;
   for (let i = 0; i < squama.ranked.length; i++) {
-    const fitness = squama.fitness(i, weights);
-    if (fitness > most) [best, most] = [squama.ranked[i], fitness];
+    const log = squama.logFitness(i, weights);
+    if (log > most) [best, most] = [i, log];
   }
-  return best;
+  return squama.ranked[best];
 };
 
 // Weights are whole hundredths that sum to one, so that the command repeats them exactly.
@@ -72,7 +77,7 @@ squama.setWeight = (which, value) => {
     });
     const output = squama.element("output", { for: input.id });
     fieldset.append(squama.element("div", { class: "weight" },
-      squama.element("label", { for: input.id }, criterion.label), input, output));
+      squama.element("label", { for: input.id }, squama.element("i", {}, criterion.key), ` ${criterion.name}`), input, output));
     return { input, output };
   });
   document.getElementById("equal-weights").addEventListener("click", () => {
@@ -81,8 +86,8 @@ squama.setWeight = (which, value) => {
   });
 
   const left = squama.rows.length - squama.ranked.length;
-  document.getElementById("ranking-note").textContent =
-    `f = coverage^m · critical force^n · penetration resistance^k · compliance^l, each rescaled to [0, 1]. ${squama.ranked.length} designs take part; ${left} without coverage or without every value are left out.`;
+  document.getElementById("ranking-count").textContent =
+    `${squama.ranked.length} designs take part; ${left} without coverage or without every value are left out.`;
 
   const body = document.querySelector("#best tbody");
   const show = () => {
@@ -94,11 +99,7 @@ squama.setWeight = (which, value) => {
     });
     document.getElementById("rank-command").textContent = `squama rank ${squama.folder} --weights ${weights.join(",")}`;
     body.replaceChildren(...squama.rank(weights).slice(0, LISTED).map(({ row, fitness }, place) =>
-      squama.element("tr", {
-        "data-row": row, tabindex: 0,
-        onclick: () => squama.choose(row),
-        onkeydown: (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); squama.choose(row); } },
-      },
+      squama.element("tr", { "data-row": row, ...squama.chooser(row) },
       ...[place + 1, squama.number(row), squama.cell(row, "gap_over_t"), squama.cell(row, "length_over_t"), `${squama.cell(row, "slant_deg")}°`, fitness.toFixed(4)]
         .map((cell) => squama.element("td", {}, String(cell))))));
   };

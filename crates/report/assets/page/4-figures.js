@@ -6,11 +6,12 @@
     coverage: "coverage <i>λ</i>",
     force: "critical force <i>F</i><sub>c</sub>*",
     penetration: "penetration <i>u</i><sub>max</sub>/<i>t</i>",
-    resistance: "penetration resistance <i>t</i>/<i>u</i><sub>max</sub>",
+    resistance: "resistance <i>t</i>/<i>u</i><sub>max</sub>",
     compliance: "compliance <i>C</i><sub>f</sub>*",
     gap: "gap <i>d</i>/<i>t</i>",
     length: "aspect ratio <i>L</i>/<i>t</i>",
   };
+  const dimensionless = (name) => `${name}, dimensionless`;
   const axisName = (k, letter) => `${letter}axis${k === 0 ? "" : k + 1}`;
   const axisRef = (k, letter) => `${letter}${k === 0 ? "" : k + 1}`;
   const hover = (rows, name, values) => rows.map((row, i) => `${squama.title(row)}<br>${name} ${squama.short(values[i])}`);
@@ -29,19 +30,48 @@
     return { columns, rows, domain };
   };
 
-  /** Ticks of a small logarithmic axis, `range` in decades: 1 and 3 of each, or of some. */
+  /** Ticks of a logarithmic axis, `range` in decades: every decade or some, and between them where there are few. */
   const decades = (range) => {
-    const wide = range[1] - range[0] > 3;
-    const every = Math.max(1, Math.ceil((range[1] - range[0]) / 5));
-    const values = [];
+    const span = range[1] - range[0];
+    const every = Math.max(1, Math.ceil(span / 7));
+    const ticks = { major: [], minor: [] };
     for (let decade = Math.floor(range[0]); decade <= range[1]; decade++) {
-      for (const digit of wide ? [1] : [1, 3]) {
-        const value = digit * 10 ** decade;
-        if (decade % every === 0 && Math.log10(value) >= range[0] && Math.log10(value) <= range[1]) values.push(Number(value.toPrecision(1)));
+      for (let digit = 1; digit <= 9; digit++) {
+        const place = decade + Math.log10(digit);
+        if (place < range[0] || place > range[1]) continue;
+        const labelled = digit === 1 ? decade % every === 0 : span < 2.2 && (digit === 2 || digit === 5);
+        ticks[labelled ? "major" : "minor"].push({ decade, digit });
       }
     }
-    const text = (value) => (value >= 0.01 && value <= 1000 ? String(value) : `10<sup>${Math.round(Math.log10(value))}</sup>`);
-    return { tickmode: "array", minor: { ticks: "" }, tickvals: values, ticktext: values.map((value) => text(value).replace("-", "−")) };
+    const value = ({ decade, digit }) => Number(`${digit}e${decade}`);
+    const text = ({ decade, digit }) => {
+      if (decade >= -2 && decade <= 3) return String(value({ decade, digit }));
+      return `${digit === 1 ? "" : `${digit}·`}10<sup>${String(decade).replace("-", "−")}</sup>`;
+    };
+    return {
+      tickmode: "array", tickvals: ticks.major.map(value), ticktext: ticks.major.map(text),
+      minor: { ticks: "inside", tickmode: "array", tickvals: ticks.minor.map(value) },
+    };
+  };
+
+  /** Type, range and ticks of an axis for values. */
+  const fitted = (values) => {
+    const type = squama.scale(values);
+    const place = type === "log" ? Math.log10 : (value) => value;
+    const low = place(values.reduce((a, b) => Math.min(a, b), Infinity));
+    const high = place(values.reduce((a, b) => Math.max(a, b), -Infinity));
+    const air = 0.06 * (high - low || 1);
+    const range = [low - air, high + air];
+    return { type, range, ...(type === "log" ? decades(range) : { nticks: 5 }) };
+  };
+
+  /** The names of the axes that panels share: below and to the left of all. */
+  const sharedNames = (x, y) => {
+    const name = { showarrow: false, xref: "paper", yref: "paper", font: { size: 13 } };
+    return [
+      { ...name, text: x, x: 0.5, y: 0, xanchor: "center", yanchor: "top", yshift: -26 },
+      { ...name, text: y, x: 0, y: 0.5, xanchor: "center", yanchor: "middle", xshift: -52, textangle: -90 },
+    ];
   };
 
   const caption = (text, domain) => ({ text, showarrow: false, xref: "paper", yref: "paper", x: (domain.x[0] + domain.x[1]) / 2, y: domain.y[1], xanchor: "center", yanchor: "bottom", font: { size: 12 } });
@@ -59,25 +89,17 @@
     const panel = (row) => panels.indexOf(squama.cell(row, across));
     const values = shown.map((row) => squama.cell(row, column));
     const xs = shown.map((row) => squama.cell(row, along));
-    const range = (list) => {
-      const [low, high] = [Math.min(...list), Math.max(...list)];
-      if (squama.scale(list) === "log") { const air = 0.06 * Math.log10(high / low); return [Math.log10(low) - air, Math.log10(high) + air]; }
-      const air = 0.06 * (high - low || 1);
-      return [low - air, high + air];
-    };
-    const [rangeX, rangeY] = [range(xs), range(values)];
+    const [axisX, axisY] = [fitted(xs), fitted(values)];
     const make = (width) => {
       const place = grid(panels.length, width, 165, 0.012, 0.09);
-      const layout = { height: 70 + 190 * place.rows, annotations: [], margin: { l: 64, r: 12, t: 34, b: 56 } };
+      const layout = { height: 70 + 190 * place.rows, annotations: sharedNames(dimensionless(alongName), dimensionless(name)), margin: { l: 70, r: 12, t: 26, b: 54 } };
       const traces = [];
-      const ticks = (list, range) => (squama.scale(list) === "log" ? decades(range) : { nticks: 5 });
-      const [ticksX, ticksY] = [ticks(xs, rangeX), ticks(values, rangeY)];
       panels.forEach((value, k) => {
         const domain = place.domain(k);
         const first = k % place.columns === 0;
         const last = k + place.columns >= panels.length;
-        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), type: squama.scale(xs), range: rangeX, ...ticksX, showticklabels: last, title: last && Math.floor((panels.length - 1) / place.columns) * place.columns + Math.floor(place.columns / 2) === k ? { text: alongName } : undefined };
-        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), type: squama.scale(values), range: rangeY, ...ticksY, showticklabels: first, title: first && k === Math.floor((place.rows - 1) / 2) * place.columns ? { text: name } : undefined };
+        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), ...axisX, showticklabels: last };
+        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), ...axisY, showticklabels: first };
         layout.annotations.push(caption(`${acrossName} = ${value}`, domain));
         for (const slant of squama.slants) {
           const own = shown.filter((row) => panel(row) === k && squama.cell(row, "slant_deg") === slant.degrees)
@@ -101,12 +123,12 @@
   const scatter = (id, pairs, title, description, rows, front) => {
     if (rows.length === 0) return;
     const make = (width) => {
-      const place = grid(pairs.length, width, 290, 0.09, 0.2);
-      const layout = { height: 60 + 300 * place.rows };
+      const place = grid(pairs.length, width, 290, 78 / width, 0.19);
+      const layout = { height: 40 + 310 * place.rows, margin: { l: 70, r: 12, t: 12, b: 54 } };
       const traces = [];
       pairs.forEach(([a, b], k) => {
         const domain = place.domain(k);
-        const axis = (quantity) => ({ type: squama.scale(rows.map(quantity.value)), title: { text: quantity.name, standoff: 4 } });
+        const axis = (quantity) => ({ ...fitted(rows.map(quantity.value)), title: { text: dimensionless(quantity.name), standoff: 6, font: { size: 13 } } });
         layout[axisName(k, "x")] = { ...axis(a), domain: domain.x, anchor: axisRef(k, "y") };
         layout[axisName(k, "y")] = { ...axis(b), domain: domain.y, anchor: axisRef(k, "x") };
         const part = (own, marker) => traces.push({ x: own.map(a.value), y: own.map(b.value), customdata: own, mode: "markers", marker, text: own.map(squama.title), hoverinfo: "text", xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") });
@@ -134,18 +156,18 @@
     const places = (values, room) => {
       const every = Math.ceil(values.length / room);
       const shown = values.map((_, i) => i).filter((i) => i % every === 0);
-      return { tickmode: "array", tickvals: shown, ticktext: shown.map((i) => String(values[i])), range: [-0.6, values.length - 0.4], showgrid: false, minor: { ticks: "" } };
+      return { tickmode: "array", tickvals: shown, ticktext: shown.map((i) => String(values[i])), range: [-0.6, values.length - 0.4], showgrid: false, zeroline: false, ticks: "", minor: { ticks: "" } };
     };
     const make = (width) => {
-      const place = grid(slants.length, width, 240, 0.02, 0.14);
-      const layout = { height: 60 + 230 * place.rows, annotations: [], margin: { l: 64, r: 80, t: 34, b: 56 } };
+      const place = grid(slants.length, width, 240, 0.02, 0.1);
+      const layout = { height: 60 + 220 * place.rows, annotations: sharedNames(dimensionless(html.length), dimensionless(html.gap)), margin: { l: 70, r: 84, t: 26, b: 54 } };
       const size = Math.max(5, 0.82 * Math.min((width - 150) / place.columns / lengths.length, 180 / gaps.length));
       const traces = slants.map((slant, k) => {
         const domain = place.domain(k);
         const own = rows.filter((row) => squama.cell(row, "slant_deg") === slant);
         const last = k + place.columns >= slants.length;
-        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), ...places(lengths, 7), showticklabels: last, title: last ? { text: html.length } : undefined };
-        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), ...places(gaps, 10), showticklabels: k % place.columns === 0, title: k % place.columns === 0 ? { text: html.gap } : undefined };
+        layout[axisName(k, "x")] = { domain: domain.x, anchor: axisRef(k, "y"), ...places(lengths, 7), showticklabels: last };
+        layout[axisName(k, "y")] = { domain: domain.y, anchor: axisRef(k, "x"), ...places(gaps, 10), showticklabels: k % place.columns === 0 };
         layout.annotations.push(caption(`<i>α</i> = ${slant}°`, domain));
         const values = own.map((row) => squama.cell(row, "coverage"));
         return {
@@ -178,7 +200,7 @@
     [force, column("secant_stiffness", "secant stiffness <i>K</i><sub>sec</sub>*")],
   ], "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", squama.rowsWith("critical_force", "max_stiffness", "secant_stiffness"));
   multiples("penetration", "penetration", html.penetration, "Penetration", "Penetration at the critical tilt against the aspect ratio, for each gap and slant.");
-  multiples("compliance", "compliance", html.compliance, "Flexural compliance", "Flexural compliance against the aspect ratio, for each gap and slant; open marks: no contact in bending.",
+  multiples("compliance", "compliance", html.compliance, "Flexural compliance", "Flexural compliance against the aspect ratio, for each gap and slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.",
     (row) => squama.cell(row, "flexure_contact") !== "false" && squama.cell(row, "flexure_contact") !== "no" && squama.cell(row, "flexure_contact") !== 0);
   coverageMaps();
   const quantities = squama.criteria.map((criterion, k) => ({ name: [html.coverage, html.force, html.resistance, html.compliance][k], value: criterion.value }));

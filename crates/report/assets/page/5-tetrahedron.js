@@ -2,31 +2,36 @@
 // The best design for every weighting, in a tetrahedron that turns.
 
 (() => {
-  const RESOLUTION = 14;
+  // Steps from corner to corner, as `squama rank` has them.
+  const RESOLUTION = 20;
   const LISTED = 10;
   // Distance of the eye, in sizes of the tetrahedron.
-  const AWAY = 1.6;
+  const AWAY = 1.8;
   const CORNERS = [[0, 0, 1], [0.9428, 0, -0.3333], [-0.4714, 0.8165, -0.3333], [-0.4714, -0.8165, -0.3333]];
   const area = document.getElementById("tetrahedron");
   const place = (weights) => [0, 1, 2].map((axis) => weights.reduce((sum, weight, k) => sum + weight * CORNERS[k][axis], 0));
 
-  const winners = [];
-  for (let m = 0; m <= RESOLUTION; m++) {
-    for (let n = 0; n <= RESOLUTION - m; n++) {
-      for (let k = 0; k <= RESOLUTION - m - n; k++) {
-        const weights = [m, n, k, RESOLUTION - m - n - k].map((part) => part / RESOLUTION);
-        winners.push({ weights, at: place(weights), row: squama.best(weights) });
-      }
-    }
-  }
   if (squama.ranked.length === 0) {
     area.textContent = "No design has coverage and every value, so there is nothing to rank.";
     return;
   }
 
-  const counts = new Map();
-  for (const { row } of winners) counts.set(row, (counts.get(row) ?? 0) + 1);
-  const regions = [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+  // The part of the tetrahedron that is nearest to a weighting, by how many of its weights are zero.
+  const CELLS = [72, 36, 14, 3];
+  const winners = [];
+  for (let m = 0; m <= RESOLUTION; m++) {
+    for (let n = 0; n <= RESOLUTION - m; n++) {
+      for (let k = 0; k <= RESOLUTION - m - n; k++) {
+        const steps = [m, n, k, RESOLUTION - m - n - k];
+        const weights = steps.map((step) => step / RESOLUTION);
+        const cell = CELLS[steps.filter((step) => step === 0).length];
+        winners.push({ weights, cell, at: place(weights), row: squama.best(weights) });
+      }
+    }
+  }
+  const cells = new Map();
+  for (const { row, cell } of winners) cells.set(row, (cells.get(row) ?? 0) + cell);
+  const regions = [...cells].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
   // Regions of one slant differ in shade.
   const SHADES = [0, 0.5, -0.4, 0.25, -0.2, 0.75];
   const shaded = (color, part) => "#" + [1, 3, 5].map((k) => {
@@ -40,12 +45,12 @@
     colors.set(row, shaded(slant.color, SHADES[before % SHADES.length]));
   });
   document.getElementById("tetrahedron-legend").append(
-    ...regions.slice(0, LISTED).map(([row, count]) => squama.element("button", { type: "button", onclick: () => squama.choose(row) },
-      squama.symbol({ ...squama.slant(row), color: colors.get(row) }), `${squama.title(row)} (${((100 * count) / winners.length).toFixed(1)} %)`)),
+    ...regions.slice(0, LISTED).map(([row, own]) => squama.element("button", { type: "button", onclick: () => squama.choose(row) },
+      squama.symbol({ ...squama.slant(row), color: colors.get(row) }), `${squama.title(row)} (${((100 * own) / (12 * RESOLUTION ** 3)).toFixed(1)} %)`)),
     regions.length > LISTED ? `and ${regions.length - LISTED} more` : "");
 
-  // Symbols that a tetrahedron in space can draw.
-  const inSpace = { circle: "circle", square: "square", diamond: "diamond", "triangle-up": "cross", "triangle-down": "x", star: "circle-open", hexagon: "square-open" };
+  // Short enough not to leave the chart, whichever way it is turned.
+  const NAMES = ["coverage", "force", "resistance", "compliance"];
   const traces = () => {
     const theme = squama.themeColors();
     const edges = { x: [], y: [], z: [], type: "scatter3d", mode: "lines", hoverinfo: "skip", line: { color: theme.faint, width: 3 } };
@@ -53,14 +58,15 @@
       [CORNERS[a], CORNERS[b], [null, null, null]].forEach(([x, y, z]) => { edges.x.push(x); edges.y.push(y); edges.z.push(z); });
     }
     const names = {
-      x: CORNERS.map((corner) => 1.38 * corner[0]), y: CORNERS.map((corner) => 1.38 * corner[1]), z: CORNERS.map((corner) => (corner[2] > 0 ? 1.12 : -0.48)),
-      type: "scatter3d", mode: "text", hoverinfo: "skip", text: squama.criteria.map((criterion) => `<b>${criterion.name}</b>`), textfont: { color: theme.ink, size: 13 },
+      x: CORNERS.map((corner) => 1.42 * corner[0]), y: CORNERS.map((corner) => 1.42 * corner[1]), z: CORNERS.map((corner) => (corner[2] > 0 ? 1.13 : -0.47)),
+      type: "scatter3d", mode: "text", hoverinfo: "skip", text: NAMES.map((name) => `<b>${name}</b>`), textfont: { color: theme.ink, size: 13 },
     };
     const coordinate = (axis) => winners.map(({ at }) => at[axis]);
     const dots = {
       x: coordinate(0), y: coordinate(1), z: coordinate(2), type: "scatter3d", mode: "markers", customdata: winners.map(({ row }) => row),
       hoverinfo: "text", text: winners.map(({ row, weights }) => `${squama.title(row)}<br>best for ${weights.map((weight) => weight.toFixed(2)).join(", ")}`),
-      marker: { size: 5, color: winners.map(({ row }) => colors.get(row)), symbol: winners.map(({ row }) => inSpace[squama.slant(row).symbol] ?? "circle"), line: { color: winners.map(({ row }) => colors.get(row)), width: 2 } },
+      // Dots alone: in space the library does not have the marks of the slants.
+      marker: { size: 4, symbol: "circle", color: winners.map(({ row }) => colors.get(row)), line: { color: theme.paper, width: 0.5 } },
     };
     const here = place(squama.weights());
     const ring = {
@@ -71,7 +77,7 @@
   };
 
   // The camera, by its angles.
-  const camera = { turn: 0.55, tip: 0.3 };
+  const camera = { turn: 0.25, tip: 0.3 };
   const eye = () => ({
     eye: { x: AWAY * Math.cos(camera.tip) * Math.cos(camera.turn), y: AWAY * Math.cos(camera.tip) * Math.sin(camera.turn), z: AWAY * Math.sin(camera.tip) },
     center: { x: 0, y: 0, z: -0.06 },

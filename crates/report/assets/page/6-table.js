@@ -14,13 +14,13 @@
   const buttons = new Map();
   const head = squama.element("tr", {}, ...columns.map((name) => {
     const { unit, meaning } = squama.columns[squama.column(name)];
-    const button = squama.element("button", { type: "button", title: `${meaning}${unit === "-" ? "" : ` (${unit})`}`, onclick: () => sortBy(name) }, name.replaceAll("_", " "));
+    const button = squama.element("button", { type: "button", title: `${meaning}${unit === "-" ? "" : ` (${unit})`}`, onclick: () => sortBy(name) }, squama.label(name));
     const header = squama.element("th", { scope: "col" }, button);
     buttons.set(name, { button, header });
     return header;
   }));
   const filterRow = squama.element("tr", {}, ...columns.map((name) => squama.element("th", {},
-    squama.element("input", { type: "text", "aria-label": `filter ${name.replaceAll("_", " ")}`, "data-column": name, oninput: (event) => { filters.set(name, event.target.value.trim()); show(); } }))));
+    squama.element("input", { type: "text", "aria-label": `filter ${squama.label(name)}`, "data-column": name, oninput: (event) => { filters.set(name, event.target.value.trim()); show(); } }))));
   table.append(squama.element("thead", {}, head, filterRow), body);
 
   const sortBy = (name) => {
@@ -75,7 +75,7 @@
     for (const [name, { button, header }] of buttons) {
       const own = name === sort.name;
       header.setAttribute("aria-sort", own ? (sort.down ? "descending" : "ascending") : "none");
-      button.textContent = name.replaceAll("_", " ") + (own ? (sort.down ? " ▼" : " ▲") : "");
+      button.textContent = squama.label(name) + (own ? (sort.down ? " ▼" : " ▲") : "");
     }
     document.getElementById("table-count").textContent = `${rows.length} of ${squama.rows.length} designs.`;
     const more = document.getElementById("more");

@@ -47,8 +47,8 @@
   };
 
   const fact = (name, value, unit = "-", meaning = "") => [
-    squama.element("dt", { title: meaning }, name.replaceAll("_", " ")),
-    squama.element("dd", {}, squama.short(value), unit === "-" ? "" : squama.element("small", {}, ` ${unit}`)),
+    squama.element("dt", { title: meaning }, squama.label(name)),
+    squama.element("dd", {}, ...squama.withUnit(name, value, unit)),
   ];
 
   const command = (text) => {
@@ -60,6 +60,14 @@
     return squama.element("div", { class: "copy" }, squama.element("code", {}, text), button);
   };
 
+  /** Shows a drawing as large as the window; Escape or a click closes it. */
+  const enlarge = (svg) => {
+    const large = document.getElementById("large");
+    large.querySelector("div").innerHTML = svg;
+    large.showModal();
+  };
+  document.getElementById("large").addEventListener("click", (event) => event.currentTarget.close());
+
   const show = (row) => {
     const number = squama.number(row);
     document.getElementById("detail-title").textContent = `Design ${number}`;
@@ -67,9 +75,9 @@
     box.replaceChildren(drawing(row), squama.element("p", { class: "note" }, "At rest; the thick parts of the dashed line are covered."));
     const solved = squama.drawings.find((other) => other.design === number);
     if (solved) {
-      const details = squama.element("details", { open: "" }, squama.element("summary", {}, "At the critical tilt"));
-      details.insertAdjacentHTML("beforeend", solved.svg);
-      box.append(details);
+      const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(solved.svg) });
+      button.innerHTML = solved.svg;
+      box.append(button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it."));
     }
     const axes = squama.columns.filter(({ name }) => squama.axes.includes(name));
     document.getElementById("detail-parameters").replaceChildren(...axes.flatMap(({ name, unit, meaning }) => fact(name, squama.cell(row, name), unit, meaning)));

@@ -35,7 +35,7 @@
   } else {
     list.append(squama.element("table", {},
       squama.element("thead", {}, squama.element("tr", {}, ...["design", "measure", "reason"].map((text) => squama.element("th", { scope: "col" }, text)))),
-      squama.element("tbody", {}, ...failed.map(({ row, measure, reason }) => squama.element("tr", { tabindex: 0, onclick: () => squama.choose(row) },
+      squama.element("tbody", {}, ...failed.map(({ row, measure, reason }) => squama.element("tr", { "data-row": row, ...squama.chooser(row) },
         squama.element("td", {}, squama.title(row)), squama.element("td", {}, measure), squama.element("td", {}, reason))))));
   }
 

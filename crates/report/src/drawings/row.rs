@@ -11,7 +11,7 @@ use super::view::View;
 use super::{Frames, MARGIN, Panel, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
 use crate::palette::{FAINT, INK};
-use crate::svg::{Element, Spot, arrow, line, polygon, polyline};
+use crate::svg::{Element, Spot, arrow, line, polygon, polyline, px};
 
 /// Px for a length of `t` at most.
 const LARGEST: f64 = 130.0;
@@ -46,7 +46,9 @@ impl Puncture<'_> {
     /// If the design is none.
     pub fn svg(&self) -> Result<String, InvalidGeometry> {
         let sheet = Sheet::new(self)?;
-        let states = self.states.iter().map(|state| sheet.state(state));
+        // The row without a load is drawn once.
+        let loaded = self.states.iter().filter(|state| state.force != 0.0);
+        let states = loaded.map(|state| sheet.state(state, sheet.free(state)));
         let panels: Vec<_> = std::iter::once(sheet.at_rest()).chain(states).collect();
         Ok(stacked(&self.title(), panels))
     }
@@ -57,7 +59,8 @@ impl Puncture<'_> {
 
     pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
         let sheet = Sheet::new(self)?;
-        Ok(Frames::new(self.states.iter().map(|state| sheet.state(state)).collect()))
+        let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
+        Ok(Frames::new(self.states.iter().map(|state| sheet.state(state, free)).collect()))
     }
 }
 
@@ -136,13 +139,21 @@ impl Sheet {
         inside.extend(self.coverage_line());
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
         // Neither a load nor reactions: the panel needs less room.
-        let lifted = Element::group("rest")
-            .with("transform", format!("translate(0 {})", -(AIR - 14.0)))
-            .containing(inside);
-        Panel { height: self.view.scale + SUBSTRATE + 24.0, caption, inside: vec![lifted] }
+        lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
 
-    fn state(&self, state: &Snapshot) -> Panel {
+    /// Height above the highest thing of a state in which nothing is drawn, px.
+    fn free(&self, state: &Snapshot) -> f64 {
+        let view = self.measured_from_left(state);
+        let arrow = |contact: &skin::Contact| {
+            view.place(contact.point)[1] - self.force * contact.force[1].abs()
+        };
+        let load = self.load_arrow(state).map(|[from, _]| from[1] - 16.0);
+        let highest = state.contacts.iter().map(arrow).chain(load).fold(AIR, f64::min);
+        (highest - 8.0).max(0.0)
+    }
+
+    fn state(&self, state: &Snapshot, free: f64) -> Panel {
         let shown: Vec<&ScaleState> =
             state.scales.iter().filter(|s| (self.first..=self.last).contains(&s.scale)).collect();
         let poses: Vec<_> = shown.iter().map(|s| (s.scale, pose(s))).collect();
@@ -156,7 +167,7 @@ impl Sheet {
             self.tilt(state),
             self.reactions(&shown, state.force * self.length),
         ];
-        Panel { height: self.height, caption: self.caption(state), inside }
+        lifted(free, self.height, self.caption(state), inside)
     }
 
     fn caption(&self, state: &Snapshot) -> String {
@@ -253,19 +264,24 @@ impl Sheet {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    fn load(&self, state: &Snapshot) -> Element {
-        let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
-            return Element::group("load");
-        };
+    /// Where the arrow of the load begins and ends; none without a load.
+    fn load_arrow(&self, state: &Snapshot) -> Option<[Spot; 2]> {
+        let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let pose = pose(punctured);
         let point = pose.displacement + pose.turn(left + self.load_position * (right - left));
         let to = self.place(point.into());
         let length = (self.force * state.force * self.length).max(9.0);
-        let from = [to[0], to[1] - length];
-        let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle).with("fill", INK);
-        Element::group("load").containing([arrow(from, to, INK, 2.2), name])
+        Some([[to[0], to[1] - length], to])
+    }
+
+    fn load(&self, state: &Snapshot) -> Element {
+        let drawn = self.load_arrow(state).map(|[from, to]| {
+            let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
+            [arrow(from, to, INK, 2.2), name.with("fill", INK)]
+        });
+        Element::group("load").containing(drawn.into_iter().flatten())
     }
 
     /// The angle between the base of the punctured scale and its place at rest.
@@ -339,6 +355,14 @@ impl Sheet {
             Element::group("coverage").containing(parts)
         })
     }
+}
+
+/// A panel of what is drawn down to `bottom`, without the `free` px at its top.
+fn lifted(free: f64, bottom: f64, caption: String, inside: Vec<Element>) -> Panel {
+    let lifted = Element::group("lifted")
+        .with("transform", format!("translate(0 {})", px(-free)))
+        .containing(inside);
+    Panel { height: bottom - free, caption, inside: vec![lifted] }
 }
 
 fn pose(state: &ScaleState) -> Pose {

@@ -70,7 +70,7 @@ impl Flexure<'_> {
         };
         let whole = Element::group("strip").containing([
             shape.membrane(&view, (scale * self.membrane_thickness).max(1.0)),
-            shape.scales(&view, 0.4),
+            shape.scales(&view, outline(row, scale).clamp(0.08, 0.4)),
             contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
         ]);
         let cell = self.cell(row, state, tall);
@@ -92,7 +92,7 @@ impl Flexure<'_> {
             scale,
             origin: [
                 frame[0] + 0.5 * ENLARGED - scale * middle[0],
-                frame[1] + 0.5 * HEIGHT + scale * middle[1],
+                frame[1] + 0.46 * HEIGHT + scale * middle[1],
             ],
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
@@ -113,7 +113,7 @@ impl Flexure<'_> {
         Element::group("gap").containing([
             border,
             shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
-            shape.scales(&view, 0.9),
+            shape.scales(&view, outline(row, scale).clamp(0.4, 0.9)),
             contacts::overlaps(&view, &shape.overlaps),
             contacts::halos(&view, &shape.contacts, 8.0),
             contacts::forces(&view, &shape.contacts, unit),
@@ -121,6 +121,11 @@ impl Flexure<'_> {
             name.with("fill", FAINT),
         ])
     }
+}
+
+/// Width of an outline: thinner around thin scales, so that their area is seen.
+fn outline(row: &Row, scale: f64) -> f64 {
+    0.12 * scale * row.pitch()
 }
 
 fn caption(state: &Snapshot) -> String {
@@ -220,8 +225,11 @@ fn moments(view: &View, shape: &Shape) -> Element {
     let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
         return Element::group("moments");
     };
-    let around = |corner: &[f64; 2], start: f64, sweep: f64| -> Element {
-        let center = view.place(*corner);
+    let (left, right) = (view.place(*left), view.place(*right));
+    // The arrows of a short gap stand apart too.
+    let apart = (0.5 * (50.0 - (right[0] - left[0]))).max(0.0);
+    let (left, right) = (shifted(left, [-apart, 0.0]), shifted(right, [apart, 0.0]));
+    let around = |center: Spot, start: f64, sweep: f64| -> Element {
         let at = |angle: f64| -> Spot {
             [center[0] + 22.0 * angle.cos(), center[1] - 22.0 * angle.sin()]
         };
@@ -230,12 +238,13 @@ fn moments(view: &View, shape: &Shape) -> Element {
         let curve = polyline(&arc).with("stroke", INK).at("stroke-width", 1.8);
         Element::group("moment").containing([curve, arrow(arc[14], tip, INK, 1.8)])
     };
-    let turn = 2.1;
+    // From below the base outwards, so that scales that lean over stay free.
+    let turn = 2.0;
     Element::group("moments").containing([
-        around(left, 4.6, -turn),
-        around(right, -1.46, turn),
-        label("$M$", shifted(view.place(*left), [-38.0, 18.0]), 13.0, Anchor::Middle),
-        label("$M$", shifted(view.place(*right), [38.0, 18.0]), 13.0, Anchor::Middle),
+        around(left, 5.3, -turn),
+        around(right, -2.16, turn),
+        label("$M$", shifted(left, [-30.0, 26.0]), 13.0, Anchor::Middle),
+        label("$M$", shifted(right, [30.0, 26.0]), 13.0, Anchor::Middle),
     ])
 }
 

@@ -63,7 +63,7 @@ pub(super) fn figure(
     let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
     let slants = designs.values("slant_deg");
     let mut inside = vec![slant_legend(&slants, [LEFT, 50.0])];
-    inside.extend(filled.map(|_| contact_legend([LEFT + 520.0, 50.0])));
+    inside.extend(filled.map(|_| contact_legend([LEFT + 470.0, 50.0])));
     for (k, &value) in panels.iter().enumerate() {
         let (column, row) = (k % columns, k / columns);
         let panel = Panel {
@@ -151,6 +151,7 @@ fn contact_legend([x, y]: Spot) -> Element {
         mark(0.0, [x, y], 4.5, true),
         label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
         mark(0.0, [x + 76.0, y], 4.5, false),
-        label("no contact", [x + 86.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
+        label("no contact: the same for all slants", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
+            .with("fill", INK),
     ])
 }

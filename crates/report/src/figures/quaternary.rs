@@ -1,7 +1,7 @@
 //! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
 
 use geometry::{Parallelogram, Row};
-use sweep::{Ranking, Standing};
+use sweep::{Ranking, Standing, Weights};
 
 use super::sheet;
 use crate::designs::Designs;
@@ -53,7 +53,8 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
     let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
     inside.push(points(designs, &dots, &regions));
     inside.push(edges(&[[0, 1], [0, 2], [0, 3]], "none"));
-    inside.push(corner_names());
+    let best: Vec<_> = Weights::alone().map(|alone| ranking.winner(alone).design()).collect();
+    inside.push(corner_names(&best));
     inside.push(letters(&dots, &regions));
     let colors = colors(designs, &regions);
     inside.extend(regions.iter().zip(&colors).enumerate().map(|(k, (region, color))| {
@@ -65,6 +66,10 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
         let spot = [596.0, 78.0 + 58.0 * LISTED as f64];
         inside.push(label(&text, spot, 12.0, Anchor::Start).with("fill", FAINT));
     }
+    let balanced =
+        format!("best for equal weights: {}", ranking.winner(Weights::BALANCED).design());
+    let spot = [20.0, 50.0];
+    inside.push(label(&balanced, spot, 13.0, Anchor::Start).with("fill", INK));
     let title = format!("{name}: the best design for every weighting of the four criteria");
     sheet(WIDTH, HEIGHT, &title, inside)
 }
@@ -100,14 +105,20 @@ fn edges(pairs: &[[usize; 2]], dashes: &str) -> Element {
     Element::group("edges").containing(pairs.iter().map(edge))
 }
 
-fn corner_names() -> Element {
+/// The criterion of each corner, and the design that is best for it alone.
+fn corner_names(best: &[&str]) -> Element {
     // Beside the dots: above, below, and outside of the base.
-    let shifts = [[-70.0, -16.0], [-60.0, 30.0], [-46.0, 52.0], [8.0, 26.0]];
+    let shifts = [[-70.0, -33.0], [-60.0, 30.0], [-46.0, 52.0], [8.0, 26.0]];
     let name = |k: usize| {
         let [x, y] = corner(k);
-        label(NAMES[k], [x + shifts[k][0], y + shifts[k][1]], 13.0, Anchor::Start).with("fill", INK)
+        let spot = [x + shifts[k][0], y + shifts[k][1]];
+        let best = format!("best: {}", best[k]);
+        [
+            label(NAMES[k], spot, 13.0, Anchor::Start).with("fill", INK),
+            label(&best, [spot[0], spot[1] + 17.0], 12.0, Anchor::Start).with("fill", FAINT),
+        ]
     };
-    Element::group("corners").containing((0..4).map(name))
+    Element::group("corners").containing((0..4).flat_map(name))
 }
 
 /// A dot for each weight in the colour of its best design, the far ones first.
