@@ -1,6 +1,7 @@
 //! The command as people and scripts use it: exit codes, messages, files.
 
 mod bad_input;
+mod clusters;
 mod design;
 mod output;
 mod rankings;
@@ -8,6 +9,7 @@ mod reruns;
 mod runs;
 mod shards;
 mod survival;
+mod workbooks;
 
 use std::path::{Path, PathBuf};
 

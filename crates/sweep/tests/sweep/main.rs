@@ -8,6 +8,7 @@ mod ranking;
 mod reference;
 mod refusals;
 mod tables;
+mod workbooks;
 
 #[path = "../samples/mod.rs"]
 mod samples;
