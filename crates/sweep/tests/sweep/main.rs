@@ -3,7 +3,9 @@
 mod comparison;
 mod definitions;
 mod documentation;
+mod fuzz;
 mod grids;
+mod journals;
 mod ranking;
 mod reference;
 mod refusals;
