@@ -11,6 +11,6 @@ set -euo pipefail
 
 # In place of this shell, which signals would end otherwise.
 exec "$SQUAMA" run "$1/sweep.toml" --resume --quiet \
-  --threads "${SLURM_CPUS_PER_TASK:-1}" \
-  --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" \
-  --out "$1/../shards/$SLURM_ARRAY_TASK_ID-of-$SHARDS"
+    --threads "${SLURM_CPUS_PER_TASK:-1}" \
+    --shard "$SLURM_ARRAY_TASK_ID/$SHARDS" \
+    --out "$1/../shards/$SLURM_ARRAY_TASK_ID-of-$SHARDS"

@@ -7,6 +7,6 @@ set -euo pipefail
 # Shards that have not begun have no journal.
 shards=()
 for shard in "$1/../shards/"*"-of-$SHARDS"; do
-  if [ -s "$shard/journal.jsonl" ]; then shards+=("$shard"); fi
+    if [ -s "$shard/journal.jsonl" ]; then shards+=("$shard"); fi
 done
 exec "$SQUAMA" merge --out "$1/.." ${shards[@]+"${shards[@]}"}

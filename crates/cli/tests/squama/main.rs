@@ -3,6 +3,7 @@
 mod bad_input;
 mod clusters;
 mod design;
+mod kills;
 mod output;
 mod rankings;
 mod reruns;
