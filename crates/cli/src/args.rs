@@ -39,6 +39,8 @@ pub enum Command {
     Status(Status),
     /// Put the shards of a sweep together
     Merge(Merge),
+    /// Write the scripts that run a sweep on a cluster with Slurm
+    Slurm(Slurm),
     /// Solve one design, print its measures and write its path
     Design(Design),
     /// Find the best designs of a run: by weights, for all weights, and without any
@@ -51,6 +53,8 @@ pub enum Command {
     Plot(Plot),
     /// Write one page that shows a sweep
     Report(Report),
+    /// Write the tables of a run as one workbook for Excel and other spreadsheets
+    Export(Export),
     /// Validate a sweep definition and say what would run
     Check(Check),
     /// Print the springs that stand for the substrate under a row of scales
@@ -238,6 +242,30 @@ pub struct Merge {
     pub format: Format,
 }
 
+/// Arguments of `squama slurm`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama slurm sweeps/paper.toml --shards 20
+  results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
+
+Writes submit.sh, which submits a job array with one element for each shard and a job that merges them,
+to DIR/slurm, with the complete definition beside it. Shards go to DIR/shards, the whole to DIR. Submitted
+again, shards go on where they ended. The folder may be moved.
+Exit code: 0 done, 2 bad input or disk.")]
+pub struct Slurm {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Shards, 1 to 1000: elements of the job array
+    #[arg(long, value_name = "N")]
+    pub shards: u64,
+
+    /// Folder of the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// Arguments of `squama design`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -400,6 +428,25 @@ pub struct Report {
     /// The page [default: RESULTS/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+}
+
+/// Arguments of `squama export`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama export results/paper --xlsx paper.xlsx
+
+A sheet for each table of the folder, and one that explains the columns. The same tables make the
+same bytes. A sheet takes 1,048,575 rows.
+Exit code: 0 done, 2 bad input or disk.")]
+pub struct Export {
+    /// Folder of the results of a run
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// The workbook
+    #[arg(long, value_name = "FILE")]
+    pub xlsx: PathBuf,
 }
 
 /// Arguments of `squama rank`.

@@ -2,6 +2,7 @@
 
 mod comparison;
 mod course;
+mod explanation;
 mod ranking;
 mod values;
 
@@ -19,6 +20,7 @@ pub use course::{
     BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
     STEPS,
 };
+pub(crate) use explanation::Explanation;
 pub use ranking::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
 
 /// A column of a table whose rows are made from `R`.
@@ -135,6 +137,27 @@ fn file(table: &str) -> String {
 pub(crate) fn all_files() -> impl Iterator<Item = String> {
     let rankings = crate::ranking::FILES.map(str::to_owned);
     MEASURE_TABLES.iter().map(|(table, _)| file(table)).chain(rankings)
+}
+
+/// Names of all tables that a folder of results may hold, in the order in which they are read.
+pub(crate) fn all_tables() -> impl Iterator<Item = &'static str> {
+    let measures = MEASURE_TABLES.iter().map(|(table, _)| *table);
+    let of_runs = [crate::tables::FAILURES, crate::reruns::RERUNS].into_iter();
+    let others = of_runs.chain(crate::ranking::FILES).chain(crate::compare::FILES);
+    let others = others.map(|file| file.trim_end_matches(".csv"));
+    std::iter::once("designs").chain(measures).chain(others)
+}
+
+/// Whether a column holds the values that its table is about.
+pub(crate) fn is_leading(table: &str, name: &str) -> bool {
+    match table {
+        "designs" => MEASURE_TABLES.iter().any(|(measure, _)| *measure == name),
+        "ranking" | "quaternary" => name == "fitness",
+        "pareto" | "winners" => name == "share",
+        "differences" => name == "relative",
+        "compare" => name == "largest_relative",
+        table => table == name,
+    }
 }
 
 /// The tables of `sweep`: `designs.csv`, and those of the measures that it asks for.

@@ -19,7 +19,7 @@ use matching::Matching;
 pub use matching::ParameterChange;
 
 /// Names of the tables.
-const FILES: [&str; 2] = ["compare.csv", "differences.csv"];
+pub(crate) const FILES: [&str; 2] = ["compare.csv", "differences.csv"];
 
 /// Two runs, design by design.
 #[derive(Clone, Debug)]

@@ -33,6 +33,7 @@
 //! | [`Results`] | the designs of a run read back |
 //! | [`Ranking`], [`Weights`], [`pareto_front`] | the best designs, by weights and without |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
+//! | [`export()`] | the tables as one workbook for spreadsheets |
 //!
 //! ```
 //! use sweep::Sweep;
@@ -63,6 +64,7 @@ mod criteria;
 mod decimal;
 mod definition;
 mod dialect;
+mod export;
 mod failures;
 mod grid;
 mod hint;
@@ -112,6 +114,7 @@ pub use criteria::{CRITERIA, Criterion, InvalidWeights, Weights};
 pub use decimal::{Decimal, DecimalRange, InvalidRange, NotDecimal};
 pub use definition::Sweep;
 pub use dialect::{Dialect, NoDialect};
+pub use export::{ExportError, Exported, export};
 pub use failures::{FAILURES, Failure};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use invalid::{InvalidDefinition, Problem};

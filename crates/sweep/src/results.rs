@@ -211,12 +211,13 @@ fn plain(dialect: Dialect, cell: &str) -> String {
 }
 
 /// What is wrong with a table, in one line.
-fn words(error: csv::Error) -> String {
+pub(crate) fn words(error: csv::Error) -> String {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => reason(&error),
         csv::ErrorKind::Utf8 { .. } => "it is no text".to_owned(),
         csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
-            let line = pos.map_or(0, |position| position.line());
+            // No cell has a line end in it, and a line that ends with CR LF is counted late.
+            let line = pos.map_or(0, |position| position.record() + 1);
             format!("line {line} has {len} cells, the first one {expected_len}")
         }
         _ => "it is no table".to_owned(),

@@ -1,7 +1,9 @@
 //! The command as people and scripts use it: exit codes, messages, files.
 
 mod bad_input;
+mod clusters;
 mod design;
+mod kills;
 mod output;
 mod rankings;
 mod reruns;
@@ -9,6 +11,7 @@ mod runs;
 mod shards;
 mod survival;
 mod validation;
+mod workbooks;
 
 use std::path::{Path, PathBuf};
 

@@ -38,6 +38,8 @@ fn help_shows_examples() {
         "rerun ",
         "status ",
         "merge ",
+        "slurm ",
+        "export ",
         "design ",
         "rank ",
         "compare ",

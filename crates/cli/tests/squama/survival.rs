@@ -25,14 +25,14 @@ impl Place {
     }
 
     /// Runs `arguments` and kills it after a while.
-    fn kill(&self, arguments: &str, after: Duration) -> ExitStatus {
+    pub fn kill(&self, arguments: &str, after: Duration) -> ExitStatus {
         let mut child = self.spawn(arguments);
         sleep(after);
         child.kill().expect("a process");
         child.wait().expect("an end")
     }
 
-    fn lines(&self, file: &str) -> usize {
+    pub fn lines(&self, file: &str) -> usize {
         std::fs::read_to_string(self.path(file)).map_or(0, |text| text.lines().count())
     }
 
@@ -41,22 +41,6 @@ impl Place {
             let [one, other] = [one, other].map(|folder| self.read(&format!("{folder}/{table}")));
             assert_eq!(one, other, "{table}");
         }
-    }
-}
-
-#[test]
-fn killed_at_any_moment_it_goes_on_to_the_same_tables() {
-    let place = Place::with(MANY);
-    place.squama("run x.toml -q --out whole").assert().code(0);
-    for (threads, pauses) in [(1, [5, 60, 130]), (2, [40, 20, 90]), (8, [80, 35, 10])] {
-        let run = format!("run x.toml -q --resume --threads {threads} --out {threads}");
-        for pause in pauses {
-            place.kill(&run, Duration::from_millis(pause));
-        }
-        place.squama(&run).assert().code(0);
-        place.assert_same_tables("whole", &threads.to_string());
-        let list = place.list(&threads.to_string());
-        assert!(!list.contains(".partial"), "{list}");
     }
 }
 
@@ -171,7 +155,8 @@ mod signals {
         while place.lines("results/many/journal.jsonl") < 2 {
             sleep(Duration::from_millis(5));
         }
-        sleep(Duration::from_millis(100));
+        // By then it is in hand.
+        sleep(Duration::from_secs(1));
         send(&child, SIGINT);
         sleep(Duration::from_millis(200));
         assert!(child.try_wait().expect("a process").is_none(), "it waits for what is in hand");
@@ -210,7 +195,8 @@ fn a_run_ends_at_the_first_failure_if_asked_to() {
     let run = "run x.toml -q --threads 1 --set solver.max_points=3";
     place.squama(&format!("{run} --fail-fast")).assert().code(1);
     let done = place.lines("results/many/designs.csv") - 1;
-    assert!((1..5).contains(&done), "{done}");
+    // Those that one thread has solved before the first of them was noted.
+    assert!((1..27).contains(&done), "{done}");
     place.squama(&format!("{run} --resume")).assert().code(1);
     assert_eq!(place.lines("results/many/failures.csv"), 1 + 2 * 54);
 }

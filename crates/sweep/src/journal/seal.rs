@@ -72,7 +72,8 @@ impl Seal {
         }
         // The object without its checksum.
         content[start - 1] = b'{';
-        serde_json::from_slice(&content[start - 1..]).map_err(|error| error.to_string())
+        let line = serde_json::from_slice(&content[start - 1..]);
+        line.map_err(|error| crate::written::one_line(&error.to_string()))
     }
 }
 

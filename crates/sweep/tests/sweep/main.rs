@@ -3,11 +3,14 @@
 mod comparison;
 mod definitions;
 mod documentation;
+mod fuzz;
 mod grids;
+mod journals;
 mod ranking;
 mod reference;
 mod refusals;
 mod tables;
+mod workbooks;
 
 #[path = "../samples/mod.rs"]
 mod samples;

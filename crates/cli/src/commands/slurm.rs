@@ -1,0 +1,93 @@
+//! `squama slurm`.
+
+use std::path::Path;
+
+use anyhow::{Context as _, ensure};
+use sweep::{Sweep, make_folder, write_text};
+
+use super::{DONE, folder_of, read};
+use crate::args;
+use crate::print::print;
+
+/// The scripts, which are the same for every sweep.
+const SCRIPTS: [(&str, &str); 3] = [
+    ("submit.sh", include_str!("../../../../scripts/slurm/submit.sh")),
+    ("array.sh", include_str!("../../../../scripts/slurm/array.sh")),
+    ("merge.sh", include_str!("../../../../scripts/slurm/merge.sh")),
+];
+
+/// The largest index of a job array: below `MaxArraySize`, which is 1001 unless a cluster says
+/// otherwise.
+const LARGEST: u64 = 1000;
+
+/// Writes the scripts that run a sweep as a job array.
+pub fn slurm(arguments: &args::Slurm) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    check(arguments.shards, &sweep)?;
+    let results = folder_of(&sweep, arguments.out.as_deref());
+    let folder = results.join("slurm");
+    make_folder(&folder)?;
+    for (name, text) in SCRIPTS {
+        write_text(&folder, name, text)?;
+        make_executable(&folder.join(name))?;
+    }
+    write_text(&folder, "sweep.sh", &settings(&sweep, arguments.shards)?)?;
+    write_text(&folder, "sweep.toml", &sweep.to_toml())?;
+    print(&format!(
+        "{}: sweep.toml sweep.sh submit.sh array.sh merge.sh\n\
+         {} designs in {} shards; to submit them: {}\n",
+        folder.display(),
+        sweep.grid().len(),
+        arguments.shards,
+        folder.join("submit.sh").display()
+    ))?;
+    Ok(DONE)
+}
+
+fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
+    ensure!(
+        (1..=LARGEST).contains(&shards),
+        "--shards {shards}: expected 1 to {LARGEST}, because Slurm's job arrays end there \
+         (MaxArraySize is {} by default); a shard may have any number of designs",
+        LARGEST + 1
+    );
+    let designs = sweep.grid().len();
+    ensure!(
+        shards <= designs,
+        "--shards {shards}: there are only {designs} designs, expected 1 to {designs}"
+    );
+    Ok(())
+}
+
+/// What differs from sweep to sweep.
+fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
+    let program = std::env::current_exe().context("the path of squama is not known")?;
+    Ok(format!(
+        "# What the scripts in this folder run: the sweep of sweep.toml. Written by squama slurm.\n\
+         NAME={}\n\
+         # Shards keep their results only as long as this does not change.\n\
+         SHARDS={shards}\n\
+         # The program, on the nodes.\n\
+         SQUAMA=${{SQUAMA:-{}}}\n",
+        quoted(sweep.name()),
+        quoted(&program.display().to_string())
+    ))
+}
+
+/// `text` as one word of a shell.
+fn quoted(text: &str) -> String {
+    format!("'{}'", text.replace('\'', r"'\''"))
+}
+
+#[cfg(unix)]
+fn make_executable(script: &Path) -> anyhow::Result<()> {
+    use std::os::unix::fs::PermissionsExt as _;
+    let permissions = std::fs::Permissions::from_mode(0o755);
+    std::fs::set_permissions(script, permissions)
+        .with_context(|| format!("{}: cannot be made executable", script.display()))
+}
+
+#[cfg(not(unix))]
+fn make_executable(_: &Path) -> anyhow::Result<()> {
+    Ok(())
+}

@@ -1,0 +1,69 @@
+//! `squama slurm`: what it writes, and that the scripts do their part without a cluster. Slurm itself
+//! is put to the test by `scripts/check-slurm`.
+#![cfg(unix)]
+
+use crate::{FEW, Place};
+
+/// Stands for `sbatch`: notes its arguments and prints a number.
+const SBATCH: &str = "#!/bin/sh\necho \"$@\" >> sbatch.txt\nwc -l < sbatch.txt | tr -d ' '\n";
+
+impl Place {
+    /// Runs a script of the folder `r/slurm`, as element `element` of an array.
+    fn script(&self, name: &str, arguments: &str, element: u64) -> assert_cmd::Command {
+        let path =
+            format!("{}:{}", self.path("").display(), std::env::var("PATH").expect("a path"));
+        let mut command = assert_cmd::Command::new(self.path("r/slurm").join(name));
+        command.current_dir(self.path("")).args(arguments.split_whitespace());
+        command.env("PATH", path).env("SLURM_ARRAY_TASK_ID", element.to_string());
+        command
+    }
+}
+
+#[test]
+fn the_scripts_make_the_tables_of_a_run_without_shards() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --set contact.c1=2 --out whole").assert().code(0);
+    place.prints("slurm x.toml --shards 3 --set contact.c1=2 --out r");
+    assert_eq!(place.list("r/slurm"), "array.sh merge.sh submit.sh sweep.sh sweep.toml");
+    place.script("array.sh", "r/slurm", 1).assert().code(0);
+    place.script("array.sh", "r/slurm", 3).assert().code(0);
+    // A shard that was killed before it came to anything.
+    std::fs::create_dir(place.path("r/shards/2-of-3")).expect("writable");
+    std::fs::write(place.path("r/shards/2-of-3/journal.jsonl"), "").expect("writable");
+    let merged =
+        place.script("merge.sh", "r/slurm", 0).assert().code(1).get_output().stdout.clone();
+    let text = String::from_utf8(merged).expect("text");
+    assert!(text.contains("\nmissing designs: 0002 0005 0008\n"), "{text}");
+    place.script("array.sh", "r/slurm", 2).assert().code(0);
+    place.script("merge.sh", "r/slurm", 0).assert().code(0);
+    place.assert_same_tables("whole", "r");
+}
+
+#[test]
+fn the_merger_waits_for_any_end_of_an_array_of_the_right_size() {
+    let place = Place::with(FEW);
+    place.prints("slurm x.toml --shards 3 --out r");
+    std::fs::write(place.path("sbatch"), SBATCH).expect("writable");
+    assert_cmd::Command::new("chmod").arg("+x").arg(place.path("sbatch")).assert().success();
+    let printed =
+        place.script("submit.sh", "--time=60", 0).assert().code(0).get_output().stdout.clone();
+    let text = String::from_utf8(printed).expect("text");
+    assert!(text.starts_with("few: shards 1, merger 2, logs in "), "{text}");
+    let calls = place.read("sbatch.txt");
+    let calls: Vec<_> = calls.lines().collect();
+    assert!(calls[0].contains("--array=1-3 ") && calls[0].contains("--time=60 "), "{}", calls[0]);
+    assert!(calls[1].contains("--dependency=afterany:1 "), "{}", calls[1]);
+}
+
+#[test]
+fn shards_that_slurm_or_the_sweep_does_not_have_are_refused() {
+    let place = Place::with(FEW);
+    let refused = |shards: &str| {
+        let mut command = place.squama(&format!("slurm x.toml --out r --shards {shards}"));
+        String::from_utf8(command.assert().code(2).get_output().stderr.clone()).expect("text")
+    };
+    insta::assert_snapshot!(refused("1001"), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(refused("0"), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(refused("9"), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
+    assert_eq!(place.list("."), "x.toml");
+}

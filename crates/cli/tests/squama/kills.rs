@@ -1,0 +1,94 @@
+//! Fifty runs killed at random moments, some several times: each goes on to the tables of a run that nothing has
+//! happened to, with any number of threads and shards.
+
+use std::time::{Duration, Instant};
+
+use rand::RngExt as _;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng as _;
+
+use crate::Place;
+
+/// Two hundred designs that take little time; the punctures of some stop early.
+const DESIGNS: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.3, 0.5, 1]\n\
+                       length_over_t = [0.1, 0.2, 0.3, 0.6, 1]\n\
+                       slant_deg = { from = 0, to = 72, step = 8 }\n\
+                       [puncture]\nscales = 5\n[solver]\nmax_points = 23\n";
+
+/// How often and when processes were killed.
+#[derive(Debug, Default)]
+struct Kills {
+    /// Before they were done.
+    all: usize,
+    /// With some designs in the journal, and others not.
+    midway: usize,
+    /// Runs with more than one of them.
+    repeated: usize,
+}
+
+struct Campaign {
+    place: Place,
+    random: ChaCha8Rng,
+    /// What a run takes that is left alone.
+    whole: Duration,
+    kills: Kills,
+}
+
+impl Campaign {
+    /// Kills `arguments`, which writes to `folder`, up to `times` times, then lets it end.
+    fn survive(&mut self, arguments: &str, folder: &str, times: usize, longest: Duration) {
+        let before = self.kills.all;
+        for _ in 0..times {
+            let after = longest.mul_f64(self.random.random_range(0.0..1.0));
+            let killed = self.place.kill(arguments, after).code().is_none();
+            self.kills.all += usize::from(killed);
+            // A header, a session; then designs, and more sessions.
+            let lines = self.place.lines(&format!("{folder}/journal.jsonl"));
+            self.kills.midway += usize::from(killed && lines > 2);
+        }
+        self.kills.repeated += usize::from(self.kills.all > before + 1);
+        self.place.squama(arguments).assert().code(1);
+    }
+
+    /// One run in the folder `name`.
+    fn run(&mut self, name: &str, threads: u32, shards: u32) {
+        let run = format!("run x.toml -q --resume --threads {threads}");
+        if shards == 1 {
+            let times = self.random.random_range(1..=3);
+            self.survive(&format!("{run} --out {name}"), name, times, self.whole);
+            return;
+        }
+        // Some time to begin, and a part of the time of the whole.
+        let longest = self.whole / shards + Duration::from_millis(20);
+        let mut folders = String::new();
+        for shard in 1..=shards {
+            let folder = format!("{name}-{shard}");
+            let times = self.random.random_range(0..=2);
+            let run = format!("{run} --shard {shard}/{shards} --out {folder}");
+            self.survive(&run, &folder, times, longest);
+            folders = format!("{folders} {folder}");
+        }
+        let merge = format!("merge -q {folders} --out {name}");
+        self.survive(&merge, name, 1, Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn fifty_runs_killed_at_random_moments_make_the_same_tables() {
+    let place = Place::with(DESIGNS);
+    let begun = Instant::now();
+    place.squama("run x.toml -q --threads 1 --out whole").assert().code(1);
+    let (whole, random) = (begun.elapsed(), ChaCha8Rng::seed_from_u64(50));
+    let mut campaign = Campaign { place, random, whole, kills: Kills::default() };
+    for run in 0..50 {
+        let (threads, shards) = ([1, 2, 8][run % 3], [1, 3, 7][run / 3 % 3]);
+        let name = run.to_string();
+        campaign.run(&name, threads, shards);
+        campaign.place.assert_same_tables("whole", &name);
+        let list = campaign.place.list(&name);
+        assert!(!list.contains(".partial"), "{list}");
+    }
+    let kills = campaign.kills;
+    assert!(kills.all >= 50 && kills.midway >= 25 && kills.repeated >= 10, "{kills:?}");
+    println!("{kills:?} in {:.0?}", begun.elapsed());
+}

@@ -1,0 +1,90 @@
+//! What a column of a table means, looked up by the names of both.
+
+use super::{
+    Column, comparison_columns, difference_columns, number, parameter_of, pareto_columns,
+    quaternary_columns, ranking_columns, value, winner_columns,
+};
+use crate::cell::Cell;
+use crate::failures::FAILURES;
+use crate::reruns::RERUN_COLUMNS;
+
+/// Unit and meaning of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Explanation {
+    /// Unit, `-` if it has none.
+    pub unit: &'static str,
+    /// What it holds, in half a sentence.
+    pub meaning: &'static str,
+}
+
+impl Explanation {
+    /// What the column `name` of the table `table` (without `.csv`) means; `None` if this program
+    /// writes no such column.
+    pub fn of(table: &str, name: &str) -> Option<Self> {
+        Self::own(table, name).or_else(|| Self::common(name))
+    }
+
+    /// A column that this table has, or explains otherwise than others do.
+    fn own(table: &str, name: &str) -> Option<Self> {
+        match table {
+            "failures" => among(FAILURES, name),
+            "reruns" => among(RERUN_COLUMNS, name),
+            "ranking" => among(&ranking_columns(&[]), name),
+            "pareto" => among(&pareto_columns(&[]), name),
+            "winners" => among(&winner_columns(&[]), name),
+            "quaternary" => among(&quaternary_columns(&[]), name),
+            "compare" => among(comparison_columns(), name),
+            "differences" => among(&difference_columns(&[]), name),
+            _ => None,
+        }
+    }
+
+    /// Numbers, parameters and measured values mean the same everywhere.
+    fn common(name: &str) -> Option<Self> {
+        let numbers = [number(|(): &()| Cell::Empty)];
+        let measured = || {
+            let value = value(name)?;
+            Some(Self { unit: value.unit, meaning: value.meaning })
+        };
+        let parameter = || {
+            let parameter = parameter_of(name)?;
+            Some(Self { unit: parameter.unit, meaning: parameter.meaning })
+        };
+        among(&numbers, name).or_else(measured).or_else(parameter)
+    }
+}
+
+fn among<R>(columns: &[Column<R>], name: &str) -> Option<Explanation> {
+    let column = columns.iter().find(|column| column.name == name)?;
+    Some(Explanation { unit: column.unit, meaning: column.meaning })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::tables;
+    use crate::definition::Sweep;
+
+    #[test]
+    fn every_column_of_a_run_is_explained() {
+        let text = "name = 'x'\ndesigns.c2 = [0.23, 1]\ndesigns.scales = [21, 31]";
+        let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+        for table in tables(&sweep) {
+            for column in table.columns {
+                let explained = Explanation::of(table.file.trim_end_matches(".csv"), column.name);
+                let Column { unit, meaning, .. } = column;
+                assert_eq!(explained, Some(Explanation { unit, meaning }), "{}", column.name);
+            }
+        }
+        for name in crate::failures::names(&sweep) {
+            assert!(Explanation::of("failures", name).is_some(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_means_what_its_table_means_by_it() {
+        let contacts = ["designs", "failures"].map(|table| Explanation::of(table, "contacts"));
+        assert_ne!(contacts[0], contacts[1]);
+        assert_eq!(Explanation::of("designs", "somebody's own column"), None);
+    }
+}
