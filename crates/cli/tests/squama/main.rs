@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod design;
+mod imperfections;
 mod output;
 mod rankings;
 mod reruns;
