@@ -104,16 +104,36 @@ pub struct Gap {
 /// Neighbouring scales at a pitch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    scale: Parallelogram,
+    /// The left scale and the right one.
+    sides: [Side; 2],
     pitch: f64,
-    /// Outward normal of the right edge, undeformed.
+    /// The corner of each kind of contact, undeformed, in the order of [`Kind`].
+    corners: [Vec2; 4],
+}
+
+/// One scale of a pair, undeformed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Side {
+    scale: Parallelogram,
+    /// Outward normal of the right edge.
     right_normal: Vec2,
     /// Distance of the right edge from the node, and of the left edge.
     edge: f64,
-    /// From the base to the top along an edge, undeformed, over the square of its length.
+    /// From the base to the top along an edge, over the square of its length.
     rise: Vec2,
-    /// The corner of each kind of contact, undeformed, in the order of [`Kind`].
-    corners: [Vec2; 4],
+}
+
+impl Side {
+    fn new(scale: Parallelogram) -> Self {
+        let (sin, cos) = scale.slant().sin_cos();
+        let rise = Vec2::new(scale.shift(), 1.0);
+        Self {
+            scale,
+            right_normal: Vec2::new(cos, -sin),
+            edge: scale.half_base() * cos,
+            rise: rise / rise.norm_squared(),
+        }
+    }
 }
 
 /// A quarter turn counter-clockwise.
@@ -124,21 +144,18 @@ pub(crate) fn quarter(v: Vec2) -> Vec2 {
 impl Pair {
     /// Neighbours of the shape `scale`, their nodes `pitch` apart (over `t`).
     pub fn new(scale: Parallelogram, pitch: f64) -> Self {
-        let (sin, cos) = scale.slant().sin_cos();
-        let rise = Vec2::new(scale.shift(), 1.0);
-        Self {
-            scale,
-            pitch,
-            right_normal: Vec2::new(cos, -sin),
-            edge: scale.half_base() * cos,
-            rise: rise / rise.norm_squared(),
-            corners: Kind::ALL.map(|kind| scale.corner(kind.corner())),
-        }
+        Self::of([scale; 2], pitch)
     }
 
-    /// The shape of both scales.
-    pub fn scale(&self) -> &Parallelogram {
-        &self.scale
+    /// Neighbours of any two shapes, the left and the right one, their nodes `pitch` apart (over `t`).
+    pub fn of(scales: [Parallelogram; 2], pitch: f64) -> Self {
+        let corner = |kind: Kind| scales[usize::from(!kind.corner_is_left())].corner(kind.corner());
+        Self { sides: scales.map(Side::new), pitch, corners: Kind::ALL.map(corner) }
+    }
+
+    /// The shapes of the left and of the right scale.
+    pub fn scales(&self) -> [Parallelogram; 2] {
+        self.sides.map(|side| side.scale)
     }
 
     /// Distance of the nodes at rest, over `t`.
@@ -146,9 +163,15 @@ impl Pair {
         self.pitch
     }
 
-    /// Outward normal of a right edge at rest.
-    pub fn right_normal(&self) -> Vec2 {
-        self.right_normal
+    /// Outward normals, at rest, of the right edges of the left and of the right scale.
+    pub fn right_normals(&self) -> [Vec2; 2] {
+        self.sides.map(|side| side.right_normal)
+    }
+
+    /// How much farther the left scale leans to the right than the right one, at rest, radians.
+    pub fn convergence(&self) -> f64 {
+        let [left, right] = self.sides;
+        left.scale.slant() - right.scale.slant()
     }
 
     /// The gap of one kind of contact, with all its derivatives.
@@ -212,21 +235,22 @@ impl Pair {
     }
 
     fn frame(&self, kind: Kind, left: &Pose, right: &Pose) -> Frame {
-        let (corner_pose, edge_pose, offset, normal) = if kind.corner_is_left() {
-            (left, right, -self.pitch, -self.right_normal)
+        let [of_left, of_right] = &self.sides;
+        let (corner_pose, edge_pose, offset, side, normal) = if kind.corner_is_left() {
+            (left, right, -self.pitch, of_right, -of_right.right_normal)
         } else {
-            (right, left, self.pitch, self.right_normal)
+            (right, left, self.pitch, of_left, of_left.right_normal)
         };
         let arm = corner_pose.turn(self.corners[kind as usize]);
         // Relative positions, so that the place of the pair in a long row costs no digits.
         let to_corner =
             Vec2::new(offset, 0.0) + (corner_pose.displacement - edge_pose.displacement) + arm;
         let turned = edge_pose.turn(normal);
-        let gap = to_corner.dot(&turned) - self.edge;
+        let gap = to_corner.dot(&turned) - side.edge;
         // From the node to the base of the edge: `a` along the base, to the side that the normal tells.
-        let base = self.scale.half_base().copysign(normal.x);
+        let base = side.scale.half_base().copysign(normal.x);
         let from_base = to_corner - edge_pose.turn(Vec2::new(base, 0.0));
-        let foot = from_base.dot(&edge_pose.turn(self.rise));
+        let foot = from_base.dot(&edge_pose.turn(side.rise));
         Frame { arm, normal: turned, to_corner, gap, foot }
     }
 }

@@ -133,8 +133,9 @@ impl Joint {
     }
 
     /// Whether the edges are so nearly parallel that the force need not turn at a corner.
-    pub fn is_flush([left, right]: [&Pose; 2]) -> bool {
-        (left.rotation - right.rotation).sin().abs() < FLUSH
+    pub fn is_flush(pair: &Pair, [left, right]: [&Pose; 2]) -> bool {
+        // A slant turns an edge clockwise.
+        (left.rotation - right.rotation - pair.convergence()).sin().abs() < FLUSH
     }
 
     /// Residual and tangent of a joint of which the first force acts, and the second if `at_corner`.
@@ -178,11 +179,12 @@ struct Corners<'a> {
 impl<'a> Corners<'a> {
     fn new(pair: &Pair, kind: Kind, level: Level, left: &'a Pose, right: &'a Pose) -> Self {
         let [p, q] = level.corners();
-        let arms = [left.turn(pair.scale().corner(p)), right.turn(pair.scale().corner(q))];
+        let [of_left, of_right] = pair.scales();
+        let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
         let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
             - Vec2::new(pair.pitch(), 0.0);
-        let inward = -pair.right_normal();
-        let (from_right, from_left) = (right.turn(inward), left.turn(inward));
+        let [of_left, of_right] = pair.right_normals();
+        let (from_right, from_left) = (right.turn(-of_right), left.turn(-of_left));
         // P slides off its edge beyond Q, Q beyond P; upward at the upper, downward at the lower level.
         let outward = if level == Level::Upper { 1.0 } else { -1.0 };
         let (normals, turns, sign) = if kind.corner_is_left() {

@@ -12,11 +12,11 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Pose`], [`Pair`] | where a scale stands; two neighbours at a pitch |
+//! | [`Pose`], [`Pair`] | where a scale stands; two neighbours, alike or not, at a pitch |
 //! | [`Kind`], [`Gap`] | which corner meets which edge; how far, with gradient and Hessian |
 //! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
 //! | [`Level`], [`Joint`], [`JointResponse`] | the upper or lower contact of a pair, corners included; what it adds to a system |
-//! | [`overlaps`], [`overlap_polygon`] | scales that overlap, for the audit of final states and for drawings |
+//! | [`overlaps`], [`overlaps_of`], [`overlap_polygon`] | scales that overlap, for the audit of final states and for drawings |
 //!
 //! ```
 //! use contact::{ContactLaw, Kind, Law, Pair, Pose};
@@ -42,4 +42,4 @@ mod overlap;
 pub use gap::{Gap, Kind, Pair, Pose};
 pub use joint::{COUPLED, FORCES, Joint, JointResponse, Level};
 pub use law::{Approach, ContactLaw, InvalidLaw, Law};
-pub use overlap::{Overlap, overlap_polygon, overlaps};
+pub use overlap::{Overlap, overlap_polygon, overlaps, overlaps_of};

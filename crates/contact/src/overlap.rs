@@ -24,35 +24,68 @@ pub struct Overlap {
 
 /// Every pair of scales of a row, neighbours or not, that overlap in the given poses.
 pub fn overlaps(scale: &Parallelogram, pitch: f64, poses: &[Pose]) -> Vec<Overlap> {
-    let across = Vec2::new(scale.slant().cos(), -scale.slant().sin());
-    let extents: Vec<[(f64, f64); 2]> = poses
+    overlaps_of(|i| (*scale, i as f64 * pitch), poses)
+}
+
+/// The same where each scale has a shape, and a place of its node at rest, of its own: those of
+/// scale `i` are `standing(i)`.
+pub fn overlaps_of(
+    standing: impl Fn(usize) -> (Parallelogram, f64),
+    poses: &[Pose],
+) -> Vec<Overlap> {
+    let extents: Vec<Extents> = poses
         .iter()
         .enumerate()
         .map(|(i, pose)| {
-            let corners = corners(scale, pose, i as f64 * pitch);
-            [extent(&corners, Vec2::x()), extent(&corners, across)]
+            let (scale, place) = standing(i);
+            Extents::new(&scale, pose, place)
         })
         .collect();
     // Where scale `k` and all to its right begin: beyond it nothing reaches back.
-    let mut begins: Vec<f64> = extents.iter().map(|[horizontal, _]| horizontal.0).collect();
+    let mut begins: Vec<f64> = extents.iter().map(|extents| extents.horizontal.0).collect();
     for k in (1..begins.len()).rev() {
         begins[k - 1] = begins[k - 1].min(begins[k]);
     }
     let mut found = Vec::new();
     for left in 0..poses.len() {
-        let reach = extents[left][0].1;
+        let reach = extents[left].horizontal.1;
         let candidates = (left + 1..poses.len()).take_while(|&right| begins[right] <= reach);
         for right in candidates {
-            if (0..2).any(|k| apart(extents[left][k], extents[right][k])) {
+            if extents[left].are_apart(&extents[right]) {
                 continue;
             }
-            let offset = (right - left) as f64 * pitch;
-            if let Some(depth) = depth(scale, offset, &poses[left], &poses[right]) {
+            let ((first, here), (second, there)) = (standing(left), standing(right));
+            let poses = [&poses[left], &poses[right]];
+            if let Some(depth) = depth([&first, &second], there - here, poses) {
                 found.push(Overlap { left, right, depth });
             }
         }
     }
     found
+}
+
+/// What a scale takes up, horizontally and across the left and right edges of the scales that stand at
+/// `slant`.
+struct Extents {
+    horizontal: (f64, f64),
+    across: (f64, f64),
+    slant: f64,
+}
+
+impl Extents {
+    fn new(scale: &Parallelogram, pose: &Pose, place: f64) -> Self {
+        let slant = scale.slant();
+        let corners = corners(scale, pose, place);
+        let across = extent(&corners, Vec2::new(slant.cos(), -slant.sin()));
+        Self { horizontal: extent(&corners, Vec2::x()), across, slant }
+    }
+
+    /// Whether one direction or the other tells that they do not touch.
+    fn are_apart(&self, other: &Self) -> bool {
+        // Two extents can be compared along the same direction only.
+        let alike = self.slant == other.slant;
+        apart(self.horizontal, other.horizontal) || (alike && apart(self.across, other.across))
+    }
 }
 
 /// The polygon in which two scales overlap, their nodes `offset` apart; empty where they do not.
@@ -63,12 +96,13 @@ pub fn overlap_polygon(scale: &Parallelogram, offset: f64, left: &Pose, right: &
     polygon.iter().map(|v| Vec2::new(v.x, v.y)).collect()
 }
 
-fn depth(scale: &Parallelogram, offset: f64, left: &Pose, right: &Pose) -> Option<f64> {
-    let polygon = |pose, at| {
+fn depth(scales: [&Parallelogram; 2], offset: f64, poses: [&Pose; 2]) -> Option<f64> {
+    let polygon = |scale, pose, at| {
         let points = corners(scale, pose, at).map(|v| Vector::new(v.x, v.y));
         ConvexPolygon::from_convex_polyline_unmodified(points.to_vec())
     };
-    let (first, second) = (polygon(left, 0.0)?, polygon(right, offset)?);
+    let first = polygon(scales[0], poses[0], 0.0)?;
+    let second = polygon(scales[1], poses[1], offset)?;
     let here = Placement::IDENTITY;
     let contact = query::contact(&here, &first, &here, &second, 0.0).ok()??;
     (contact.dist < 0.0).then_some(-contact.dist)

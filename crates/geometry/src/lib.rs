@@ -7,6 +7,7 @@
 //! |---|---|
 //! | [`Parallelogram`] | one scale: half-width of its base and slant |
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
+//! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
 //!
 //! ```
 //! use geometry::{Parallelogram, Row};
@@ -20,9 +21,11 @@
 mod coverage;
 mod parallelogram;
 mod row;
+mod uneven_row;
 
 pub use parallelogram::{Corner, InvalidGeometry, Parallelogram};
 pub use row::Row;
+pub use uneven_row::{UnevenRow, clearance};
 
 /// A point or a vector of the plane, in units of `t`.
 pub type Vec2 = nalgebra::Vector2<f64>;

@@ -54,6 +54,19 @@ impl Parallelogram {
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `[0°, 90°)`.
     pub fn new(half_base: f64, slant_deg: f64) -> Result<Self, InvalidGeometry> {
+        if half_base > 0.0 && !(0.0..90.0).contains(&slant_deg) {
+            let expected = "an angle of at least 0° and below 90°";
+            return Err(InvalidGeometry { quantity: "slant", value: slant_deg, expected });
+        }
+        Self::leaning(half_base, slant_deg)
+    }
+
+    /// A scale that may lean to the left too: its slant is then negative. Designs lean to the right;
+    /// single scales of an imperfect row need not.
+    ///
+    /// # Errors
+    /// If `half_base` is not positive and finite, or the slant lies outside `(−90°, 90°)`.
+    pub fn leaning(half_base: f64, slant_deg: f64) -> Result<Self, InvalidGeometry> {
         if !(half_base > 0.0 && half_base.is_finite()) {
             return Err(InvalidGeometry {
                 quantity: "half-width of the base",
@@ -61,12 +74,9 @@ impl Parallelogram {
                 expected: "a positive length",
             });
         }
-        if !(0.0..90.0).contains(&slant_deg) {
-            return Err(InvalidGeometry {
-                quantity: "slant",
-                value: slant_deg,
-                expected: "an angle of at least 0° and below 90°",
-            });
+        if slant_deg.is_nan() || slant_deg.abs() >= 90.0 {
+            let expected = "an angle between -90° and 90°";
+            return Err(InvalidGeometry { quantity: "slant", value: slant_deg, expected });
         }
         Ok(Self { half_base, slant: slant_deg.to_radians() })
     }

@@ -7,6 +7,10 @@ mod snapshot;
 mod strip;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod uneven_tests;
+
+use std::collections::HashSet;
 
 use contact::{ContactLaw, Law};
 use frame::{Frame, Step};
@@ -15,7 +19,8 @@ use membrane::{GapMembrane, Section, Span};
 use solver::{Path, Settings, State, Stop};
 use strip::Strip;
 
-use crate::{Design, InvalidDesign};
+use crate::arrangement::Arrangement;
+use crate::{Change, Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
 use record::Record;
@@ -100,15 +105,26 @@ pub struct Flexure {
     pub gaps: usize,
     /// The gaps that were solved for, at every point of the path.
     steps: Vec<Vec<Step>>,
-    pitch: f64,
+    row: Arrangement,
 }
 
 impl Flexure {
+    /// Range of `κ*` over which the gaps close: from the first contact in any of them to the first contact
+    /// in the last of those that close. 0 in a perfect strip, `None` without contact.
+    pub fn closing_range(&self) -> Option<f64> {
+        let mut closed = HashSet::new();
+        let closings = self.events.iter().filter(|event| event.change == Change::Closed);
+        let first = closings.filter(|event| closed.insert(event.gap));
+        let mut curvatures = first.map(|event| event.point.curvature);
+        let start = curvatures.next()?;
+        Some(curvatures.last().unwrap_or(start) - start)
+    }
+
     /// Displacement (over `t`) and rotation (radians, counter-clockwise) of every scale of the
     /// strip at a point of the path, the first scale at rest. `None` if there is no such point.
     pub fn shape(&self, point: usize) -> Option<Vec<[f64; 3]>> {
-        let frames = Frame::strip(self.steps.get(point)?, self.gaps, self.pitch);
-        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, self.pitch);
+        let frames = Frame::strip(self.steps.get(point)?, self.gaps, &self.row);
+        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, &self.row);
         Some(frames.iter().enumerate().map(displacement).collect())
     }
 }
@@ -124,25 +140,27 @@ pub fn gaps(row: &Row, membrane_length: f64) -> usize {
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
 pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, InvalidDesign> {
-    let SetUp { row, strip, gaps, bending_stiffness } = set_up(design, parameters)?;
-    let rest = State::at_rest(&strip);
-    let mut path = Path::new(strip, rest, parameters.solver);
-    let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
-    while let Some(point) = path.next() {
-        record.visit(&mut path, &point);
-    }
-    let interpenetrate = path.system().joints.neighbours_interpenetrate(&path.point().state.z);
-    let status = match path.stop() {
-        Some(Stop::Reached) | None if interpenetrate => Status::Interpenetration,
-        Some(Stop::Reached) | None => Status::Complete,
-        Some(stop) => Status::Stopped(stop),
-    };
-    Ok(record.finish(&mut path, status))
+    Ok(SetUp::even(design, parameters)?.solve(parameters))
+}
+
+/// The same for an imperfect strip: gaps and slants are those of `sample`. Its gaps deform each in
+/// its own way, so the chain of all is solved, whatever [`Parameters::method`] says. There are as many
+/// gaps as in the strip of the design, and the curvature counts over the length that they
+/// have.
+///
+/// # Errors
+/// As [`solve`], or if the scales cannot be made to stand clear of each other.
+pub fn solve_sample(
+    design: &Design,
+    parameters: &Parameters,
+    sample: &Sample,
+) -> Result<Flexure, InvalidDesign> {
+    Ok(SetUp::sample(design, parameters, sample)?.solve(parameters))
 }
 
 /// What is bent.
 struct SetUp {
-    row: Row,
+    row: Arrangement,
     strip: Strip,
     /// Gaps of the whole strip.
     gaps: usize,
@@ -150,25 +168,73 @@ struct SetUp {
     bending_stiffness: f64,
 }
 
-fn set_up(design: &Design, parameters: &Parameters) -> Result<SetUp, InvalidDesign> {
-    let row = design.row()?;
-    let section = Section::new(design.width, parameters.membrane_thickness)?;
-    let span = Span {
-        half_base: design.half_base(),
-        gap: design.gap,
-        axis_offset: parameters.membrane_axis_offset,
-    };
-    let membrane = GapMembrane::new(section, span, parameters.elements_per_gap)?;
-    let modulus = parameters.contact_modulus_over_membrane;
-    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-    let gaps = gaps(&row, parameters.membrane_length);
-    let solved = match parameters.method {
-        Method::UnitCell => 1,
-        Method::Chain => gaps,
-    };
-    let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
-    let rotation = whole * solved as f64 / gaps as f64;
-    let stiffness = [section.axial_stiffness(), section.bending_stiffness()];
-    let strip = Strip::new(&row, membrane, law, solved, rotation, stiffness);
-    Ok(SetUp { row, strip, gaps, bending_stiffness: section.bending_stiffness() })
+impl SetUp {
+    /// The strip of a design.
+    fn even(design: &Design, parameters: &Parameters) -> Result<Self, InvalidDesign> {
+        let row = design.row()?;
+        let gaps = gaps(&row, parameters.membrane_length);
+        let solved = match parameters.method {
+            Method::UnitCell => 1,
+            Method::Chain => gaps,
+        };
+        Self::new(design, parameters, Arrangement::Even(row), gaps, solved)
+    }
+
+    /// A sample of the strip, with all its gaps.
+    fn sample(
+        design: &Design,
+        parameters: &Parameters,
+        sample: &Sample,
+    ) -> Result<Self, InvalidDesign> {
+        let gaps = gaps(&design.row()?, parameters.membrane_length);
+        let row = Arrangement::Uneven(sample.row(0, gaps)?);
+        Self::new(design, parameters, row, gaps, gaps)
+    }
+
+    fn new(
+        design: &Design,
+        parameters: &Parameters,
+        row: Arrangement,
+        gaps: usize,
+        solved: usize,
+    ) -> Result<Self, InvalidDesign> {
+        let section = Section::new(design.width, parameters.membrane_thickness)?;
+        let membrane = |gap: usize| {
+            let span = Span {
+                half_base: design.half_base(),
+                gap: row.gap(gap),
+                axis_offset: parameters.membrane_axis_offset,
+            };
+            GapMembrane::new(section, span, parameters.elements_per_gap)
+        };
+        let unlike = match &row {
+            Arrangement::Even(_) => 1,
+            Arrangement::Uneven(_) => solved,
+        };
+        let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
+        let modulus = parameters.contact_modulus_over_membrane;
+        let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+        let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
+        let rotation = whole * solved as f64 / gaps as f64;
+        let stiffness = [section.axial_stiffness(), section.bending_stiffness()];
+        let strip = Strip::new(row.clone(), membranes, law, solved, rotation, stiffness);
+        Ok(Self { row, strip, gaps, bending_stiffness: section.bending_stiffness() })
+    }
+
+    fn solve(self, parameters: &Parameters) -> Flexure {
+        let Self { row, strip, gaps, bending_stiffness } = self;
+        let rest = State::at_rest(&strip);
+        let mut path = Path::new(strip, rest, parameters.solver);
+        let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
+        while let Some(point) = path.next() {
+            record.visit(&mut path, &point);
+        }
+        let interpenetrate = path.system().joints.neighbours_interpenetrate(&path.point().state.z);
+        let status = match path.stop() {
+            Some(Stop::Reached) | None if interpenetrate => Status::Interpenetration,
+            Some(Stop::Reached) | None => Status::Complete,
+            Some(stop) => Status::Stopped(stop),
+        };
+        record.finish(&mut path, status)
+    }
 }

@@ -4,6 +4,7 @@ use contact::InvalidLaw;
 use geometry::InvalidGeometry;
 use membrane::InvalidMembrane;
 
+use crate::imperfection::InvalidImperfection;
 use crate::puncture::InvalidPuncture;
 
 /// A parameter without mechanical meaning.
@@ -18,6 +19,9 @@ pub enum InvalidDesign {
     /// In the membrane.
     #[error(transparent)]
     Membrane(#[from] InvalidMembrane),
+    /// In the imperfection.
+    #[error(transparent)]
+    Imperfection(#[from] InvalidImperfection),
     /// In what the puncture depends on besides.
     #[error(transparent)]
     Puncture(#[from] InvalidPuncture),

@@ -5,8 +5,10 @@ mod contacts;
 pub use contacts::Contact;
 
 use contact::{COUPLED, ContactLaw, FORCES, Joint, JointResponse, Level, Overlap, Pair, Pose};
-use geometry::{Row, Vec2};
+use geometry::Vec2;
 use solver::{BandMatrix, Residual, State};
+
+use crate::arrangement::Arrangement;
 
 /// Contacts of a pair of neighbours: an upper and a lower one.
 pub(crate) const JOINTS: usize = 2;
@@ -66,7 +68,9 @@ impl Change {
 /// constraints of the system: number `2 j` is the force of joint `j`, `2 j + 1` its partner's.
 #[derive(Clone, Debug)]
 pub(crate) struct Joints {
-    pair: Pair,
+    arrangement: Arrangement,
+    /// Of the arrangement: each pair, or one for all.
+    pair_shapes: Vec<Pair>,
     law: ContactLaw,
     all: Vec<Joint>,
     /// First of the three unknowns of each scale; `None` for a scale that is held.
@@ -79,7 +83,7 @@ pub(crate) struct Joints {
 
 impl Joints {
     pub(crate) fn new(
-        row: &Row,
+        arrangement: Arrangement,
         law: ContactLaw,
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
@@ -87,7 +91,8 @@ impl Joints {
         let pairs = scales.len().saturating_sub(1);
         debug_assert_eq!(forces.len(), PAIR_FORCES * pairs);
         Self {
-            pair: Pair::new(*row.scale(), row.pitch()),
+            pair_shapes: arrangement.pairs(),
+            arrangement,
             law,
             all: [Joint::new(Level::Upper), Joint::new(Level::Lower)].repeat(pairs),
             scales,
@@ -99,17 +104,25 @@ impl Joints {
     /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
     /// Rotations are measured from the first scale.
     pub(crate) fn relative(
-        row: &Row,
+        arrangement: Arrangement,
         law: ContactLaw,
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
     ) -> Self {
-        Self { relative: true, ..Self::new(row, law, scales, forces) }
+        Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces
+    }
+
+    /// The pair whose left scale is `left`.
+    fn pair(&self, left: usize) -> &Pair {
+        match self.pair_shapes.as_slice() {
+            [pair] => pair,
+            pairs => &pairs[left],
+        }
     }
 
     /// One of the joints.
@@ -150,7 +163,8 @@ impl Joints {
     /// Force of a joint on the left scale of its pair.
     pub(crate) fn force(&self, z: &[f64], joint: usize) -> Vec2 {
         let [left, right] = self.pair_poses(z, joint);
-        self.all[joint].force(&self.pair, [&left, &right], self.pair_forces(z, joint))
+        let pair = self.pair(joint / JOINTS);
+        self.all[joint].force(pair, [&left, &right], self.pair_forces(z, joint))
     }
 
     /// Elastic energy of all contacts.
@@ -160,7 +174,8 @@ impl Joints {
 
     /// Whether any two scales overlap by more than the approach of their contacts.
     pub(crate) fn interpenetrate(&self, z: &[f64]) -> bool {
-        self.overlaps(&self.poses(z)).iter().any(|overlap| {
+        let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
+        contact::overlaps_of(standing, &self.poses(z)).iter().any(|overlap| {
             let neighbours = overlap.right == overlap.left + 1;
             let allowed = if neighbours { self.approach(z, overlap.left) } else { 0.0 };
             overlap.depth > allowed + AUDIT_TOLERANCE
@@ -171,12 +186,15 @@ impl Joints {
     pub(crate) fn neighbours_interpenetrate(&self, z: &[f64]) -> bool {
         self.pairs(z).any(|(left, poses)| {
             let allowed = self.approach(z, left) + AUDIT_TOLERANCE;
-            self.overlaps(&poses).iter().any(|overlap| overlap.depth > allowed)
+            self.overlaps(left, &poses).iter().any(|overlap| overlap.depth > allowed)
         })
     }
 
-    fn overlaps(&self, poses: &[Pose]) -> Vec<Overlap> {
-        contact::overlaps(self.pair.scale(), self.pair.pitch(), poses)
+    /// Overlap of the pair whose left scale is `left`.
+    fn overlaps(&self, left: usize, poses: &[Pose; 2]) -> Vec<Overlap> {
+        let pair = self.pair(left);
+        let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
+        contact::overlaps_of(standing, poses)
     }
 
     /// The larger approach of the two contacts of a pair.
@@ -191,7 +209,7 @@ impl Joints {
                 let rows = if active[FORCES * joint] {
                     self.response(joint, &poses, z, active).residual
                 } else {
-                    let [gap, short] = self.all[joint].open(&self.pair, poses.each_ref());
+                    let [gap, short] = self.all[joint].open(self.pair(left), poses.each_ref());
                     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, gap, short]
                 };
                 for Entry { unknown, coordinate, sign } in self.entries(joint).into_iter().flatten()
@@ -225,13 +243,14 @@ impl Joints {
         let joint = force / FORCES;
         let [left, right] = self.pair_poses(&state.z, joint);
         let poses = [&left, &right];
+        let pair = self.pair(joint / JOINTS);
         let facing = if Self::is_closed(state, joint) {
             self.all[joint]
         } else {
-            self.all[joint].facing(&self.pair, poses)
+            self.all[joint].facing(pair, poses)
         };
         let forces = self.pair_forces(&state.z, joint);
-        let response = facing.response(&self.pair, &self.law, poses, forces, false);
+        let response = facing.response(pair, &self.law, poses, forces, false);
         let row = response.tangent[6 + force % FORCES];
         let entries = self.entries(joint).into_iter().flatten();
         entries.map(|entry| entry.sign * row[entry.coordinate] * direction[entry.unknown]).sum()
@@ -244,9 +263,9 @@ impl Joints {
         let joint = force / FORCES;
         let (own, partner) = (FORCES * joint, FORCES * joint + 1);
         let [left, right] = self.pair_poses(&state.z, joint);
-        let poses = [&left, &right];
+        let (pair, poses) = (*self.pair(joint / JOINTS), [&left, &right]);
         let passed_on = force == own && state.active[partner];
-        let flush = force == partner && state.active[partner] && Joint::is_flush(poses);
+        let flush = force == partner && state.active[partner] && Joint::is_flush(&pair, poses);
         if passed_on || flush {
             self.all[joint].hand_over();
             if passed_on {
@@ -257,7 +276,7 @@ impl Joints {
             return partner;
         }
         if force == own && state.active[own] {
-            self.all[joint] = self.all[joint].facing(&self.pair, poses);
+            self.all[joint] = self.all[joint].facing(&pair, poses);
         }
         force
     }
@@ -271,7 +290,8 @@ impl Joints {
     ) -> JointResponse {
         let at_corner = active[FORCES * joint + 1];
         let forces = self.pair_forces(z, joint);
-        self.all[joint].response(&self.pair, &self.law, [left, right], forces, at_corner)
+        let pair = self.pair(joint / JOINTS);
+        self.all[joint].response(pair, &self.law, [left, right], forces, at_corner)
     }
 
     /// The two forces of a joint.

@@ -19,6 +19,8 @@
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::Parameters`] | contact law, moduli, strip, largest rotation |
 //! | [`flexure::Flexure`], [`flexure::Measures`] | its path, events and what they come down to |
+//! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
+//! | [`puncture::solve_sample`], [`flexure::solve_sample`] | the same for such a row |
 //! | [`Change`], [`Contact`] | what a contact does, and how it stands |
 //! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
@@ -39,13 +41,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrangement;
 mod crossing;
 mod design;
 pub mod flexure;
+mod imperfection;
 mod invalid;
 mod joints;
 pub mod puncture;
 
 pub use design::{Base, Design};
+pub use imperfection::{Imperfection, InvalidImperfection, Sample};
 pub use invalid::InvalidDesign;
 pub use joints::{Change, Contact};

@@ -13,8 +13,9 @@ use solver::{Path, Settings, State, Stop};
 use substrate::Springs;
 use system::{Chain, Layout};
 
+use crate::arrangement::Arrangement;
 use crate::joints::Joints;
-use crate::{Design, InvalidDesign};
+use crate::{Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
 use record::Record;
@@ -111,19 +112,37 @@ pub fn solve(
     springs: &Springs,
     parameters: &Parameters,
 ) -> Result<Puncture, InvalidDesign> {
-    parameters.check()?;
-    let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
-    let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
-    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-    let problem = Problem { row: design.row()?, design, springs, law, parameters };
-    Ok(match parameters.scales {
-        RowLength::Scales(scales) => {
-            let left = (scales - 1) / 2;
-            let layout = Layout { left, right: scales - 1 - left };
-            problem.follow(layout, |_| false).0
-        }
-        RowLength::Auto => problem.grow(LONGEST_ROW),
-    })
+    Problem::new(Rows::Even(design.row()?), design, springs, parameters)?.solve()
+}
+
+/// The same for an imperfect row: gaps and slants are those of `sample`. The springs stay those of the
+/// design.
+///
+/// # Errors
+/// As [`solve`], or if the scales cannot be made to stand clear of each other.
+pub fn solve_sample(
+    design: &Design,
+    springs: &Springs,
+    parameters: &Parameters,
+    sample: &Sample,
+) -> Result<Puncture, InvalidDesign> {
+    Problem::new(Rows::Sample(sample), design, springs, parameters)?.solve()
+}
+
+/// Where rows of any length come from.
+#[derive(Clone, Copy)]
+enum Rows<'a> {
+    Even(Row),
+    Sample(&'a Sample),
+}
+
+impl Rows<'_> {
+    fn row(self, layout: Layout) -> Result<Arrangement, InvalidDesign> {
+        Ok(match self {
+            Self::Even(row) => Arrangement::Even(row),
+            Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
+        })
+    }
 }
 
 /// A number that no puncture can have.
@@ -175,28 +194,52 @@ impl Reached {
 }
 
 struct Problem<'a> {
-    row: Row,
+    rows: Rows<'a>,
     design: &'a Design,
     springs: &'a Springs,
     law: ContactLaw,
     parameters: &'a Parameters,
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    fn new(
+        rows: Rows<'a>,
+        design: &'a Design,
+        springs: &'a Springs,
+        parameters: &'a Parameters,
+    ) -> Result<Self, InvalidDesign> {
+        parameters.check()?;
+        let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
+        let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
+        let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+        Ok(Self { rows, design, springs, law, parameters })
+    }
+
+    fn solve(&self) -> Result<Puncture, InvalidDesign> {
+        match self.parameters.scales {
+            RowLength::Scales(scales) => {
+                let left = (scales - 1) / 2;
+                let layout = Layout { left, right: scales - 1 - left };
+                Ok(self.follow(layout, |_| false)?.0)
+            }
+            RowLength::Auto => self.grow(LONGEST_ROW),
+        }
+    }
+
     /// Lengthens the row on the sides that the deformation reaches until it reaches neither, or the
     /// row is as long as the `longest`.
-    fn grow(&self, longest: usize) -> Puncture {
+    fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
         let mut layout = self.first_layout();
         loop {
-            let (mut puncture, reached) = self.follow(layout, Reached::any);
+            let (mut puncture, reached) = self.follow(layout, Reached::any)?;
             if !reached.any() {
-                return puncture;
+                return Ok(puncture);
             }
             let longer = layout.doubled(reached.left, reached.right, longest);
             if longer == layout {
                 puncture.status = Status::RowLimit;
                 puncture.measures = puncture.measures.without_final_values();
-                return puncture;
+                return Ok(puncture);
             }
             layout = longer;
         }
@@ -216,10 +259,15 @@ impl Problem<'_> {
     }
 
     /// Follows the path on a given row until it ends, or until `give_up` says so of the ends reached.
-    fn follow(&self, layout: Layout, give_up: impl Fn(Reached) -> bool) -> (Puncture, Reached) {
+    fn follow(
+        &self,
+        layout: Layout,
+        give_up: impl Fn(Reached) -> bool,
+    ) -> Result<(Puncture, Reached), InvalidDesign> {
         let tilt = self.parameters.critical_tilt_deg.to_radians();
         let position = self.parameters.load_position;
-        let chain = Chain::new(&self.row, self.springs, self.law, layout, position, tilt);
+        let row = self.rows.row(layout)?;
+        let chain = Chain::new(row, self.springs, self.law, layout, position, tilt);
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
         let mut record = Record::new(&mut path, self.design.length);
@@ -239,7 +287,7 @@ impl Problem<'_> {
             Stop::Reached => Status::Complete,
             stop => Status::Stopped(stop),
         };
-        (record.finish(&mut path, status, self.parameters.poisson_ratio), reached)
+        Ok((record.finish(&mut path, status, self.parameters.poisson_ratio), reached))
     }
 }
 

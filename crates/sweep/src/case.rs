@@ -2,7 +2,7 @@
 
 use skin::flexure;
 use skin::puncture;
-use skin::{Base, Design};
+use skin::{Base, Design, Imperfection};
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +13,19 @@ pub struct Case {
     pub puncture: puncture::Parameters,
     /// What bending depends on besides. Its contact law and its steps are those of the puncture.
     pub flexure: flexure::Parameters,
+    /// How far gaps and slants scatter.
+    pub imperfection: Imperfection,
+    /// The imperfect rows that are solved if they scatter at all.
+    pub samples: Samples,
+}
+
+/// Which imperfect rows are solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Samples {
+    /// How many.
+    pub count: usize,
+    /// Seed of their random numbers.
+    pub seed: usize,
 }
 
 impl Case {
@@ -30,6 +43,8 @@ impl Default for Case {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             puncture: puncture::Parameters::default(),
             flexure: flexure::Parameters::default(),
+            imperfection: Imperfection::default(),
+            samples: Samples { count: 100, seed: 1 },
         }
     }
 }

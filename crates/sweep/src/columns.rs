@@ -4,6 +4,7 @@ mod comparison;
 mod course;
 mod explanation;
 mod ranking;
+mod spreads;
 mod values;
 
 use crate::cell::Cell;
@@ -13,6 +14,7 @@ use crate::measure::Measure;
 use crate::parameter::Parameter;
 use crate::parameters::PARAMETERS;
 use crate::record::Record;
+use spreads::SPREADS;
 use values::VALUES;
 
 pub use comparison::{comparison_columns, difference_columns};
@@ -115,6 +117,12 @@ impl Value {
     }
 }
 
+/// The measured values of the designs of `sweep`.
+fn values(sweep: &Sweep) -> impl Iterator<Item = &'static Value> {
+    let spreads = if sweep.is_imperfect() { SPREADS } else { &[] };
+    VALUES.iter().chain(spreads)
+}
+
 /// The measured value of that name.
 fn value(name: &str) -> Option<&'static Value> {
     VALUES.iter().find(|value| value.name == name)
@@ -170,16 +178,17 @@ pub fn tables(sweep: &Sweep) -> Vec<Table<Record>> {
     tables
 }
 
-/// The columns of `designs.csv`: the same whatever is measured, but for the axes.
+/// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
+/// imperfections have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<Record>> {
-    let (leading, others): (Vec<_>, Vec<_>) = VALUES.iter().partition(|value| value.leads());
+    let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
     assemble(sweep, leading, others)
 }
 
 fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<Record>> {
     let belongs = |value: &&Value| value.tables.contains(&table);
     let (leading, others): (Vec<_>, Vec<_>) =
-        VALUES.iter().filter(belongs).partition(|value| value.name == table);
+        values(sweep).filter(belongs).partition(|value| value.name == table);
     assemble(sweep, leading, others)
 }
 

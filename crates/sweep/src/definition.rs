@@ -70,6 +70,16 @@ impl Sweep {
         Self { grid: self.grid.only(index), ..self.clone() }
     }
 
+    /// Whether any of its designs is solved with imperfections too.
+    pub fn is_imperfect(&self) -> bool {
+        let largest = |key: &str| {
+            let base = || Parameter::named(key).and_then(|p| p.get(self.grid.base()).number());
+            let axis = self.grid.axis(key).map(|axis| axis.span().1);
+            axis.or_else(base).unwrap_or(0.0)
+        };
+        largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
+    }
+
     /// The parameters that all designs share, with their values.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let shared = |parameter: &&Parameter| self.grid.axis(parameter.key).is_none();

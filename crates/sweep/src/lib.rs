@@ -21,6 +21,7 @@
 //! | [`Case`] | one design with everything that it is solved with |
 //! | [`Workbench`] | solves a case |
 //! | [`Record`], [`Outcome`] | what is known of a solved design; how it ended |
+//! | [`Spreads`], [`Spread`] | what imperfect samples of it gave |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`run()`] | solves the designs and writes the tables |
 //! | [`Journal`], [`Entry`] | every finished design, a line each; the tables are written from it |
@@ -93,6 +94,7 @@ mod scalar;
 mod selection;
 mod session;
 mod setting;
+mod spread;
 mod status;
 mod summary;
 mod table;
@@ -102,7 +104,7 @@ mod whole_file;
 mod workbench;
 pub mod written;
 
-pub use case::Case;
+pub use case::{Case, Samples};
 pub use cell::Cell;
 pub use choice::{Choice, Condition, NoCondition, WrongChoice};
 pub use columns::Column;
@@ -135,6 +137,7 @@ pub use run::{Finished, News, Options, Program, RunError, run};
 pub use scalar::Scalar;
 pub use selection::{NoShard, Part, Sample, SampleTooLarge, Selection, Shard};
 pub use setting::{InvalidSetting, Setting};
+pub use spread::{Spread, Spreads};
 pub use status::Status;
 pub use summary::{Best, Summary};
 pub use table::write_table;

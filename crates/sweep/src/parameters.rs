@@ -202,6 +202,48 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: "gap_cv",
+        section: "imperfection",
+        unit: "-",
+        meaning: "coefficient of variation of the gaps of imperfect rows",
+        kind: Kind::Number {
+            noun: "a number",
+            range: Range { low: Included(0.0), high: Included(1.0) },
+            field: |c| &mut c.imperfection.gap_cv,
+        },
+    },
+    Parameter {
+        key: "slant_sd_deg",
+        section: "imperfection",
+        unit: "deg",
+        meaning: "standard deviation of the slants of imperfect rows",
+        kind: Kind::Number {
+            noun: "an angle",
+            range: Range { low: Included(0.0), high: Included(30.0) },
+            field: |c| &mut c.imperfection.slant_sd_deg,
+        },
+    },
+    Parameter {
+        key: "samples",
+        section: "imperfection",
+        unit: "-",
+        meaning: "imperfect rows that are solved, if gaps or slants scatter",
+        kind: Kind::Count {
+            range: CountRange { low: 1, high: 1_000_000 },
+            field: |c| &mut c.samples.count,
+        },
+    },
+    Parameter {
+        key: "seed",
+        section: "imperfection",
+        unit: "-",
+        meaning: "seed of the random gaps and slants",
+        kind: Kind::Count {
+            range: CountRange { low: 0, high: 1_000_000_000 },
+            field: |c| &mut c.samples.seed,
+        },
+    },
+    Parameter {
         key: "first_step",
         section: "solver",
         unit: "-",

@@ -6,6 +6,7 @@ use skin::puncture::{Measures, Puncture};
 use crate::case::Case;
 use crate::grid::DesignNumber;
 use crate::outcome::Outcome;
+use crate::spread::Spreads;
 
 /// A solved design. Small, whatever the length of its path.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,8 @@ pub struct Record {
     pub puncture: Option<PunctureRecord>,
     /// The bending, if it was asked for.
     pub flexure: Option<FlexureRecord>,
+    /// What imperfect samples gave, if it was asked for.
+    pub spreads: Spreads,
     /// Settings that are not the sweep's own.
     pub settings: String,
 }

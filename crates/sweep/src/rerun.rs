@@ -43,6 +43,16 @@ pub enum WrongRerun {
         "{0}: designs keep their places in the grid, expected a key that is no axis, e.g. solver.max_step=0.01"
     )]
     Axis(String),
+    /// Settings that would give the tables other columns.
+    #[error(
+        "imperfections are {before} in the run and {after} in the settings, expected the same: a run keeps its columns"
+    )]
+    Imperfection {
+        /// Whether the run has them: on or off.
+        before: &'static str,
+        /// Whether the settings have them.
+        after: &'static str,
+    },
 }
 
 impl Rerun {
@@ -120,6 +130,11 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Wrong
         if !setting.parameter().is_some_and(is_shared) {
             return Err(WrongRerun::Axis(setting.place().to_string()));
         }
+    }
+    let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
+    let (before, after) = (on_or_off(sweep), on_or_off(&changed));
+    if before != after {
+        return Err(WrongRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));

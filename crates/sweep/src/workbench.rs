@@ -11,6 +11,7 @@ use crate::grid::DesignNumber;
 use crate::measure::Measure;
 use crate::outcome::Outcome;
 use crate::record::{FlexureRecord, PunctureRecord, Record};
+use crate::spread::Spreads;
 
 /// Most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
 const LONGEST_CHAIN: usize = 100_000;
@@ -58,8 +59,8 @@ impl Workbench {
         let (puncture, puncture_path) = taken_apart(punctured, PunctureRecord::without_path);
         let bent = self.measures(Measure::Flexure).then(|| flexure(case));
         let (flexure, flexure_path) = taken_apart(bent, FlexureRecord::without_path);
-        let settings = String::new();
-        let record = Record { number, case: *case, coverage, puncture, flexure, settings };
+        let (spreads, settings) = (self.spreads(case), String::new());
+        let record = Record { number, case: *case, coverage, puncture, flexure, spreads, settings };
         Solved { record, puncture: puncture_path, flexure: flexure_path }
     }
 
@@ -69,6 +70,29 @@ impl Workbench {
         // Validation lets no case without mechanical meaning come here.
         let puncture = puncture.map_err(|_| Outcome::Internal)?;
         Ok((PunctureRecord::new(&puncture, springs.error), puncture))
+    }
+
+    /// What imperfect samples of `case` give.
+    fn spreads(&self, case: &Case) -> Spreads {
+        let mut spreads = Spreads::default();
+        if case.imperfection.is_none() {
+            return spreads;
+        }
+        if self.measures(Measure::Puncture) {
+            let punctured = guarded(|| self.springs(case))
+                .flatten()
+                .and_then(|springs| guarded(|| spreads.puncture(case, &springs)));
+            if punctured.is_err() {
+                spreads.fail(case, Measure::Puncture);
+            }
+        }
+        if self.measures(Measure::Flexure) {
+            let bent = chain_fits(case).and_then(|()| guarded(|| spreads.flexure(case)));
+            if bent.is_err() {
+                spreads.fail(case, Measure::Flexure);
+            }
+        }
+        spreads
     }
 
     fn springs(&self, case: &Case) -> Result<Springs, Outcome> {
@@ -88,15 +112,19 @@ fn coverage(case: &Case) -> Option<f64> {
 }
 
 fn flexure(case: &Case) -> Result<(FlexureRecord, Flexure), Outcome> {
-    let row = case.design.row().map_err(|_| Outcome::Internal)?;
-    let gaps = flexure::gaps(&row, case.flexure.membrane_length);
-    if case.flexure.method == Method::Chain && gaps > LONGEST_CHAIN {
-        return Err(Outcome::RowLimit);
+    if case.flexure.method == Method::Chain {
+        chain_fits(case)?;
     }
     let flexure = guarded(|| flexure::solve(&case.design, &case.flexure))?;
     // Validation lets no case without mechanical meaning come here.
     let flexure = flexure.map_err(|_| Outcome::Internal)?;
     Ok((FlexureRecord::new(&flexure), flexure))
+}
+
+fn chain_fits(case: &Case) -> Result<(), Outcome> {
+    let row = case.design.row().map_err(|_| Outcome::Internal)?;
+    let gaps = flexure::gaps(&row, case.flexure.membrane_length);
+    if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
 }
 
 /// The record of what was solved, and what was solved, if it was asked for and if it ran.

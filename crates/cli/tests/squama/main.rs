@@ -4,6 +4,7 @@ mod bad_input;
 mod clusters;
 mod design;
 mod kills;
+mod imperfections;
 mod output;
 mod rankings;
 mod reruns;

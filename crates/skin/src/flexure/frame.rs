@@ -2,6 +2,8 @@
 
 use geometry::Vec2;
 
+use crate::arrangement::Arrangement;
+
 /// Displacement and rotation of a scale, seen from its left neighbour.
 pub(crate) type Step = [f64; 3];
 
@@ -14,10 +16,11 @@ pub(crate) struct Frame {
 
 impl Frame {
     /// The frames of a strip of `gaps` gaps that repeat the `steps`, the first scale at rest.
-    pub(crate) fn strip(steps: &[Step], gaps: usize, pitch: f64) -> Vec<Self> {
+    pub(crate) fn strip(steps: &[Step], gaps: usize, row: &Arrangement) -> Vec<Self> {
         let first = Self { origin: Vec2::zeros(), rotation: 0.0 };
-        let others = steps.iter().cycle().take(gaps).scan(first, |frame, &[x, y, rotation]| {
-            let origin = frame.place(Vec2::new(pitch + x, y));
+        let steps = steps.iter().cycle().take(gaps).enumerate();
+        let others = steps.scan(first, |frame, (gap, &[x, y, rotation])| {
+            let origin = frame.place(Vec2::new(row.pitch(gap) + x, y));
             *frame = Self { origin, rotation: frame.rotation + rotation };
             Some(*frame)
         });
@@ -25,8 +28,8 @@ impl Frame {
     }
 
     /// Displacement from rest, and rotation, of the scale with the number `i`.
-    pub(crate) fn displacement(&self, i: usize, pitch: f64) -> Step {
-        [self.origin.x - i as f64 * pitch, self.origin.y, self.rotation]
+    pub(crate) fn displacement(&self, i: usize, row: &Arrangement) -> Step {
+        [self.origin.x - row.place(i), self.origin.y, self.rotation]
     }
 
     /// A vector of the frame.

@@ -1,13 +1,13 @@
 //! What is written down while a strip is bent.
 
 use contact::{FORCES, Kind};
-use geometry::Row;
 use solver::{Path, Peak, Point, State};
 
 use super::frame::Step;
 use super::strip::Strip;
 use super::{Flexure, Measures, Status};
 use crate::Change;
+use crate::arrangement::Arrangement;
 use crate::joints::{JOINTS, Joints};
 
 /// One equilibrium of the path.
@@ -59,6 +59,8 @@ pub struct Iteration {
 
 /// Collects path, events and measures while a strip is bent.
 pub(crate) struct Record {
+    row: Arrangement,
+    /// Mean pitch `p`.
     pitch: f64,
     gaps: usize,
     /// `E_m I_m`, over `E_m t⁴`.
@@ -73,12 +75,13 @@ pub(crate) struct Record {
 impl Record {
     pub(crate) fn new(
         path: &mut Path<Strip>,
-        row: Row,
+        row: Arrangement,
         gaps: usize,
         bending_stiffness: f64,
     ) -> Self {
         let mut record = Self {
-            pitch: row.pitch(),
+            pitch: row.mean_pitch(),
+            row,
             gaps,
             bending_stiffness,
             path: Vec::new(),
@@ -151,8 +154,8 @@ impl Record {
         if status != Status::Complete {
             measures = measures.without_final_values();
         }
-        let Self { pitch, gaps, path, events, history, steps, .. } = self;
-        Flexure { status, measures, path, events, history, gaps, steps, pitch }
+        let Self { row, gaps, path, events, history, steps, .. } = self;
+        Flexure { status, measures, path, events, history, gaps, steps, row }
     }
 
     fn measures(&self, path: &mut Path<Strip>) -> Measures {

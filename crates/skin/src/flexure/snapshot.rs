@@ -4,7 +4,8 @@ use solver::{Path, State};
 
 use super::frame::Frame;
 use super::strip::Strip;
-use super::{Parameters, SetUp, set_up};
+use super::{Parameters, SetUp};
+use crate::arrangement::Arrangement;
 use crate::crossing::{Crossing, follow};
 use crate::joints::Contact;
 use crate::{Design, InvalidDesign};
@@ -41,8 +42,8 @@ pub fn snapshots(
     parameters: &Parameters,
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let SetUp { row, strip, gaps, bending_stiffness } = set_up(design, parameters)?;
-    let look = Look { pitch: row.pitch(), repeats: gaps / strip.gaps(), bending_stiffness };
+    let SetUp { row, strip, gaps, bending_stiffness } = SetUp::even(design, parameters)?;
+    let look = Look { row, repeats: gaps / strip.gaps(), bending_stiffness };
     let crossing = |&degrees: &f64| Crossing {
         quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
         value: 2.0 * degrees.to_radians() / look.repeats as f64,
@@ -59,7 +60,7 @@ pub fn snapshots(
 
 /// What turns a state of the solved gaps into a snapshot of the whole strip.
 struct Look {
-    pitch: f64,
+    row: Arrangement,
     /// Gaps of the strip for each gap that is solved for.
     repeats: usize,
     bending_stiffness: f64,
@@ -69,8 +70,8 @@ impl Look {
     fn at(&self, strip: &Strip, state: &State) -> Snapshot {
         let (solved, gaps) = (strip.gaps(), strip.gaps() * self.repeats);
         let rotation = strip.rotation(&state.z);
-        let frames = Frame::strip(&strip.steps(&state.z), gaps, self.pitch);
-        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, self.pitch);
+        let frames = Frame::strip(&strip.steps(&state.z), gaps, &self.row);
+        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, &self.row);
         let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
         let axis = |(i, frame): (usize, &Frame)| {
             axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
@@ -82,7 +83,7 @@ impl Look {
         });
         let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
         Snapshot {
-            curvature: rotation / (solved as f64 * self.pitch),
+            curvature: rotation / (solved as f64 * self.row.mean_pitch()),
             moment: strip.moment(&state.z) / self.bending_stiffness,
             end_rotation_deg: 0.5 * (rotation * self.repeats as f64).to_degrees(),
             scales: frames.iter().enumerate().map(displacement).collect(),

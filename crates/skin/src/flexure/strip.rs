@@ -1,12 +1,13 @@
 //! A strip of membrane with scales, bent by a moment, as a mixed complementarity system.
 
 use contact::ContactLaw;
-use geometry::{Row, Vec2};
+use geometry::Vec2;
 use membrane::{Ends, GapMembrane, Response};
 use nalgebra::DVector;
 use solver::{BandMatrix, Control, Residual, State, System};
 
 use super::frame::Step;
+use crate::arrangement::Arrangement;
 use crate::joints::{Entry, Joints, PAIR_FORCES};
 
 /// Where the unknowns of a strip of `n` gaps of `m` elements stand. The first scale is held.
@@ -66,7 +67,8 @@ impl Layout {
 #[derive(Clone, Debug)]
 pub(crate) struct Strip {
     layout: Layout,
-    membrane: GapMembrane,
+    /// The membrane of each gap, or one for all where they are alike.
+    membranes: Vec<GapMembrane>,
     pub(crate) joints: Joints,
     controls: [Control; 3],
     units: Vec<f64>,
@@ -74,33 +76,35 @@ pub(crate) struct Strip {
 
 impl Strip {
     /// A strip of `gaps` gaps, to be bent until its ends have turned by `rotation` (radians) against each other.
+    /// `membranes` are those of the gaps, all of equally many elements, or one for all.
     pub(crate) fn new(
-        row: &Row,
-        membrane: GapMembrane,
+        row: Arrangement,
+        membranes: Vec<GapMembrane>,
         law: ContactLaw,
         gaps: usize,
         rotation: f64,
         stiffness: [f64; 2],
     ) -> Self {
-        let layout = Layout { gaps, elements: membrane.elements() };
+        let layout = Layout { gaps, elements: membranes[0].elements() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..PAIR_FORCES * gaps).map(|force| layout.force(force)).collect();
-        // Forces of an element: a finer mesh is stiffer, and rounds off as much more.
-        let element = row.gap() / membrane.elements() as f64;
-        let [axial, bending] = stiffness.map(|stiffness| stiffness / element);
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
-            for node in (1..=membrane.elements()).filter_map(|node| layout.node(gap, node)) {
+            // Forces of an element: a finer mesh is stiffer, and rounds off as much more.
+            let element = row.gap(gap) / layout.elements as f64;
+            let [axial, bending] = stiffness.map(|stiffness| stiffness / element);
+            for node in (1..=layout.elements).filter_map(|node| layout.node(gap, node)) {
                 units[node..node + 3].copy_from_slice(&[axial, axial, bending]);
             }
         }
         let last = layout.moment() - 3;
         let control = |k: usize, scale| Control { index: last + k, scale };
+        let pitch = row.pitch(gaps - 1);
         Self {
             layout,
-            membrane,
+            membranes,
             joints: Joints::relative(row, law, scales, forces),
-            controls: [control(2, rotation), control(0, row.pitch()), control(1, row.pitch())],
+            controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
         }
     }
@@ -145,11 +149,19 @@ impl Strip {
     /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
     /// left scale and seen from it.
     pub(crate) fn axis(&self, z: &[f64], gap: usize, intervals: usize) -> Vec<Vec2> {
-        let mut state = DVector::zeros(self.membrane.unknowns());
+        let membrane = self.membrane(gap);
+        let mut state = DVector::zeros(membrane.unknowns());
         for element in 0..self.layout.elements {
             state.fixed_rows_mut::<6>(3 * element).copy_from(&self.ends(z, gap, element));
         }
-        self.membrane.axis(&state, intervals)
+        membrane.axis(&state, intervals)
+    }
+
+    fn membrane(&self, gap: usize) -> &GapMembrane {
+        match self.membranes.as_slice() {
+            [membrane] => membrane,
+            membranes => &membranes[gap],
+        }
     }
 
     fn all_elements(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
@@ -158,7 +170,7 @@ impl Strip {
     }
 
     fn response(&self, z: &[f64], gap: usize, element: usize) -> Response {
-        self.membrane.element_response(element, &self.ends(z, gap, element))
+        self.membrane(gap).element_response(element, &self.ends(z, gap, element))
     }
 
     /// Displacements of the ends of an element.

@@ -4,7 +4,7 @@ use contact::Law;
 use solver::{Path, Point, Settings, State};
 
 use super::strip::Strip;
-use super::{Method, Parameters, set_up};
+use super::{Method, Parameters, SetUp};
 use crate::{Base, Design};
 
 /// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
@@ -20,7 +20,7 @@ fn work(before: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
 fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
-    let strip = set_up(design, parameters).unwrap().strip;
+    let strip = SetUp::even(design, parameters).unwrap().strip;
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, parameters.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);

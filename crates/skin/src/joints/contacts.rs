@@ -41,8 +41,14 @@ impl Joints {
     fn corner(&self, z: &[f64], joint: usize, kind: Kind) -> Vec2 {
         let of_right = usize::from(!kind.corner_is_left());
         let pose = self.pair_poses(z, joint)[of_right];
-        let arm = pose.turn(self.pair.scale().corner(kind.corner()));
-        let passed = if self.relative { of_right } else { joint / JOINTS + of_right };
-        Vec2::new(passed as f64 * self.pair.pitch(), 0.0) + pose.displacement + arm
+        let left = joint / JOINTS;
+        let pair = self.pair(left);
+        let arm = pose.turn(pair.scales()[of_right].corner(kind.corner()));
+        let place = if self.relative {
+            of_right as f64 * pair.pitch()
+        } else {
+            self.arrangement.place(left + of_right)
+        };
+        Vec2::new(place, 0.0) + pose.displacement + arm
     }
 }

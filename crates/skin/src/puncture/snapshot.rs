@@ -6,6 +6,7 @@ use solver::{Path, State};
 use super::system::{Chain, Layout};
 use super::{InvalidDesign, Parameters, PathPoint, Puncture, ScaleState, Springs, Status};
 use crate::Design;
+use crate::arrangement::Arrangement;
 use crate::crossing::{Crossing, follow};
 use crate::joints::Contact;
 
@@ -95,7 +96,8 @@ fn chain(
         parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
     let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
     let tilt = parameters.critical_tilt_deg.to_radians();
-    Ok(Chain::new(&design.row()?, springs, law, layout, parameters.load_position, tilt))
+    let row = Arrangement::Even(design.row()?);
+    Ok(Chain::new(row, springs, law, layout, parameters.load_position, tilt))
 }
 
 fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<Option<Snapshot>> {

@@ -1,10 +1,11 @@
 //! A row of scales on springs under a dead load, as a mixed complementarity system.
 
 use contact::ContactLaw;
-use geometry::{Corner, Row, Vec2};
+use geometry::{Corner, Vec2};
 use solver::{BandMatrix, Control, Residual, State, System};
 use substrate::Springs;
 
+use crate::arrangement::Arrangement;
 use crate::joints::{Joints, PAIR_FORCES};
 
 /// Unknowns of a scale and of its contacts with the next one.
@@ -83,14 +84,14 @@ pub(crate) struct Chain {
 
 impl Chain {
     pub(crate) fn new(
-        row: &Row,
+        arrangement: Arrangement,
         springs: &Springs,
         law: ContactLaw,
         layout: Layout,
         load_position: f64,
         critical_tilt: f64,
     ) -> Self {
-        let scale = row.scale();
+        let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
         let powers = [a, a, a.powi(3)];
         let direct: [f64; 3] = std::array::from_fn(|k| powers[k] * springs.direct[k]);
@@ -106,7 +107,7 @@ impl Chain {
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         Self {
             layout,
-            joints: Joints::new(row, law, scales, forces),
+            joints: Joints::new(arrangement, law, scales, forces),
             half_base: a,
             direct,
             coupling,

@@ -6,7 +6,8 @@ use solver::{BandMatrix, Path, Point, Residual, Settings, State, System};
 use substrate::calibrate;
 
 use super::system::{Chain, Layout};
-use super::{Parameters, Problem, Status};
+use super::{Parameters, Problem, Rows, Status};
+use crate::arrangement::Arrangement;
 use crate::{Base, Design};
 
 /// A steep row in which contacts open, close, slide to corners and change their parts.
@@ -30,7 +31,7 @@ fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     let layout = Layout { left: 10, right: 10 };
     let tilt = 10.0_f64.to_radians();
     let row = design.row().unwrap();
-    let chain = Chain::new(&row, &springs, law, layout, load_position, tilt);
+    let chain = Chain::new(Arrangement::Even(row), &springs, law, layout, load_position, tilt);
     let rest = State::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
 }
@@ -211,16 +212,16 @@ fn rows_double_as_far_as_there_is_room() {
 fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
     let parameters = &Parameters::default();
-    let (row, law) = (DOMINO.row().unwrap(), law(&DOMINO, Law::PRINTED, HARD));
-    let problem = Problem { row, design: &DOMINO, springs: &springs, law, parameters };
-    let cut = problem.grow(60);
+    let row = Rows::Even(DOMINO.row().unwrap());
+    let problem = Problem::new(row, &DOMINO, &springs, parameters).unwrap();
+    let cut = problem.grow(60).unwrap();
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);
     assert!(cut.measures.first_contact_displacement.is_some());
     assert!(cut.measures.initial_stiffness.is_some());
     assert_eq!(cut.measures.critical_force.or(cut.measures.peak_force), None);
     assert!(cut.path.last().unwrap().tilt_deg < 10.0);
-    let whole = problem.grow(4001);
+    let whole = problem.grow(4001).unwrap();
     assert_eq!(whole.status, Status::Complete);
     assert!(whole.measures.scales > 60);
 }

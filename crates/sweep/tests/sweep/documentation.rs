@@ -41,8 +41,11 @@ fn the_guide_to_the_results_explains_every_column() {
         let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
     }
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
+    let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
+    let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
     let expected = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
+        ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
         ("Statuses", statuses),
         ("`failures.csv`, after the columns that say which design it is", columns(FAILURES)),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
@@ -88,4 +91,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
+    assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
+    assert!(read("sweeps/imperfection.toml").is_imperfect());
+    assert!(!read("sweeps/paper.toml").is_imperfect());
 }

@@ -1,0 +1,111 @@
+//! Scales of unequal slants at unequal gaps.
+
+use crate::{InvalidGeometry, Parallelogram};
+
+/// A row in which every scale has a slant and every gap a width of its own.
+///
+/// ```text
+///   ┌────────┐           ┌────────┐      ┌────────┐
+///   │   0    │           │   1    │      │   2    │
+///   └───○────┘           └───○────┘      └───○────┘
+///       ├ a ┼── gap 0 ──┼ a ─┼─ a ┼ gap 1 ┼ a ┤
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnevenRow {
+    scales: Vec<Parallelogram>,
+    gaps: Vec<f64>,
+    /// Where the nodes stand, from the first.
+    places: Vec<f64>,
+}
+
+impl UnevenRow {
+    /// A row of `scales` with `gaps` (over `t`) between neighbouring bases, one fewer than there are
+    /// scales.
+    ///
+    /// # Errors
+    /// If a gap is not positive and finite, two neighbours overlap above their bases, or the numbers of
+    /// scales and gaps do not fit.
+    pub fn new(scales: Vec<Parallelogram>, gaps: Vec<f64>) -> Result<Self, InvalidGeometry> {
+        if scales.len() != gaps.len() + 1 {
+            let (quantity, expected) = ("number of gaps", "one fewer than there are scales");
+            return Err(InvalidGeometry { quantity, value: gaps.len() as f64, expected });
+        }
+        let mut places = vec![0.0];
+        for (pair, &gap) in scales.windows(2).zip(&gaps) {
+            let narrowest = clearance(&pair[0], &pair[1], gap);
+            if !(narrowest > 0.0 && gap.is_finite()) {
+                let (quantity, expected) = ("gap", "scales that stand clear of each other");
+                return Err(InvalidGeometry { quantity, value: narrowest, expected });
+            }
+            let pitch = pair[0].half_base() + gap + pair[1].half_base();
+            places.push(places[places.len() - 1] + pitch);
+        }
+        Ok(Self { scales, gaps, places })
+    }
+
+    /// The scales, from the left.
+    pub fn scales(&self) -> &[Parallelogram] {
+        &self.scales
+    }
+
+    /// The gaps between neighbouring bases, from the left, over `t`.
+    pub fn gaps(&self) -> &[f64] {
+        &self.gaps
+    }
+
+    /// Distance of the nodes of the scales `i` and `i + 1`, over `t`.
+    pub fn pitch(&self, i: usize) -> f64 {
+        self.scales[i].half_base() + self.gaps[i] + self.scales[i + 1].half_base()
+    }
+
+    /// Distance of the node of scale `i` from that of the first, over `t`.
+    pub fn place(&self, i: usize) -> f64 {
+        self.places[i]
+    }
+
+    /// Distance of the last node from the first, over `t`.
+    pub fn length(&self) -> f64 {
+        self.places[self.places.len() - 1]
+    }
+}
+
+/// The narrowest horizontal distance, over `t`, of neighbours with the gap `gap` between their bases:
+/// at the base or, if they lean towards each other, at the top. Negative where they overlap.
+pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
+    gap.min(gap + right.shift() - left.shift())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{UnevenRow, clearance};
+    use crate::Parallelogram;
+
+    fn scale(slant_deg: f64) -> Parallelogram {
+        Parallelogram::leaning(0.5, slant_deg).unwrap()
+    }
+
+    fn close(value: f64, expected: f64) {
+        assert!((value - expected).abs() < 1e-12, "{value} {expected}");
+    }
+
+    #[test]
+    fn nodes_stand_where_bases_and_gaps_put_them() {
+        let row =
+            UnevenRow::new(vec![scale(0.0), scale(5.0), scale(-2.0)], vec![0.1, 0.3]).unwrap();
+        close(row.pitch(0), 1.1);
+        close(row.place(2), 2.4);
+        close(row.length(), 2.4);
+    }
+
+    #[test]
+    fn scales_that_lean_into_each_other_are_refused() {
+        // tan 45° = 1: the tops come closer by 1 than the bases are.
+        close(clearance(&scale(45.0), &scale(0.0), 1.25), 0.25);
+        close(clearance(&scale(0.0), &scale(45.0), 1.25), 1.25);
+        let error = UnevenRow::new(vec![scale(45.0), scale(0.0)], vec![0.75]).unwrap_err();
+        assert_eq!(error.quantity, "gap");
+        close(error.value, -0.25);
+        let error = UnevenRow::new(vec![scale(0.0)], vec![0.1]).unwrap_err();
+        assert_eq!(error.quantity, "number of gaps");
+    }
+}

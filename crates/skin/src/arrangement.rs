@@ -1,0 +1,62 @@
+//! How the scales of a row stand at rest.
+
+use contact::Pair;
+use geometry::{Parallelogram, Row, UnevenRow};
+
+/// Scales that are alike at a constant gap, however many, or each with a slant and a gap of its own.
+#[derive(Clone, Debug)]
+pub(crate) enum Arrangement {
+    Even(Row),
+    Uneven(UnevenRow),
+}
+
+impl Arrangement {
+    pub(crate) fn scale(&self, i: usize) -> Parallelogram {
+        match self {
+            Self::Even(row) => *row.scale(),
+            Self::Uneven(row) => row.scales()[i],
+        }
+    }
+
+    /// The gap between the bases of the scales `i` and `i + 1`.
+    pub(crate) fn gap(&self, i: usize) -> f64 {
+        match self {
+            Self::Even(row) => row.gap(),
+            Self::Uneven(row) => row.gaps()[i],
+        }
+    }
+
+    /// Distance of the nodes of the scales `i` and `i + 1`.
+    pub(crate) fn pitch(&self, i: usize) -> f64 {
+        match self {
+            Self::Even(row) => row.pitch(),
+            Self::Uneven(row) => row.pitch(i),
+        }
+    }
+
+    /// Distance of the node of scale `i` from that of the first.
+    pub(crate) fn place(&self, i: usize) -> f64 {
+        match self {
+            Self::Even(row) => i as f64 * row.pitch(),
+            Self::Uneven(row) => row.place(i),
+        }
+    }
+
+    /// Mean distance of neighbouring nodes.
+    pub(crate) fn mean_pitch(&self) -> f64 {
+        match self {
+            Self::Even(row) => row.pitch(),
+            Self::Uneven(row) => row.length() / row.gaps().len() as f64,
+        }
+    }
+
+    /// The pairs of neighbours, from the left; one that stands for all where they are alike.
+    pub(crate) fn pairs(&self) -> Vec<Pair> {
+        match self {
+            Self::Even(row) => vec![Pair::new(*row.scale(), row.pitch())],
+            Self::Uneven(row) => (0..row.gaps().len())
+                .map(|i| Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i)))
+                .collect(),
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Strips of unequal gaps and slants, made by hand.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use geometry::{Parallelogram, UnevenRow};
+use solver::Settings;
+
+use super::{Flexure, Method, Parameters, SetUp, Status};
+use crate::arrangement::Arrangement;
+use crate::{Base, Change, Design};
+
+const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
+
+fn parameters() -> Parameters {
+    Parameters {
+        law: Law::PRINTED,
+        contact_modulus_over_membrane: 667.0,
+        method: Method::Chain,
+        membrane_length: 6.0,
+        membrane_thickness: 0.125,
+        membrane_axis_offset: 0.0,
+        elements_per_gap: 2,
+        max_end_rotation_deg: 60.0,
+        solver: Settings::default(),
+    }
+}
+
+fn design(slant_deg: f64) -> Design {
+    Design { gap: 0.05, length: 1.0, slant_deg, base: Base::L, width: 1.0 }
+}
+
+fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
+    let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
+    let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
+    let row = Arrangement::Uneven(row);
+    let flexure = SetUp::new(&design(0.0), &parameters(), row, gaps.len(), gaps.len()).unwrap();
+    let flexure = flexure.solve(&parameters());
+    assert_eq!(flexure.status, Status::Complete);
+    flexure
+}
+
+/// Between upright scales the membrane is an arc of radius `1/M*` whatever its length: their tops
+/// meet where that is their height, `M* = 1`, in all gaps at once. The arc of `m` elements is a polygon with
+/// sides `d/m = 2 sin(θ/2m)`, which makes it `M* = θ/d`.
+#[test]
+fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
+    let flexure = bent(&GAPS, &[0.0; 7]);
+    let closed: Vec<_> =
+        flexure.events.iter().filter(|event| event.change == Change::Closed).collect();
+    assert_eq!(closed.len(), GAPS.len());
+    for event in closed {
+        let (gap, elements) = (GAPS[event.gap.unwrap()], 2.0);
+        let moment = 2.0 * elements / gap * (gap / (2.0 * elements)).asin();
+        assert_relative_eq!(event.point.moment, moment, max_relative = 1e-9);
+        let (free, whole) = (GAPS.iter().sum::<f64>(), GAPS.iter().sum::<f64>() + 6.0);
+        assert_relative_eq!(event.point.curvature, free / whole, max_relative = 1e-4);
+    }
+    assert!(flexure.closing_range().unwrap() < 1e-4 * 0.05);
+}
+
+#[test]
+fn the_mirror_image_of_a_strip_bends_alike() {
+    let slants = [60.0, 59.8, 60.1, 59.9, 60.2, 60.05, 59.95];
+    let flexure = bent(&GAPS, &slants);
+    let (mut gaps, mut mirrored) = (GAPS, slants.map(|slant| -slant));
+    gaps.reverse();
+    mirrored.reverse();
+    let mirrored = bent(&gaps, &mirrored);
+    assert!(flexure.measures.contact == Some(true));
+    let (ours, theirs) = (flexure.measures, mirrored.measures);
+    let close = |a: Option<f64>, b: Option<f64>| {
+        assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = 1e-7);
+    };
+    close(ours.compliance, theirs.compliance);
+    close(ours.first_contact_curvature, theirs.first_contact_curvature);
+    close(ours.max_moment, theirs.max_moment);
+    close(flexure.closing_range(), mirrored.closing_range());
+    assert!(flexure.closing_range() > Some(1e-3));
+}
+
+#[test]
+fn a_strip_of_equal_gaps_is_the_even_strip() {
+    let uneven = bent(&[0.05; 6], &[60.0; 7]);
+    let even = SetUp::even(&design(60.0), &parameters()).unwrap().solve(&parameters());
+    assert_eq!(even.gaps, 6);
+    let measures = |flexure: &Flexure| {
+        let m = flexure.measures;
+        [m.compliance, m.first_contact_curvature, m.max_moment, m.axial_energy_share]
+    };
+    for (ours, theirs) in measures(&uneven).into_iter().zip(measures(&even)) {
+        assert_relative_eq!(ours.unwrap(), theirs.unwrap(), max_relative = 1e-7);
+    }
+    let last = |flexure: &Flexure| flexure.shape(flexure.path.len() - 1).unwrap();
+    for (ours, theirs) in last(&uneven).into_iter().zip(last(&even)) {
+        for (a, b) in ours.into_iter().zip(theirs) {
+            assert_relative_eq!(a, b, epsilon = 1e-7);
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Rows and strips with random gaps and slants.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use skin::flexure::{self, Flexure, Method};
+use skin::puncture::{self, RowLength};
+use skin::{Base, Change, Design, Imperfection, Sample};
+use solver::Settings;
+use substrate::calibrate;
+
+const STEEP: Design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
+
+fn strip() -> flexure::Parameters {
+    flexure::Parameters {
+        law: Law::PRINTED,
+        contact_modulus_over_membrane: 667.0,
+        method: Method::Chain,
+        membrane_length: 22.0,
+        membrane_thickness: 0.125,
+        membrane_axis_offset: 0.0,
+        elements_per_gap: 1,
+        max_end_rotation_deg: 40.0,
+        solver: Settings::default(),
+    }
+}
+
+fn sample(gap_cv: f64, slant_sd_deg: f64, seed: u64, number: u64) -> Sample {
+    Imperfection { gap_cv, slant_sd_deg }.sample(&STEEP, seed, number).unwrap()
+}
+
+fn bent(sample: &Sample) -> Flexure {
+    let flexure = flexure::solve_sample(&STEEP, &strip(), sample).unwrap();
+    assert_eq!(flexure.status, flexure::Status::Complete);
+    flexure
+}
+
+/// Gaps of a long row.
+fn gaps(gap_cv: f64, slant_sd_deg: f64) -> Vec<f64> {
+    sample(gap_cv, slant_sd_deg, 1, 1).row(10_000, 10_000).unwrap().gaps().to_vec()
+}
+
+#[test]
+fn gaps_and_slants_scatter_as_asked() {
+    // With gaps this wide no scale is drawn again.
+    let wide = Design { gap: 3.0, slant_deg: 30.0, ..STEEP };
+    let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 2.0 };
+    let row = imperfection.sample(&wide, 3, 5).unwrap().row(10_000, 10_000).unwrap();
+    let moments = |values: &[f64]| {
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let variance = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
+        (mean, variance.sqrt())
+    };
+    // Four standard errors: 0.1/√20000 and 0.1/√40000 relative.
+    let (mean, deviation) = moments(row.gaps());
+    assert_relative_eq!(mean, 3.0, max_relative = 0.003);
+    assert_relative_eq!(deviation / mean, 0.1, max_relative = 0.025);
+    let slants: Vec<_> = row.scales().iter().map(|scale| scale.slant().to_degrees()).collect();
+    let (mean, deviation) = moments(&slants);
+    assert_relative_eq!(mean, 30.0, epsilon = 0.057);
+    assert_relative_eq!(deviation, 2.0, max_relative = 0.02);
+}
+
+#[test]
+fn a_longer_row_has_the_same_scales_in_its_middle() {
+    let sample = sample(0.2, 2.0, 7, 3);
+    let (short, long) = (sample.row(3, 4).unwrap(), sample.row(9, 20).unwrap());
+    assert_eq!(short.scales(), &long.scales()[6..14]);
+    assert_eq!(short.gaps(), &long.gaps()[6..13]);
+}
+
+#[test]
+fn scales_stand_clear_however_far_slants_scatter() {
+    // At 60° a degree moves the top by 0.07: a gap of 0.1 is soon closed.
+    let sample = sample(0.3, 1.5, 1, 1);
+    // An uneven row refuses scales that overlap.
+    let row = sample.row(500, 500).unwrap();
+    assert_eq!(row.scales().len(), 1001);
+    let crowd = Imperfection { gap_cv: 0.0, slant_sd_deg: 30.0 };
+    let tight = Design { gap: 1e-9, slant_deg: 80.0, ..STEEP };
+    let error = crowd.sample(&tight, 1, 1).unwrap().row(0, 1000).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "standard deviation of the slants is 30, expected one small enough for scales to stand clear of each other"
+    );
+}
+
+#[test]
+fn samples_are_reproducible_and_differ() {
+    let compliance = |seed, number| bent(&sample(0.1, 0.5, seed, number)).measures.compliance;
+    assert_eq!(compliance(1, 1), compliance(1, 1));
+    assert_ne!(compliance(1, 1), compliance(1, 2));
+    assert_ne!(compliance(1, 1), compliance(2, 1));
+    let narrower = Design { gap: 0.05, ..STEEP };
+    let relative = |design: &Design| {
+        let sample = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 }.sample(design, 1, 1).unwrap();
+        sample.row(0, 1).unwrap().gaps()[0] / design.gap
+    };
+    assert_ne!(relative(&STEEP), relative(&narrower));
+}
+
+/// The same normal numbers, whatever they are multiplied by: (I1) turned round.
+#[test]
+fn more_scatter_is_the_same_row_with_larger_deviations() {
+    let [some, more] = [0.05_f64, 0.1].map(|cv| {
+        let s = (cv * cv).ln_1p().sqrt();
+        let z = gaps(cv, 0.0).into_iter().map(move |gap| ((gap / 0.1).ln() + 0.5 * s * s) / s);
+        z.collect::<Vec<_>>()
+    });
+    for (a, b) in some.iter().zip(&more).take(100) {
+        assert_relative_eq!(*a, *b, epsilon = 1e-9);
+    }
+}
+
+#[test]
+fn without_scatter_a_row_is_the_perfect_one() {
+    let sample = sample(0.0, 0.0, 1, 1);
+    let springs = calibrate(&STEEP.footprint(0.5).unwrap()).unwrap();
+    for scales in [RowLength::Auto, RowLength::Scales(8)] {
+        let parameters = puncture::Parameters { scales, ..puncture::Parameters::default() };
+        let perfect = puncture::solve(&STEEP, &springs, &parameters).unwrap();
+        let ours = puncture::solve_sample(&STEEP, &springs, &parameters, &sample).unwrap();
+        assert_eq!(ours.status, perfect.status);
+        assert_eq!(ours.measures.scales, perfect.measures.scales);
+        let pairs = [
+            (ours.measures.critical_force, perfect.measures.critical_force),
+            (ours.measures.penetration, perfect.measures.penetration),
+            (ours.measures.max_stiffness, perfect.measures.max_stiffness),
+        ];
+        for (ours, perfect) in pairs {
+            assert_relative_eq!(ours.unwrap(), perfect.unwrap(), max_relative = 1e-8);
+        }
+    }
+}
+
+/// Mean range of curvatures over which the gaps of five strips close.
+fn closing_range(gap_cv: f64, slant_sd_deg: f64) -> f64 {
+    let strips = (1..=5).map(|number| bent(&sample(gap_cv, slant_sd_deg, 1, number)));
+    strips.map(|strip| strip.closing_range().unwrap()).sum::<f64>() / 5.0
+}
+
+/// Fig. 10b: all gaps of a perfect strip close at one curvature; those of an imperfect strip close one
+/// by one, the farther apart the more they scatter.
+#[test]
+fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
+    let perfect = flexure::solve(&STEEP, &strip()).unwrap();
+    assert!(perfect.closing_range().unwrap() < 1e-12);
+    let first = perfect.measures.first_contact_curvature.unwrap();
+    let (mut last, mut by_slants) = (0.0, 0.0);
+    for gap_cv in [0.02, 0.05, 0.1, 0.2] {
+        let range = closing_range(gap_cv, 0.0);
+        assert!(range > 1.5 * last, "{range} {last}");
+        last = range;
+    }
+    // Where a strip touches is a matter of its moment, to which gaps make little difference.
+    assert!(last < 0.02 * first, "{last} {first}");
+    for slant_sd_deg in [0.05, 0.1, 0.2, 0.4] {
+        let range = closing_range(0.0, slant_sd_deg);
+        assert!(range > 1.5 * by_slants, "{range} {by_slants}");
+        by_slants = range;
+    }
+    assert!(by_slants > 0.2 * first, "{by_slants} {first}");
+    let strip = bent(&sample(0.05, 0.4, 1, 1));
+    let closed = strip.events.iter().filter(|event| event.change == Change::Closed);
+    let mut closed: Vec<_> = closed.map(|event| event.point.curvature).collect();
+    closed.dedup();
+    assert!(closed.len() >= strip.gaps, "{} of {}", closed.len(), strip.gaps);
+}
+
+/// The slope of a perfect strip leaps at its one contact; that of an imperfect one grows with every
+/// gap that closes.
+#[test]
+fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
+    let perfect = flexure::solve(&STEEP, &strip()).unwrap();
+    let imperfect = bent(&sample(0.05, 0.4, 1, 1));
+    // Curvature between twice the slope at rest and ten times that.
+    let width = |strip: &Flexure| {
+        let at_rest = strip.path[0].stiffness;
+        let at = |factor: f64| {
+            let steep = |point: &&flexure::PathPoint| point.stiffness > factor * at_rest;
+            strip.path.iter().find(steep).unwrap().curvature
+        };
+        at(10.0) - at(2.0)
+    };
+    assert!(width(&perfect) == 0.0);
+    assert!(width(&imperfect) > 0.05 * perfect.measures.first_contact_curvature.unwrap());
+}
