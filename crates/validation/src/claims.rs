@@ -111,12 +111,26 @@ const CHECKS: [(&str, Check, &str); 30] = [
     ("C30", puncture::two_blocks, ""),
 ];
 
+/// Numbers of the claims.
+pub(crate) fn ids() -> impl Iterator<Item = &'static str> {
+    CHECKS.iter().map(|(id, ..)| *id)
+}
+
 /// The claims as the paper has them.
 ///
 /// # Errors
 /// If the table of claims cannot be read.
 pub fn claims() -> Result<Vec<Claim>, csv::Error> {
     csv::Reader::from_reader(CLAIMS.as_bytes()).deserialize().collect()
+}
+
+/// The claims that a study reproduces, and those that it reproduces in part.
+pub(crate) fn score(study: &Study) -> [Vec<&'static str>; 2] {
+    let graded: Vec<_> =
+        CHECKS.iter().filter_map(|(id, check, _)| Some((*id, check(study)?.verdict))).collect();
+    [Verdict::Reproduced, Verdict::InPart].map(|wanted| {
+        graded.iter().filter(|(_, verdict)| *verdict == wanted).map(|(id, _)| *id).collect()
+    })
 }
 
 /// Every claim against two studies: with the base `L`, and with `2L`.

@@ -5,11 +5,13 @@
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`] | what the paper reports, and what comes out here |
 //! | [`sensitivity()`], [`Sensitivity`], [`Headlines`] | how far the headline results depend on what the paper leaves open |
+//! | [`Search`], [`Scored`] | every combination of open choices, by how many claims it reproduces |
 //! | [`Validation`] | all of it, and the page that says so |
 
 mod benchmarks;
 mod claims;
 mod page;
+mod search;
 mod sensitivity;
 mod study;
 
@@ -17,6 +19,7 @@ use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
 pub use claims::{CheckedClaim, Claim, Finding, Verdict, claims};
+pub use search::{Scored, Search};
 pub use sensitivity::{Headlines, Sensitivity, sensitivity};
 use study::Study;
 

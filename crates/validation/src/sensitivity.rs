@@ -55,49 +55,27 @@ pub fn sensitivity() -> Result<Vec<Sensitivity>, Error> {
     let mut all = Vec::new();
     for (name, text) in SWEEPS {
         let study = Study::run(Sweep::parse(text, name, &[])?)?;
-        all.extend(settings(&study).into_iter().map(|(setting, rows)| {
-            let headlines = Headlines::of(&study, &rows);
+        all.extend(study.settings().into_iter().map(|(setting, study)| {
+            let headlines = Headlines::of(&study);
             Sensitivity { sweep: name, setting, headlines }
         }));
     }
     Ok(all)
 }
 
-/// The settings of a sweep, each with the rows of its designs.
-fn settings(study: &Study) -> Vec<(String, Vec<usize>)> {
-    let axes: Vec<_> = study.sweep.grid().axes().iter().map(sweep::Axis::parameter).collect();
-    let open = |key: &str| !["gap_over_t", "length_over_t", "slant_deg"].contains(&key);
-    let mut settings = Vec::<(String, Vec<usize>)>::new();
-    for row in 0..study.results.len() {
-        let value = |parameter: &&sweep::Parameter| {
-            format!("{} = {}", parameter.key, study.results.parameter(row, parameter))
-        };
-        let setting: Vec<_> = axes.iter().filter(|axis| open(axis.key)).map(value).collect();
-        let setting = setting.join(", ");
-        // The axes of the geometry vary fastest, so the rows of a setting follow each other.
-        match settings.last_mut() {
-            Some((last, rows)) if *last == setting => rows.push(row),
-            _ => settings.push((setting, vec![row])),
-        }
-    }
-    settings
-}
-
 impl Headlines {
-    fn of(study: &Study, rows: &[usize]) -> Self {
+    pub(crate) fn of(study: &Study) -> Self {
         let nothing = || "none".to_owned();
-        let designs = || rows.iter().map(|row| &study.designs[*row]);
-        let best = designs().find(|d| (d.gap, d.length, d.slant) == (0.1, 0.1, 75.0));
+        let best = study.design(0.1, 0.1, 75.0);
         let force = best.and_then(|design| design.critical_force).map_or_else(nothing, digits);
-        let results = study.results.only(rows);
-        let Ok(ranking) = Ranking::new(&results, TetrahedralGrid::default()) else {
+        let Ok(ranking) = Ranking::new(&study.results, TetrahedralGrid::default()) else {
             return Self {
                 force,
                 balanced: nothing(),
                 corners: std::array::from_fn(|_| nothing()),
             };
         };
-        let winner = |weights| named(&study.designs[rows[ranking.winner(weights).row()]]);
+        let winner = |weights| named(&study.designs[ranking.winner(weights).row()]);
         let mut alone = Weights::alone().map(winner);
         Self {
             force,

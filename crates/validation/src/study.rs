@@ -4,9 +4,12 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use sweep::{InvalidResults, Options, Part, Program, Results, Start, Sweep};
+use sweep::{Axis, Case, InvalidResults, Options, Parameter, Part, Program, Results, Start, Sweep};
 
 use crate::Error;
+
+/// Keys of the axes of the geometry.
+const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
 /// What a design measures; `None` where a value does not exist.
 #[derive(Clone, Copy, Debug)]
@@ -25,9 +28,11 @@ pub(crate) struct Design {
     pub(crate) max_stiffness: Option<f64>,
 }
 
-/// A sweep with its results.
+/// A sweep with its results, or a part of it.
 pub(crate) struct Study {
-    pub(crate) sweep: Sweep,
+    sweep: Sweep,
+    /// What its designs share.
+    pub(crate) base: Case,
     pub(crate) results: Results,
     pub(crate) designs: Vec<Design>,
 }
@@ -50,7 +55,39 @@ impl Study {
         sweep::run(&sweep, Part::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;
         let designs = designs(&results)?;
-        Ok(Self { sweep, results, designs })
+        Ok(Self { base: *sweep.grid().base(), sweep, results, designs })
+    }
+
+    /// The study of each setting: of each combination of the values of the axes that are not those of the geometry.
+    pub(crate) fn settings(&self) -> Vec<(String, Self)> {
+        let mut settings = Vec::<(String, Vec<usize>)>::new();
+        for row in 0..self.results.len() {
+            let setting = self.setting(row);
+            match settings.iter_mut().find(|(known, _)| *known == setting) {
+                Some((_, rows)) => rows.push(row),
+                None => settings.push((setting, vec![row])),
+            }
+        }
+        settings.into_iter().map(|(setting, rows)| (setting, self.only(&rows))).collect()
+    }
+
+    fn setting(&self, row: usize) -> String {
+        let open = |parameter: &&Parameter| !GEOMETRY.contains(&parameter.key);
+        let axes = self.sweep.grid().axes().iter().map(Axis::parameter).filter(open);
+        let value = |parameter: &'static Parameter| {
+            format!("{} = {}", parameter.key, self.results.parameter(row, parameter))
+        };
+        axes.map(value).collect::<Vec<_>>().join(", ")
+    }
+
+    fn only(&self, rows: &[usize]) -> Self {
+        let first = rows.first().map_or(0, |&row| row as u64);
+        Self {
+            sweep: self.sweep.clone(),
+            base: self.sweep.grid().case(first),
+            results: self.results.only(rows),
+            designs: rows.iter().map(|&row| self.designs[row]).collect(),
+        }
     }
 
     /// The design with these parameters, the first if there are several.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-use validation::Validation;
+use sweep::Sweep;
+use validation::{Search, Validation};
 
 use super::{DONE, INCOMPLETE};
 use crate::args;
@@ -11,6 +12,10 @@ use crate::print::print;
 
 /// Carries out the validation, prints its page and writes it down.
 pub fn validate(arguments: &args::Validate) -> anyhow::Result<u8> {
+    if let Some(path) = &arguments.search {
+        print(&Search::run(Sweep::read(path, &[])?)?.table())?;
+        return Ok(DONE);
+    }
     let out = &arguments.out;
     let name = out.file_name().with_context(|| {
         format!("--out {}: not accepted, expected the name of a file", out.display())

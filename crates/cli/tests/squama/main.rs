@@ -3,14 +3,15 @@
 mod bad_input;
 mod clusters;
 mod design;
-mod kills;
 mod imperfections;
+mod kills;
 mod output;
 mod rankings;
 mod reruns;
 mod runs;
 mod shards;
 mod survival;
+mod tutorial;
 mod validation;
 mod workbooks;
 

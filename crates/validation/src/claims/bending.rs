@@ -8,7 +8,7 @@ use super::statistics::{falls, lines, share};
 use crate::study::{Design, Study};
 
 fn bent(study: &Study, gap: f64, length: f64, slant_deg: f64, strip: f64) -> Option<Flexure> {
-    let case = study.sweep.grid().base();
+    let case = study.base;
     let design = skin::Design { gap, length, slant_deg, ..case.design };
     let mut parameters = case.flexure;
     parameters.membrane_length = strip;

@@ -82,7 +82,7 @@ pub(super) fn stiffness_by_slant(study: &Study) -> Option<Finding> {
 
 /// A design of the study with what else it is solved with.
 fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
-    let mut case = *study.sweep.grid().base();
+    let mut case = study.base;
     case.design = skin::Design { gap, length, slant_deg: slant, ..case.design };
     case
 }

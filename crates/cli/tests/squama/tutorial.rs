@@ -1,0 +1,49 @@
+//! The tutorial, command by command.
+
+use std::fs;
+use std::path::Path;
+
+use crate::Place;
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+
+/// The contents of the fenced blocks of a kind.
+fn blocks(text: &str, kind: &str) -> Vec<String> {
+    let fence = format!("```{kind}\n");
+    let blocks = text.split(&fence).skip(1);
+    blocks.map(|block| block.split("```").next().expect("a fence").to_owned()).collect()
+}
+
+fn copy_sweeps(place: &Place) {
+    fs::create_dir(place.path("sweeps")).expect("a folder");
+    for entry in fs::read_dir(Path::new(ROOT).join("sweeps")).expect("sweeps") {
+        let entry = entry.expect("an entry");
+        if entry.path().is_file() {
+            let copy = place.path(Path::new("sweeps").join(entry.file_name()));
+            fs::copy(entry.path(), copy).expect("a copy");
+        }
+    }
+}
+
+#[test]
+fn every_command_does_what_it_says() {
+    let text = fs::read_to_string(Path::new(ROOT).join("docs/tutorial.md")).expect("a tutorial");
+    let place = Place::new();
+    copy_sweeps(&place);
+    for file in blocks(&text, "toml") {
+        let name = file.lines().next().and_then(|line| line.strip_prefix("# "));
+        fs::write(place.path(name.expect("a name in the first line")), &file).expect("a file");
+    }
+    let mut count = 0;
+    for line in blocks(&text, "sh").iter().flat_map(|block| block.lines()) {
+        let Some(arguments) = line.strip_prefix("squama ") else { continue };
+        let (arguments, remark) = arguments.split_once('#').unwrap_or((arguments, ""));
+        let code = i32::from(remark.contains("exits with 1"));
+        place.squama(arguments).assert().code(code);
+        count += 1;
+    }
+    assert!(count > 15, "{count}");
+    for file in ["results/steep/report.html", "steep.xlsx", "results/short/reruns.csv"] {
+        assert!(place.path(file).is_file(), "{file}");
+    }
+}

@@ -1,0 +1,71 @@
+//! Which settings of the open choices come closest to all claims at once.
+
+use std::fmt::Write as _;
+
+use rayon::prelude::*;
+use sweep::Sweep;
+
+use crate::study::Study;
+use crate::{Error, Headlines, claims};
+
+/// A setting and what it reproduces.
+#[derive(Clone, Debug)]
+pub struct Scored {
+    /// The setting.
+    pub setting: String,
+    /// Claims that are reproduced.
+    pub reproduced: Vec<&'static str>,
+    /// Claims that are reproduced in part.
+    pub in_part: Vec<&'static str>,
+    /// The results.
+    pub headlines: Headlines,
+}
+
+/// A sweep over combinations of open choices, on the designs of the paper.
+#[derive(Clone, Debug)]
+pub struct Search {
+    /// Every setting, the one that reproduces most first.
+    pub settings: Vec<Scored>,
+}
+
+impl Search {
+    /// Solves the sweep and checks every claim on each setting.
+    ///
+    /// # Errors
+    /// If the temporary folder does not take the tables.
+    pub fn run(sweep: Sweep) -> Result<Self, Error> {
+        let study = Study::run(sweep)?;
+        let score = |(setting, study): (String, Study)| {
+            let [reproduced, in_part] = claims::score(&study);
+            Scored { setting, reproduced, in_part, headlines: Headlines::of(&study) }
+        };
+        let mut settings: Vec<_> = study.settings().into_par_iter().map(score).collect();
+        // Stable: of equal ones the first in the sweep comes first.
+        settings.sort_by_key(|s| std::cmp::Reverse((s.reproduced.len(), s.in_part.len())));
+        Ok(Self { settings })
+    }
+
+    /// The settings as a table in Markdown.
+    pub fn table(&self) -> String {
+        let mut text = String::from(
+            "| Setting | Reproduced | In part | F_c* at (0.1, 0.1, 75°) | Balanced optimum | Not reproduced |\n\
+             |---|--:|--:|--:|---|---|\n",
+        );
+        let all: Vec<_> = claims::ids().collect();
+        for scored in &self.settings {
+            let Scored { setting, reproduced, in_part, headlines } = scored;
+            let found = |id: &&&str| !reproduced.contains(*id) && !in_part.contains(*id);
+            let missing: Vec<_> = all.iter().filter(found).copied().collect();
+            let _ = writeln!(
+                text,
+                "| {setting} | {} | {} | {} | {} | {} |",
+                reproduced.len(),
+                in_part.len(),
+                headlines.force,
+                headlines.balanced,
+                missing.join(" ")
+            );
+        }
+        text
+    }
+}
