@@ -79,6 +79,12 @@ const tests = {
     assert.deepEqual(requests, [pathToFileURL(join(results, "report.html")).href]);
   },
 
+  async "no chart offers to upload itself"() {
+    const buttons = await page.locator(".modebar-btn").evaluateAll((all) => [...new Set(all.map((button) => button.dataset.title))]);
+    assert.ok(buttons.length > 3);
+    assert.deepEqual(buttons.filter((title) => /cloud|share|edit|send/i.test(title)), []);
+  },
+
   async "every figure has a mark for every design"() {
     for (const id of CHARTS) {
       const marks = await page.locator(`#chart-${id} .points path`).count();
@@ -277,12 +283,43 @@ const tests = {
     await page.emulateMedia({ colorScheme: "light" });
   },
 
+  async "the ring of the tetrahedron and the names of its corners are seen"() {
+    const notes = page.locator("#tetrahedron .annotation-text");
+    assert.deepEqual(await notes.allTextContents(), ["coverage", "force", "resistance", "compliance", "◯"]);
+    const ring = () => notes.last().boundingBox();
+    const before = await ring();
+    await page.locator("#weight-m").fill("100");
+    const after = await ring();
+    assert.ok(after.y < before.y - 50, `${before.y} ${after.y}`);
+    await page.locator("#equal-weights").click();
+    const area = await page.locator("#tetrahedron").boundingBox();
+    for (const box of await Promise.all([0, 1, 2, 3].map((k) => notes.nth(k).boundingBox()))) {
+      assert.ok(box.x >= area.x && box.x + box.width <= area.x + area.width, "a name leaves the chart");
+    }
+  },
+
   async "a narrow window needs no scrolling sideways"() {
     for (const width of [800, 420]) {
       await page.setViewportSize({ width, height: 900 });
       await page.waitForTimeout(500);
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} px`);
     }
+  },
+
+  async "in a narrow window a click shows the design where it is seen"() {
+    await page.setViewportSize({ width: 800, height: 900 });
+    await page.reload();
+    await page.waitForFunction(() => document.getElementById("detail-title").textContent.startsWith("Design"));
+    assert.ok(!await page.locator("#drawing").isVisible());
+    await page.locator("#chart-stiffness").scrollIntoViewIfNeeded();
+    const box = await page.locator("#chart-stiffness .points path").nth(40).boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+    const seen = await page.locator("#drawing svg").first().boundingBox();
+    assert.ok(seen.y > 0 && seen.y + 50 < 900, JSON.stringify(seen));
+    await page.locator("#fold").focus();
+    await page.keyboard.press("Enter");
+    assert.ok(!await page.locator("#drawing").isVisible());
     await page.setViewportSize(WIDE);
   },
 

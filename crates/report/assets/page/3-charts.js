@@ -9,7 +9,8 @@ squama.themeColors = () => {
   return { paper: color("--paper"), ink: color("--ink"), faint: color("--faint"), line: color("--line"), accent: color("--accent") };
 };
 
-squama.config = { displaylogo: false, responsive: true, modeBarButtonsToRemove: ["select2d", "lasso2d", "sendDataToCloud"] };
+// Nothing leaves the page: without this the library offers to upload each chart.
+squama.config = { displaylogo: false, responsive: true, showSendToCloud: false, plotlyServerURL: "", modeBarButtonsToRemove: ["select2d", "lasso2d"] };
 
 /** Layout that follows the theme. */
 squama.layout = (extra) => {

@@ -16,18 +16,22 @@
   const axisRef = (k, letter) => `${letter}${k === 0 ? "" : k + 1}`;
   const hover = (rows, name, values) => rows.map((row, i) => `${squama.title(row)}<br>${name} ${squama.short(values[i])}`);
 
-  /** Panels in a grid: their count in a row, and the part of the chart that each takes. */
-  const grid = (count, width, least, gapX, gapY) => {
+  /**
+   * Panels in a grid, of a height and with gaps in px, as many in a row as there is room for.
+   * `domain(k)` is the part of the chart that a panel takes.
+   */
+  const grid = (count, width, { least, height, gaps, margin }) => {
     const columns = Math.max(1, Math.min(count, Math.floor(width / least)));
     const rows = Math.ceil(count / columns);
-    const w = (1 - gapX * (columns - 1)) / columns;
-    const h = (1 - gapY * (rows - 1)) / rows;
+    const across = Math.max(1, width - margin.l - margin.r);
+    const down = rows * height + (rows - 1) * gaps[1];
+    const wide = (across - (columns - 1) * gaps[0]) / columns;
     const domain = (k) => {
-      const [i, j] = [k % columns, Math.floor(k / columns)];
-      const left = i * (w + gapX), top = 1 - j * (h + gapY);
-      return { x: [left, left + w], y: [Math.max(0, top - h), top] };
+      const left = (k % columns) * (wide + gaps[0]), top = Math.floor(k / columns) * (height + gaps[1]);
+      const part = (from, to, whole) => [Math.max(0, from / whole), Math.min(1, to / whole)];
+      return { x: part(left, left + wide, across), y: part(down - top - height, down - top, down) };
     };
-    return { columns, rows, domain };
+    return { columns, rows, domain, layout: { height: down + margin.t + margin.b, margin } };
   };
 
   /** Ticks of a logarithmic axis, `range` in decades: every decade or some, and between them where there are few. */
@@ -91,8 +95,8 @@
     const xs = shown.map((row) => squama.cell(row, along));
     const [axisX, axisY] = [fitted(xs), fitted(values)];
     const make = (width) => {
-      const place = grid(panels.length, width, 165, 0.012, 0.09);
-      const layout = { height: 70 + 190 * place.rows, annotations: sharedNames(dimensionless(alongName), dimensionless(name)), margin: { l: 70, r: 12, t: 26, b: 54 } };
+      const place = grid(panels.length, width, { least: 165, height: 165, gaps: [10, 30], margin: { l: 70, r: 12, t: 26, b: 54 } });
+      const layout = { ...place.layout, annotations: sharedNames(dimensionless(alongName), dimensionless(name)) };
       const traces = [];
       panels.forEach((value, k) => {
         const domain = place.domain(k);
@@ -123,8 +127,8 @@
   const scatter = (id, pairs, title, description, rows, front) => {
     if (rows.length === 0) return;
     const make = (width) => {
-      const place = grid(pairs.length, width, 290, 78 / width, 0.19);
-      const layout = { height: 40 + 310 * place.rows, margin: { l: 70, r: 12, t: 12, b: 54 } };
+      const place = grid(pairs.length, width, { least: 290, height: pairs.length > 2 ? 240 : 290, gaps: [72, 64], margin: { l: 70, r: 12, t: 12, b: 54 } });
+      const layout = { ...place.layout };
       const traces = [];
       pairs.forEach(([a, b], k) => {
         const domain = place.domain(k);
@@ -159,8 +163,8 @@
       return { tickmode: "array", tickvals: shown, ticktext: shown.map((i) => String(values[i])), range: [-0.6, values.length - 0.4], showgrid: false, zeroline: false, ticks: "", minor: { ticks: "" } };
     };
     const make = (width) => {
-      const place = grid(slants.length, width, 240, 0.02, 0.1);
-      const layout = { height: 60 + 220 * place.rows, annotations: sharedNames(dimensionless(html.length), dimensionless(html.gap)), margin: { l: 70, r: 84, t: 26, b: 54 } };
+      const place = grid(slants.length, width, { least: 240, height: 190, gaps: [14, 34], margin: { l: 70, r: 84, t: 26, b: 54 } });
+      const layout = { ...place.layout, annotations: sharedNames(dimensionless(html.length), dimensionless(html.gap)) };
       const size = Math.max(5, 0.82 * Math.min((width - 150) / place.columns / lengths.length, 180 / gaps.length));
       const traces = slants.map((slant, k) => {
         const domain = place.domain(k);

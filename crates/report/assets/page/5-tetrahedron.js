@@ -6,8 +6,9 @@
   const RESOLUTION = 20;
   const LISTED = 10;
   // Distance of the eye, in sizes of the tetrahedron.
-  const AWAY = 1.8;
+  const AWAY = 1.6;
   const CORNERS = [[0, 0, 1], [0.9428, 0, -0.3333], [-0.4714, 0.8165, -0.3333], [-0.4714, -0.8165, -0.3333]];
+  const NAMES = ["coverage", "force", "resistance", "compliance"];
   const area = document.getElementById("tetrahedron");
   const place = (weights) => [0, 1, 2].map((axis) => weights.reduce((sum, weight, k) => sum + weight * CORNERS[k][axis], 0));
 
@@ -49,31 +50,28 @@
       squama.symbol({ ...squama.slant(row), color: colors.get(row) }), `${squama.title(row)} (${((100 * own) / (12 * RESOLUTION ** 3)).toFixed(1)} %)`)),
     regions.length > LISTED ? `and ${regions.length - LISTED} more` : "");
 
-  // Short enough not to leave the chart, whichever way it is turned.
-  const NAMES = ["coverage", "force", "resistance", "compliance"];
   const traces = () => {
     const theme = squama.themeColors();
     const edges = { x: [], y: [], z: [], type: "scatter3d", mode: "lines", hoverinfo: "skip", line: { color: theme.faint, width: 3 } };
     for (const [a, b] of [[0, 1], [0, 2], [0, 3], [1, 2], [2, 3], [3, 1]]) {
       [CORNERS[a], CORNERS[b], [null, null, null]].forEach(([x, y, z]) => { edges.x.push(x); edges.y.push(y); edges.z.push(z); });
     }
-    const names = {
-      x: CORNERS.map((corner) => 1.42 * corner[0]), y: CORNERS.map((corner) => 1.42 * corner[1]), z: CORNERS.map((corner) => (corner[2] > 0 ? 1.13 : -0.47)),
-      type: "scatter3d", mode: "text", hoverinfo: "skip", text: NAMES.map((name) => `<b>${name}</b>`), textfont: { color: theme.ink, size: 13 },
-    };
     const coordinate = (axis) => winners.map(({ at }) => at[axis]);
     const dots = {
       x: coordinate(0), y: coordinate(1), z: coordinate(2), type: "scatter3d", mode: "markers", customdata: winners.map(({ row }) => row),
       hoverinfo: "text", text: winners.map(({ row, weights }) => `${squama.title(row)}<br>best for ${weights.map((weight) => weight.toFixed(2)).join(", ")}`),
       // Dots alone: in space the library does not have the marks of the slants.
-      marker: { size: 4, symbol: "circle", color: winners.map(({ row }) => colors.get(row)), line: { color: theme.paper, width: 0.5 } },
+      marker: { size: 5, symbol: "circle", color: winners.map(({ row }) => colors.get(row)), line: { color: theme.paper, width: 0.5 } },
     };
-    const here = place(squama.weights());
-    const ring = {
-      x: [here[0]], y: [here[1]], z: [here[2]], type: "scatter3d", mode: "markers", hoverinfo: "skip",
-      marker: { size: 16, symbol: "circle-open", color: theme.accent, line: { width: 4, color: theme.accent } },
-    };
-    return [edges, names, dots, ring];
+    return [edges, dots];
+  };
+
+  // The names of the corners and the ring: above the dots, which would hide them.
+  const notes = () => {
+    const theme = squama.themeColors();
+    const note = (text, [x, y, z], font) => ({ text, x, y, z, showarrow: false, font });
+    const names = NAMES.map((name, k) => note(`<b>${name}</b>`, CORNERS[k].map((part) => 1.22 * part), { color: theme.ink, size: 13 }));
+    return [...names, note("<b>◯</b>", place(squama.weights()), { color: theme.ink, size: 26 })];
   };
 
   // The camera, by its angles.
@@ -86,7 +84,7 @@
     const axis = { visible: false };
     return squama.layout({
       margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "kept",
-      scene: { xaxis: axis, yaxis: axis, zaxis: axis, aspectmode: "data", camera: eye(), dragmode: "orbit" },
+      scene: { xaxis: axis, yaxis: axis, zaxis: axis, aspectmode: "data", camera: eye(), dragmode: "orbit", annotations: notes() },
     });
   };
   const draw = () => Plotly.react(area, traces(), layout(), squama.config);
@@ -105,8 +103,7 @@
     Plotly.relayout(area, { "scene.camera": eye() });
   });
   squama.onWeights.push(() => {
-    const [x, y, z] = place(squama.weights());
-    Plotly.restyle(area, { x: [[x]], y: [[y]], z: [[z]] }, [3]);
+    Plotly.relayout(area, { "scene.annotations": notes() });
   });
   squama.redrawTetrahedron = draw;
 })();

@@ -68,7 +68,17 @@
   };
   document.getElementById("large").addEventListener("click", (event) => event.currentTarget.close());
 
+  // In a narrow window the design stands at the lower edge, folded up until one is chosen.
+  const aside = document.getElementById("detail"), fold = document.getElementById("fold");
+  squama.setFolded = (folded) => {
+    aside.classList.toggle("folded", folded);
+    fold.setAttribute("aria-expanded", String(!folded));
+    fold.textContent = folded ? "Show" : "Hide";
+  };
+  fold.addEventListener("click", () => squama.setFolded(!aside.classList.contains("folded")));
+
   const show = (row) => {
+    squama.setFolded(false);
     const number = squama.number(row);
     document.getElementById("detail-title").textContent = `Design ${number}`;
     const box = document.getElementById("drawing");

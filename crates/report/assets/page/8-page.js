@@ -58,4 +58,5 @@
   });
 
   if (squama.rows.length > 0) squama.choose(squama.ranked.length > 0 ? squama.rank(squama.weights())[0].row : 0);
+  squama.setFolded(true);
 })();

@@ -57,38 +57,34 @@ pub(super) fn figure(
     let lengths = lengths(designs);
     let x = Axis::fit(lengths.along_label, designs.numbers(lengths.along));
     let y = Axis::fit(quantity.label, designs.numbers(quantity.column));
-    let panels = some(designs.values(lengths.across));
-    let columns = columns(panels.len());
-    let rows = panels.len().div_ceil(columns);
-    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
+    let values = some(designs.values(lengths.across));
+    let columns = columns(values.len());
     let slants = designs.values("slant_deg");
     let mut inside = vec![slant_legend(&slants, [LEFT, 50.0])];
     inside.extend(filled.map(|_| contact_legend([LEFT + 470.0, 50.0])));
-    for (k, &value) in panels.iter().enumerate() {
-        let (column, row) = (k % columns, k / columns);
-        let panel = Panel {
-            area: Area {
-                left: LEFT + column as f64 * (width + BETWEEN[0]),
-                top: TOP + row as f64 * (HEIGHT + BETWEEN[1]),
-                width,
-                height: HEIGHT,
-            },
-            x: &x,
-            y: &y,
-            title: format!("{} = {value}", lengths.across_symbol),
-            x_labels: k + columns >= panels.len(),
-            y_labels: column == 0,
-        };
+    for (k, &value) in values.iter().enumerate() {
+        let title = format!("{} = {value}", lengths.across_symbol);
+        let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
+        let area = area(k, columns);
+        let panel = Panel { area, x: &x, y: &y, title, x_labels, y_labels };
         inside.push(panel.frame());
         let here = Here { designs, lengths: &lengths, value, quantity, filled };
         inside.extend(slants.iter().map(|&slant| here.series(&panel, slant)));
     }
-    let bottom = TOP + rows as f64 * (HEIGHT + BETWEEN[1]) - BETWEEN[1];
+    let bottom = area(values.len().saturating_sub(1), columns).bottom();
     let middle = 0.5 * (LEFT + WIDTH - RIGHT);
     inside.push(label(&x.label, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
     inside.push(upright(&y.label, [18.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
     let title = format!("{name}: {}", title(quantity.label));
     sheet(WIDTH, bottom + BOTTOM, &title, inside)
+}
+
+/// Where panel `k` stands, of `columns` in a row.
+fn area(k: usize, columns: usize) -> Area {
+    let (column, row) = ((k % columns) as f64, (k / columns) as f64);
+    let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
+    let (left, top) = (LEFT + column * (width + BETWEEN[0]), TOP + row * (HEIGHT + BETWEEN[1]));
+    Area { left, top, width, height: HEIGHT }
 }
 
 /// The words of a label before its symbol.
