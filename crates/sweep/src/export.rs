@@ -164,9 +164,11 @@ fn unwritable(folder: &Path, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.join(name), &io::Error::other(reason.to_owned())).into()
 }
 
-/// What a panic says, in one line.
+/// What a panic says, in one line; of an error of the system, its message.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    text.unwrap_or("the writer of workbooks failed").lines().collect::<Vec<_>>().join(" ")
+    let text = text.unwrap_or("the writer of workbooks failed");
+    let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
+    message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
 }

@@ -3,8 +3,8 @@
 mod bad_input;
 mod clusters;
 mod design;
-mod kills;
 mod imperfections;
+mod kills;
 mod output;
 mod rankings;
 mod reruns;

@@ -45,7 +45,7 @@ impl Formats {
 /// A sheet that grows row by row.
 pub(super) struct Sheet {
     table: &'static str,
-    sheet: Worksheet,
+    page: Worksheet,
     dialect: Dialect,
     columns: Vec<SheetColumn>,
     formats: Formats,
@@ -91,16 +91,16 @@ impl Sheet {
         dialect: Dialect,
         header: &StringRecord,
     ) -> Result<Self, XlsxError> {
-        let mut sheet = workbook.new_worksheet_with_constant_memory()?;
-        sheet.set_name(table)?;
+        let mut page = workbook.new_worksheet_with_constant_memory()?;
+        page.set_name(table)?;
         let columns = header.iter().enumerate();
         let columns: Vec<_> =
             columns.map(|(place, name)| SheetColumn::new(table, place, name)).collect();
         let formats = Formats::new(4);
         for (column, name) in columns.iter().zip(header) {
-            sheet.write_string_with_format(0, column.place, name, &formats.header)?;
+            page.write_string_with_format(0, column.place, name, &formats.header)?;
         }
-        Ok(Self { table, sheet, dialect, columns, formats, rows: 0 })
+        Ok(Self { table, page, dialect, columns, formats, rows: 0 })
     }
 
     /// How many rows there are below the header.
@@ -121,18 +121,18 @@ impl Sheet {
         let has_failed = pairs().any(|(column, cell)| column.says_failed(cell));
         for (column, cell) in self.columns.iter_mut().zip(cells).filter(|(_, c)| !c.is_empty()) {
             column.width = column.width.max(cell.chars().count());
-            let (sheet, place) = (&mut self.sheet, column.place);
+            let (page, place) = (&mut self.page, column.place);
             let formats = &self.formats;
             match self.dialect.number(cell) {
                 Some(number) if column.is_number => {
                     let format = if has_failed { &formats.failed_number } else { &formats.number };
-                    sheet.write_number_with_format(self.rows, place, number, format)?
+                    page.write_number_with_format(self.rows, place, number, format)?
                 }
-                Some(number) => sheet.write_number(self.rows, place, number)?,
+                Some(number) => page.write_number(self.rows, place, number)?,
                 None if column.says_failed(cell) => {
-                    sheet.write_string_with_format(self.rows, place, cell, &formats.failed)?
+                    page.write_string_with_format(self.rows, place, cell, &formats.failed)?
                 }
-                None => sheet.write_string(self.rows, place, cell)?,
+                None => page.write_string(self.rows, place, cell)?,
             };
         }
         Ok(())
@@ -144,23 +144,23 @@ impl Sheet {
         let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
         let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
         let begins_with_number = self.columns.first().is_some_and(|column| column.is_number);
-        self.sheet.set_freeze_panes(1, ColNum::from(begins_with_number))?;
-        self.sheet.autofilter(0, 0, last_row, last_column)?;
+        self.page.set_freeze_panes(1, ColNum::from(begins_with_number))?;
+        self.page.autofilter(0, 0, last_row, last_column)?;
         let [low, middle, high] = SCALE.map(Color::RGB);
         let scale = ConditionalFormat3ColorScale::new().set_minimum_color(low);
         let scale = scale.set_midpoint_color(middle).set_maximum_color(high);
         for column in &self.columns {
             let width = column.width.clamp(WIDTHS.0, WIDTHS.1) as f64;
-            self.sheet.set_column_width(column.place, width)?;
+            self.page.set_column_width(column.place, width)?;
             if column.is_measure {
                 let place = column.place;
-                self.sheet.add_conditional_format(1, place, last_row, place, &scale)?;
+                self.page.add_conditional_format(1, place, last_row, place, &scale)?;
             }
         }
         if self.table == "failures" && self.rows > 0 {
-            self.sheet.set_tab_color(RED[0]);
+            self.page.set_tab_color(RED[0]);
         }
-        workbook.push_worksheet(self.sheet);
+        workbook.push_worksheet(self.page);
         Ok(())
     }
 }

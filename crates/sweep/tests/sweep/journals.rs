@@ -67,7 +67,7 @@ fn damage(journal: &mut Vec<u8>, random: &mut ChaCha8Rng) -> String {
 /// The line, from 1, in which two texts first differ.
 fn first_difference(one: &[u8], other: &[u8]) -> usize {
     let same = one.iter().zip(other).take_while(|(a, b)| a == b).count();
-    1 + one[..same].iter().filter(|byte| **byte == b'\n').count()
+    1 + String::from_utf8_lossy(&one[..same]).matches('\n').count()
 }
 
 #[test]
