@@ -167,7 +167,7 @@ impl Sheet {
 
 /// The sheet that explains the columns of the others.
 pub(super) struct Guide {
-    sheet: Worksheet,
+    page: Worksheet,
     row: u32,
 }
 
@@ -178,14 +178,14 @@ impl Guide {
 
     /// A sheet with its header.
     pub fn new(workbook: &mut Workbook) -> Result<Self, XlsxError> {
-        let mut sheet = workbook.new_worksheet_with_constant_memory()?;
-        sheet.set_name("columns")?.set_freeze_panes(1, 0)?;
+        let mut page = workbook.new_worksheet_with_constant_memory()?;
+        page.set_name("columns")?.set_freeze_panes(1, 0)?;
         let header = Formats::new(1).header;
         for (place, (name, width)) in (0..).zip(Self::COLUMNS) {
-            sheet.set_column_width(place, width)?;
-            sheet.write_string_with_format(0, place, name, &header)?;
+            page.set_column_width(place, width)?;
+            page.write_string_with_format(0, place, name, &header)?;
         }
-        Ok(Self { sheet, row: 0 })
+        Ok(Self { page, row: 0 })
     }
 
     /// Explains the columns of a table.
@@ -195,7 +195,7 @@ impl Guide {
             self.row += 1;
             let explained = Explanation::of(table, name).unwrap_or(unknown);
             for (place, text) in (0..).zip([table, name, explained.unit, explained.meaning]) {
-                self.sheet.write_string(self.row, place, text)?;
+                self.page.write_string(self.row, place, text)?;
             }
         }
         Ok(())
@@ -203,7 +203,7 @@ impl Guide {
 
     /// The sheet.
     pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
-        self.sheet.autofilter(0, 0, self.row, 3)?;
-        Ok(self.sheet)
+        self.page.autofilter(0, 0, self.row, 3)?;
+        Ok(self.page)
     }
 }

@@ -25,7 +25,9 @@ pub(super) fn axial_energy(study: &Study) -> Option<Finding> {
     let free = flexure.path.iter().filter(|p| p.contacts == 0 && p.bending_energy > 0.0);
     let before = free.map(ratio).reduce(f64::max)?;
     let after = ratio(flexure.path.last()?);
-    let ours = format!("{} before, {} at the end", digits(before), digits(after));
+    // Without contact it is round-off, which has no digits.
+    let free = if before < 1e-12 { "below 1e-12".to_owned() } else { digits(before) };
+    let ours = format!("{free} before, {} at the end", digits(after));
     Some(Finding::is(before < 1e-3 && after > 0.1, ours))
 }
 
