@@ -10,7 +10,7 @@ mod tests;
 use contact::{ContactLaw, Law};
 use geometry::Row;
 use solver::{Path, Settings, State, Stop};
-use substrate::Springs;
+use substrate::RowStiffness;
 use system::{Chain, Layout};
 
 use crate::arrangement::Arrangement;
@@ -102,31 +102,32 @@ pub struct Puncture {
     pub history: Vec<Iteration>,
 }
 
-/// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt.
+/// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt, on a
+/// `substrate` that is given by its [`Springs`](substrate::Springs) or by the stiffness of the whole row.
 ///
 /// # Errors
 /// If a length, a modulus or a constant of the contact law is not positive, or another parameter
 /// is out of its range.
 pub fn solve(
     design: &Design,
-    springs: &Springs,
+    substrate: impl Into<RowStiffness>,
     parameters: &Parameters,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Even(design.row()?), design, springs, parameters)?.solve()
+    Problem::new(Rows::Even(design.row()?), design, substrate.into(), parameters)?.solve()
 }
 
-/// The same for an imperfect row: gaps and slants are those of `sample`. The springs stay those of the
+/// The same for an imperfect row: gaps and slants are those of `sample`. The substrate stays that of the
 /// design.
 ///
 /// # Errors
 /// As [`solve`], or if the scales cannot be made to stand clear of each other.
 pub fn solve_sample(
     design: &Design,
-    springs: &Springs,
+    substrate: impl Into<RowStiffness>,
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Sample(sample), design, springs, parameters)?.solve()
+    Problem::new(Rows::Sample(sample), design, substrate.into(), parameters)?.solve()
 }
 
 /// Where rows of any length come from.
@@ -196,7 +197,7 @@ impl Reached {
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
-    springs: &'a Springs,
+    stiffness: RowStiffness,
     law: ContactLaw,
     parameters: &'a Parameters,
 }
@@ -205,14 +206,14 @@ impl<'a> Problem<'a> {
     fn new(
         rows: Rows<'a>,
         design: &'a Design,
-        springs: &'a Springs,
+        stiffness: RowStiffness,
         parameters: &'a Parameters,
     ) -> Result<Self, InvalidDesign> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-        Ok(Self { rows, design, springs, law, parameters })
+        Ok(Self { rows, design, stiffness, law, parameters })
     }
 
     fn solve(&self) -> Result<Puncture, InvalidDesign> {
@@ -246,11 +247,12 @@ impl<'a> Problem<'a> {
     }
 
     /// The row that suffices while no scales touch: a displacement of the punctured scale decays
-    /// along the chain by the root below 1 of `β (r + 1/r) = α`.
+    /// along the chain by the root below 1 of `β (r + 1/r) = α`, where `β` stands for all neighbours
+    /// on a side.
     fn first_layout(&self) -> Layout {
-        let slowest = (0..3)
-            .map(|k| 2.0 * (self.springs.coupling[k] / self.springs.direct[k]).abs())
-            .fold(0.0, f64::max);
+        let RowStiffness { direct, neighbours, .. } = &self.stiffness;
+        let side = |k: usize| neighbours.iter().map(|n| n.direct[k] / direct[k]).sum::<f64>();
+        let slowest = (0..3).map(|k| 2.0 * side(k).abs()).fold(0.0, f64::max);
         let decay = (1.0 - (1.0 - slowest.min(1.0).powi(2)).sqrt()) / slowest;
         // A coupling so strong that the estimate fails starts from a long row.
         let side = (4_u8..100).find(|&n| decay.powi(i32::from(n)) <= 0.1 * STILL);
@@ -267,7 +269,7 @@ impl<'a> Problem<'a> {
         let tilt = self.parameters.critical_tilt_deg.to_radians();
         let position = self.parameters.load_position;
         let row = self.rows.row(layout)?;
-        let chain = Chain::new(row, self.springs, self.law, layout, position, tilt);
+        let chain = Chain::new(row, &self.stiffness, self.law, layout, position, tilt);
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
         let mut record = Record::new(&mut path, self.design.length);

@@ -66,6 +66,20 @@ impl Reactions {
     }
 }
 
+/// Reactions of a row of rectangles on one mesh, for `E* = a = 1`, when the middle one is displaced by a
+/// unit and the others are held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowReactions {
+    /// On the middle rectangle, in the direction of the displacement: `x`, `y`, `φ`.
+    pub direct: [f64; 3],
+    /// On the neighbours on the right, the nearest first, likewise.
+    pub neighbours: Vec<[f64; 3]>,
+    /// Normal force on each neighbour from a unit rotation of the middle rectangle, and moment on the
+    /// middle rectangle from a unit normal displacement of that neighbour: equal by Betti's
+    /// theorem, as far as the mesh is fine.
+    pub cross: Vec<[f64; 2]>,
+}
+
 /// Displaces the middle one of three rectangles with its neighbours held, on `n × n` cells a quarter
 /// (S5), and returns the reactions (S6).
 ///
@@ -77,11 +91,30 @@ impl Reactions {
 /// # Errors
 /// If the gap, or a cell, is lost in rounding.
 pub fn reactions(footprint: &Footprint, n: usize) -> Result<Reactions, Unresolved> {
-    let mesh = Mesh::new(footprint, n);
+    let found = row_reactions(footprint, 1, n)?;
+    let (neighbour, cross) = (found.neighbours[0], found.cross[0]);
+    Ok(Reactions { direct: found.direct, coupling: neighbour.map(|force| -force), cross })
+}
+
+/// The same for the middle one of a row with `neighbours ≥ 1` rectangles on each side.
+///
+/// # Errors
+/// As [`reactions`].
+pub fn row_reactions(
+    footprint: &Footprint,
+    neighbours: usize,
+    n: usize,
+) -> Result<RowReactions, Unresolved> {
+    let mesh = Mesh::row(footprint, neighbours, n);
     let found = mesh.is_resolved().then(|| mesh.reactions(footprint));
-    found
-        .filter(|found| found.coefficients().iter().all(|c| c.is_finite()))
-        .ok_or(Unresolved { footprint: *footprint, cells: n })
+    found.filter(RowReactions::is_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
+}
+
+impl RowReactions {
+    fn is_finite(&self) -> bool {
+        let numbers = self.direct.iter().chain(self.neighbours.iter().flatten());
+        numbers.chain(self.cross.iter().flatten()).all(|number| number.is_finite())
+    }
 }
 
 /// A displacement, or the arm of a traction, as a function of `x`.
@@ -91,47 +124,79 @@ const ONE: Profile = |_| 1.0;
 const ZERO: Profile = |_| 0.0;
 const ARM: Profile = |x| x;
 
+/// The displacement of the middle rectangle, and which neighbour is displaced by 1 besides.
+struct Load {
+    middle: Profile,
+    neighbour: Option<usize>,
+}
+
+impl Load {
+    /// Of a point of the middle rectangle, number 0, or of a neighbour, from 1.
+    fn displacement(&self, body: usize, x: f64) -> f64 {
+        match body {
+            0 => (self.middle)(x),
+            _ => f64::from(u8::from(self.neighbour == Some(body - 1))),
+        }
+    }
+}
+
 impl Mesh {
-    fn reactions(&self, footprint: &Footprint) -> Reactions {
+    fn reactions(&self, footprint: &Footprint) -> RowReactions {
         let equations = Equations::assemble(self, footprint.poisson_ratio());
-        let shear = solve_in_place(equations.shear, self.imposed(&[[ONE, ZERO]]));
-        let normal = solve_in_place(equations.normal, self.imposed(&[[ONE, ZERO]]));
-        // Besides the rotation, the neighbours displaced by 1 and −1: half of it is the odd part of one
-        // displaced alone, and the even part leaves no moment on the middle rectangle.
-        let odd = solve_in_place(equations.rotation, self.imposed(&[[ARM, ZERO], [ZERO, ONE]]));
-        let (shear, normal) = (shear.col(0), normal.col(0));
-        let (rotation, opposed) = (odd.col(0), odd.col(1));
-        let centre = footprint.pitch_over_a();
-        Reactions {
+        let count = self.neighbours.len();
+        let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
+        let shear = solve_in_place(equations.shear, push.clone());
+        let normal = solve_in_place(equations.normal, push);
+        // Besides the rotation, a neighbour and its mirror image displaced by 1 and −1: half of it is the
+        // odd part of one displaced alone, and the even part leaves no moment on the middle rectangle.
+        let turn = Load { middle: ARM, neighbour: None };
+        let opposed = (0..count).map(|k| Load { middle: ZERO, neighbour: Some(k) });
+        let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
+        let odd = solve_in_place(equations.rotation, self.imposed(&loads));
+        let (shear, normal, rotation) = (shear.col(0), normal.col(0), odd.col(0));
+        let neighbour = |k: usize| {
+            let centre = (k + 1) as f64 * footprint.pitch_over_a();
+            [
+                self.neighbour_sum(k, shear, ONE),
+                self.neighbour_sum(k, normal, ONE),
+                self.neighbour_sum(k, rotation, |x| x - centre),
+            ]
+        };
+        let cross = |k: usize| {
+            let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
+            [self.neighbour_sum(k, rotation, ONE), moment]
+        };
+        RowReactions {
             direct: [
                 self.middle_sum(shear, ONE),
                 self.middle_sum(normal, ONE),
                 self.middle_sum(rotation, ARM),
             ],
-            coupling: [
-                -self.neighbour_sum(shear, ONE),
-                -self.neighbour_sum(normal, ONE),
-                -self.neighbour_sum(rotation, |x| x - centre),
-            ],
-            cross: [self.neighbour_sum(rotation, ONE), 0.5 * self.middle_sum(opposed, ARM)],
+            neighbours: (0..count).map(neighbour).collect(),
+            cross: (0..count).map(cross).collect(),
         }
     }
 
-    /// Both axes along `x`, in the order of the unknowns: column by column, `z` fastest.
-    fn across(&self) -> [&Axis; 2] {
-        [&self.middle, &self.neighbour]
+    /// The axes along `x`, in the order of the unknowns: column by column, `z` fastest.
+    fn across(&self) -> impl Iterator<Item = &Axis> + Clone {
+        std::iter::once(&self.middle).chain(&self.neighbours)
     }
 
     fn unknowns(&self) -> usize {
-        (self.middle.cells() + self.neighbour.cells()) * self.depth.cells()
+        self.across().map(Axis::cells).sum::<usize>() * self.depth.cells()
     }
 
-    /// One column for each load: displacements of the middle rectangle and of the neighbour.
-    fn imposed(&self, loads: &[[Profile; 2]]) -> Mat<f64> {
-        let (half, depth) = (self.middle.cells(), self.depth.cells());
-        Mat::from_fn(self.unknowns(), loads.len(), |i, load| match i / depth {
-            column if column < half => loads[load][0](self.middle.points()[column]),
-            column => loads[load][1](self.neighbour.points()[column - half]),
+    /// One column for each load: the displacements that it imposes.
+    fn imposed(&self, loads: &[Load]) -> Mat<f64> {
+        let depth = self.depth.cells();
+        let points: Vec<(usize, f64)> = self
+            .across()
+            .enumerate()
+            .flat_map(|(body, axis)| axis.points().iter().map(move |&x| (body, x)))
+            .collect();
+        Mat::from_fn(self.unknowns(), loads.len(), |i, load| {
+            let (body, x) = points[i / depth];
+            loads[load].displacement(body, x)
         })
     }
 
@@ -140,10 +205,10 @@ impl Mesh {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
-    /// `∬ p arm(x)` over the right neighbour, twice its half.
-    fn neighbour_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
-        let first = self.middle.cells() * self.depth.cells();
-        2.0 * self.sum(&self.neighbour, first, tractions, arm)
+    /// `∬ p arm(x)` over the neighbour `k`, from 0, twice its half.
+    fn neighbour_sum(&self, k: usize, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+        let before = self.across().take(k + 1).map(Axis::cells).sum::<usize>();
+        2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
     /// `first` is the first unknown of the rectangle.
@@ -175,8 +240,7 @@ impl Equations {
         let mut equations =
             Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
         let depth = mesh.depth.cells();
-        let fields: Vec<f64> =
-            mesh.across().iter().flat_map(|axis| axis.points()).copied().collect();
+        let fields: Vec<f64> = mesh.across().flat_map(Axis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = Columns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {

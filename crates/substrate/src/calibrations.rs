@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::boundary_element::Unresolved;
-use crate::{Footprint, Springs, calibrate};
+use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, calibrate};
 
 /// Calibrations shared by every design and thread that needs them.
 ///
@@ -20,22 +20,22 @@ use crate::{Footprint, Springs, calibrate};
 /// young. The default capacity of 65 536 footprints takes about 10 MB.
 #[derive(Debug)]
 pub struct Calibrations {
-    generations: Mutex<Generations>,
+    springs: Mutex<Generations<Springs>>,
+    rows: Mutex<Generations<Arc<RowStiffness>>>,
     solved: AtomicUsize,
 }
 
 /// Filled by the first who needs it; those who hold it while it is forgotten still share it.
-type Slot = Arc<OnceLock<Result<Springs, Unresolved>>>;
+type Slot<T> = Arc<OnceLock<Result<T, Unresolved>>>;
 
 impl Calibrations {
-    /// A cache that holds at most `capacity` footprints (at least two).
+    /// A cache that holds at most `capacity` footprints (at least two) for each coupling.
     pub fn with_capacity(capacity: usize) -> Self {
-        let generations = Generations {
-            limit: (capacity / 2).max(1),
-            young: HashMap::new(),
-            old: HashMap::new(),
-        };
-        Self { generations: Mutex::new(generations), solved: AtomicUsize::new(0) }
+        Self {
+            springs: Mutex::new(Generations::new(capacity)),
+            rows: Mutex::new(Generations::new(capacity)),
+            solved: AtomicUsize::new(0),
+        }
     }
 
     /// The springs of `footprint`, solved now if they are not known.
@@ -43,13 +43,40 @@ impl Calibrations {
     /// # Errors
     /// As [`calibrate`]; the error is remembered like a result.
     pub fn get(&self, footprint: &Footprint) -> Result<Springs, Unresolved> {
+        self.shared(&self.springs, footprint, || calibrate(footprint))
+    }
+
+    /// The stiffness of a row of that `footprint` and `coupling`, solved now if it is not known.
+    ///
+    /// # Errors
+    /// As [`RowStiffness::solve`]; the error is remembered like a result.
+    pub fn row(
+        &self,
+        footprint: &Footprint,
+        coupling: Coupling,
+    ) -> Result<Arc<RowStiffness>, Unresolved> {
+        match coupling {
+            Coupling::Nearest => Ok(Arc::new((&self.get(footprint)?).into())),
+            Coupling::Full => self.shared(&self.rows, footprint, || {
+                RowStiffness::solve(footprint, NEIGHBOURS).map(Arc::new)
+            }),
+        }
+    }
+
+    fn shared<T: Clone>(
+        &self,
+        cache: &Mutex<Generations<T>>,
+        footprint: &Footprint,
+        solve: impl FnOnce() -> Result<T, Unresolved>,
+    ) -> Result<T, Unresolved> {
         // Solving happens outside the lock. A panic elsewhere leaves the maps whole, so a poisoned
         // lock is as good as any.
-        let slot = self.generations.lock().unwrap_or_else(PoisonError::into_inner).slot(footprint);
-        *slot.get_or_init(|| {
+        let slot = cache.lock().unwrap_or_else(PoisonError::into_inner).slot(footprint);
+        let found = slot.get_or_init(|| {
             self.solved.fetch_add(1, Ordering::Relaxed);
-            calibrate(footprint)
-        })
+            solve()
+        });
+        found.clone()
     }
 
     /// How many calibrations were solved so far.
@@ -59,8 +86,8 @@ impl Calibrations {
 
     /// How many footprints are held now.
     pub fn held(&self) -> usize {
-        let generations = self.generations.lock().unwrap_or_else(PoisonError::into_inner);
-        generations.young.len() + generations.old.len()
+        let springs = self.springs.lock().unwrap_or_else(PoisonError::into_inner).held();
+        springs + self.rows.lock().unwrap_or_else(PoisonError::into_inner).held()
     }
 }
 
@@ -71,14 +98,22 @@ impl Default for Calibrations {
 }
 
 #[derive(Debug)]
-struct Generations {
+struct Generations<T> {
     limit: usize,
-    young: HashMap<Footprint, Slot>,
-    old: HashMap<Footprint, Slot>,
+    young: HashMap<Footprint, Slot<T>>,
+    old: HashMap<Footprint, Slot<T>>,
 }
 
-impl Generations {
-    fn slot(&mut self, footprint: &Footprint) -> Slot {
+impl<T> Generations<T> {
+    fn new(capacity: usize) -> Self {
+        Self { limit: (capacity / 2).max(1), young: HashMap::new(), old: HashMap::new() }
+    }
+
+    fn held(&self) -> usize {
+        self.young.len() + self.old.len()
+    }
+
+    fn slot(&mut self, footprint: &Footprint) -> Slot<T> {
         if let Some(slot) = self.young.get(footprint) {
             return Arc::clone(slot);
         }

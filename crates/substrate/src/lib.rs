@@ -11,13 +11,14 @@
 //!
 //! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
 //! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
-//! (S1)–(S8) here and in `docs/theory.md`.
+//! (S1)–(S12) here and in `docs/theory.md`.
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs, 2 ms |
+//! | [`RowStiffness`], [`Coupling`] | the same with more neighbours and with force from rotation |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
 //! | [`mesh`] | cells graded towards the edges and the gap |
@@ -43,9 +44,11 @@ mod calibrations;
 mod footprint;
 pub mod half_space;
 pub mod mesh;
+mod row_stiffness;
 mod springs;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
 pub use footprint::{Footprint, InvalidFootprint};
+pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};

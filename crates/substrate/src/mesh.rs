@@ -80,28 +80,39 @@ impl Axis {
     }
 }
 
-/// Three equal rectangles in a row, in units of `a`, of which the planes of symmetry leave the
-/// half `x > 0` of the middle one, its right neighbour, and the half `z > 0` of both.
+/// An odd number of equal rectangles in a row, in units of `a`, of which the planes of symmetry leave
+/// the half `x > 0` of the middle one, its neighbours on the right, and the half `z > 0` of all.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Middle rectangle, from its centre to its right edge.
     pub middle: Axis,
-    /// Right neighbour.
-    pub neighbour: Axis,
-    /// Both, from the centre line to the edge.
+    /// Neighbours on the right, the nearest first.
+    pub neighbours: Vec<Axis>,
+    /// All, from the centre line to the edge.
     pub depth: Axis,
 }
 
 impl Mesh {
-    /// `n` cells across each: half the middle rectangle, its neighbour, half the depth.
+    /// Three rectangles, `n` cells across each: half the middle one, its neighbour, half the depth.
     pub fn new(footprint: &Footprint, n: usize) -> Self {
+        Self::row(footprint, 1, n)
+    }
+
+    /// A rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
+    /// one, a neighbour, half the depth.
+    pub fn row(footprint: &Footprint, neighbours: usize, n: usize) -> Self {
         let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
         // The layer of a free edge ends where the far side is felt.
         let free = width.min(2.0);
         let facing = gap.min(free);
+        let neighbour = |k: usize| {
+            let before = (k - 1) as f64 * footprint.pitch_over_a();
+            let outer = if k == neighbours { free } else { facing };
+            Axis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
+        };
         Self {
             middle: Axis::upper_half(1.0, facing, n),
-            neighbour: Axis::graded([1.0 + gap, 3.0 + gap], [facing, free], n),
+            neighbours: (1..=neighbours).map(neighbour).collect(),
             depth: Axis::upper_half(0.5 * width, free, n),
         }
     }
@@ -109,8 +120,13 @@ impl Mesh {
     /// Whether rounding has left a gap and every cell a width.
     pub fn is_resolved(&self) -> bool {
         let open = |axis: &Axis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
-        self.neighbour.edges[0] > 1.0
-            && [&self.middle, &self.neighbour, &self.depth].into_iter().all(open)
+        let mut last = self.middle.edges[self.middle.cells()];
+        let mut apart = |axis: &Axis| {
+            let before = std::mem::replace(&mut last, axis.edges[axis.cells()]);
+            axis.edges[0] > before
+        };
+        self.neighbours.iter().all(&mut apart)
+            && [&self.middle, &self.depth].into_iter().chain(&self.neighbours).all(open)
     }
 }
 

@@ -38,10 +38,7 @@ pub fn calibrate(footprint: &Footprint) -> Result<Springs, Unresolved> {
     let [c4, c6, c8] = [on(footprint, coarse)?, on(footprint, medium)?, on(footprint, fine)?];
     let check = extrapolate([coarse, medium], [&c4, &c6]);
     let best = extrapolate([medium, fine], [&c6, &c8]);
-    let error = |i: usize| {
-        let remainder = (best[i] - check[i]).abs() + CAUTION * (best[i] - c8[i]).abs();
-        remainder / best[i % 3]
-    };
+    let error = |i: usize| estimated_error([check[i], c8[i], best[i]]) / best[i % 3];
     let [ax, ay, aphi, bx, by, bphi] = best;
     Ok(Springs {
         direct: [ax, ay, aphi],
@@ -61,7 +58,7 @@ pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6]
 }
 
 /// Cells a side of the meshes of [`calibrate`].
-const CELLS: [usize; 3] = [4, 6, 8];
+pub(crate) const CELLS: [usize; 3] = [4, 6, 8];
 
 /// Order of convergence of the reactions, as observed: that of piecewise constant tractions, since
 /// the grading takes care of the edges.
@@ -70,11 +67,23 @@ const ORDER: i32 = 3;
 /// Share of the extrapolated step in the estimated error (S8).
 const CAUTION: f64 = 0.3;
 
+/// (S8), absolute: from the extrapolation of the coarser meshes, the finest mesh, and the best
+/// extrapolation.
+pub(crate) fn estimated_error([check, finest, best]: [f64; 3]) -> f64 {
+    (best - check).abs() + CAUTION * (best - finest).abs()
+}
+
+/// (S7) for any list of numbers, from two meshes, the coarser first.
+pub(crate) fn extrapolation(cells: [usize; 2], [coarse, fine]: [&[f64]; 2]) -> Vec<f64> {
+    let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
+    coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+}
+
 fn on(footprint: &Footprint, n: usize) -> Result<[f64; 6], Unresolved> {
     reactions(footprint, n).map(|found| found.coefficients())
 }
 
 fn extrapolate(cells: [usize; 2], [coarse, fine]: [&[f64; 6]; 2]) -> [f64; 6] {
-    let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
-    std::array::from_fn(|i| fine[i] + (fine[i] - coarse[i]) * share)
+    let numbers = extrapolation(cells, [coarse, fine]);
+    std::array::from_fn(|i| numbers[i])
 }

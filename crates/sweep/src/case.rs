@@ -3,6 +3,7 @@
 use skin::flexure;
 use skin::puncture;
 use skin::{Base, Design, Imperfection};
+use substrate::Coupling;
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,6 +14,8 @@ pub struct Case {
     pub puncture: puncture::Parameters,
     /// What bending depends on besides. Its contact law and its steps are those of the puncture.
     pub flexure: flexure::Parameters,
+    /// Which neighbours of a scale the substrate couples it with.
+    pub coupling: Coupling,
     /// How far gaps and slants scatter.
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
@@ -43,6 +46,7 @@ impl Default for Case {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             puncture: puncture::Parameters::default(),
             flexure: flexure::Parameters::default(),
+            coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },
         }

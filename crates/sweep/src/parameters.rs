@@ -2,6 +2,7 @@
 
 use skin::Base;
 use skin::flexure::Method;
+use substrate::Coupling;
 
 use crate::parameter::Bound::{Excluded, Included};
 use crate::parameter::{CountRange, Kind, Parameter, Range};
@@ -65,6 +66,17 @@ pub static PARAMETERS: &[Parameter] = &[
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(0.5) },
             field: |c| &mut c.puncture.poisson_ratio,
+        },
+    },
+    Parameter {
+        key: "coupling",
+        section: "substrate",
+        unit: "-",
+        meaning: "neighbours that the substrate couples a scale with, the nearest or all that matter",
+        kind: Kind::Word {
+            words: &["nearest", "full"],
+            get: |c| usize::from(c.coupling == Coupling::Full),
+            set: |c, word| c.coupling = [Coupling::Nearest, Coupling::Full][word],
         },
     },
     Parameter {

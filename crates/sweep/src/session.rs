@@ -114,7 +114,7 @@ impl<'a> Session<'a> {
         let jobs = Jobs {
             prepare: |index| {
                 let case = grid.case(index);
-                let print = footprint(&case);
+                let print = (footprint(&case), case.coupling);
                 // The slant is the fastest axis, so most neighbours share their footprint.
                 let known = last.lock().is_ok_and(|mut last| last.replace(print) == Some(print));
                 if !known {

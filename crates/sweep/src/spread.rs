@@ -2,7 +2,7 @@
 
 use skin::flexure::{self, Flexure};
 use skin::puncture;
-use substrate::Springs;
+use substrate::RowStiffness;
 
 use crate::case::Case;
 use crate::measure::Measure;
@@ -55,10 +55,10 @@ pub struct Spreads {
 
 impl Spreads {
     /// Punctures the samples of `case`.
-    pub(crate) fn puncture(&mut self, case: &Case, springs: &Springs) {
+    pub(crate) fn puncture(&mut self, case: &Case, substrate: &RowStiffness) {
         let (mut force, mut penetration) = (Vec::new(), Vec::new());
         for number in 1..=case.samples.count as u64 {
-            let record = punctured(case, springs, number);
+            let record = punctured(case, substrate, number);
             let measures = record.map(|record| record.measures);
             force.extend(measures.and_then(|measures| measures.critical_force));
             penetration.extend(measures.and_then(|measures| measures.penetration));
@@ -94,10 +94,10 @@ impl Spreads {
     }
 }
 
-fn punctured(case: &Case, springs: &Springs, number: u64) -> Option<PunctureRecord> {
+fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureRecord> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    let puncture = puncture::solve_sample(&case.design, springs, &case.puncture, &sample).ok()?;
-    Some(PunctureRecord::new(&puncture, springs.error))
+    let puncture = puncture::solve_sample(&case.design, substrate, &case.puncture, &sample).ok()?;
+    Some(PunctureRecord::new(&puncture, substrate.estimated_error()))
 }
 
 fn bent(case: &Case, number: u64) -> Option<Flexure> {

@@ -4,7 +4,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture};
-use substrate::{Calibrations, Footprint, Springs};
+use std::sync::Arc;
+
+use substrate::{Calibrations, Footprint, RowStiffness};
 
 use crate::case::Case;
 use crate::grid::DesignNumber;
@@ -48,7 +50,7 @@ impl Workbench {
     pub fn prepare(&self, case: &Case) {
         if self.measures(Measure::Puncture) {
             // Whatever goes wrong goes wrong again, and is recorded, when a design needs it.
-            let _ = guarded(|| self.springs(case));
+            let _ = guarded(|| self.substrate(case));
         }
     }
 
@@ -65,11 +67,11 @@ impl Workbench {
     }
 
     fn puncture(&self, case: &Case) -> Result<(PunctureRecord, Puncture), Outcome> {
-        let springs = guarded(|| self.springs(case)).flatten()?;
-        let puncture = guarded(|| puncture::solve(&case.design, &springs, &case.puncture))?;
+        let substrate = guarded(|| self.substrate(case)).flatten()?;
+        let puncture = guarded(|| puncture::solve(&case.design, &*substrate, &case.puncture))?;
         // Validation lets no case without mechanical meaning come here.
         let puncture = puncture.map_err(|_| Outcome::Internal)?;
-        Ok((PunctureRecord::new(&puncture, springs.error), puncture))
+        Ok((PunctureRecord::new(&puncture, substrate.estimated_error()), puncture))
     }
 
     /// What imperfect samples of `case` give.
@@ -79,9 +81,9 @@ impl Workbench {
             return spreads;
         }
         if self.measures(Measure::Puncture) {
-            let punctured = guarded(|| self.springs(case))
+            let punctured = guarded(|| self.substrate(case))
                 .flatten()
-                .and_then(|springs| guarded(|| spreads.puncture(case, &springs)));
+                .and_then(|substrate| guarded(|| spreads.puncture(case, &substrate)));
             if punctured.is_err() {
                 spreads.fail(case, Measure::Puncture);
             }
@@ -95,9 +97,9 @@ impl Workbench {
         spreads
     }
 
-    fn springs(&self, case: &Case) -> Result<Springs, Outcome> {
+    fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = footprint(case).ok_or(Outcome::Calibration)?;
-        self.calibrations.get(&footprint).map_err(|_| Outcome::Calibration)
+        self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }
 }
 

@@ -61,7 +61,8 @@ fn values(axis: &Axis) -> String {
 
 /// How many footprints the substrate is calibrated for: the combinations of what they depend on.
 fn calibrations(sweep: &Sweep) -> u64 {
-    let matters = ["gap_over_t", "length_over_t", "base", "width_over_t", "poisson_ratio"];
+    let matters =
+        ["gap_over_t", "length_over_t", "base", "width_over_t", "poisson_ratio", "coupling"];
     let axes = sweep.grid().axes().iter();
     axes.filter(|axis| matters.contains(&axis.parameter().key)).map(Axis::len).product()
 }

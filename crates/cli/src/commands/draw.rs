@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use report::drawings;
 use skin::{flexure, puncture};
-use substrate::Springs;
+use substrate::RowStiffness;
 use sweep::{Case, DesignNumber, Sweep, footprint};
 
 use super::figure_file::{Written, write_html, write_svg};
@@ -113,8 +113,8 @@ impl Drawing<'_> {
 
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::Snapshot>> {
         let case = &self.case;
-        let springs = springs(case)?;
-        let solved = puncture::snapshots(&case.design, &springs, &case.puncture, at)?;
+        let substrate = substrate(case)?;
+        let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::Snapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
@@ -155,11 +155,11 @@ impl Drawing<'_> {
     }
 }
 
-/// The springs under a row.
-pub fn springs(case: &Case) -> anyhow::Result<Springs> {
+/// The substrate under a row.
+pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     let footprint = footprint(case);
     let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
-    Ok(substrate::calibrate(&footprint)?)
+    Ok(RowStiffness::of(&footprint, case.coupling)?)
 }
 
 /// Places on a path, for the name of a file.

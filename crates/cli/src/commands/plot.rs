@@ -8,7 +8,7 @@ use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
 use sweep::{Case, DesignNumber, Sweep};
 
-use super::draw::{designs, springs};
+use super::draw::{designs, substrate};
 use super::figure_file::{Written, write_svg};
 use super::results_folder::ResultsFolder;
 use super::{DONE, INCOMPLETE, folder_of, read};
@@ -78,14 +78,14 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
 
 /// The puncture of a design, to the critical tilt or to a displacement, and its bending.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
-    let springs = springs(case)?;
+    let substrate = substrate(case)?;
     let (mut parameters, mut bending) = (case.puncture, case.flexure);
     // Close enough for a line.
     for solver in [&mut parameters.solver, &mut bending.solver] {
         solver.max_step = solver.max_step.min(CURVE_STEP);
     }
     let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
-    let mut puncture = puncture::snapshots(&case.design, &springs, &parameters, &at)?.puncture;
+    let mut puncture = puncture::snapshots(&case.design, &substrate, &parameters, &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));

@@ -8,7 +8,7 @@ use skin::puncture;
 use sweep::Weights;
 use sweep::columns::design_columns;
 
-use super::draw::springs;
+use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
 use super::{DONE, PROGRAM};
@@ -87,9 +87,9 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
     let case = grid.case(grid.parse_number(number).ok()?);
-    let springs = springs(&case).ok()?;
+    let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &springs, &case.puncture, &at).ok()?;
+    let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
     let drawing = drawings::Puncture {

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod clusters;
+mod couplings;
 mod design;
 mod imperfections;
 mod kills;

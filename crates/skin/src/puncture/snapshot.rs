@@ -4,7 +4,7 @@ use contact::ContactLaw;
 use solver::{Path, State};
 
 use super::system::{Chain, Layout};
-use super::{InvalidDesign, Parameters, PathPoint, Puncture, ScaleState, Springs, Status};
+use super::{InvalidDesign, Parameters, PathPoint, Puncture, RowStiffness, ScaleState, Status};
 use crate::Design;
 use crate::arrangement::Arrangement;
 use crate::crossing::{Crossing, follow};
@@ -55,17 +55,18 @@ pub struct Snapshots {
 /// If a length, a modulus or a constant of the contact law is not positive.
 pub fn snapshots(
     design: &Design,
-    springs: &Springs,
+    substrate: impl Into<RowStiffness>,
     parameters: &Parameters,
     at: &[At],
 ) -> Result<Snapshots, InvalidDesign> {
+    let stiffness = &substrate.into();
     let mut parameters = *parameters;
-    let mut puncture = super::solve(design, springs, &parameters)?;
+    let mut puncture = super::solve(design, stiffness, &parameters)?;
     while reaches_short(&puncture, at) && parameters.critical_tilt_deg < STEEPEST_DEG {
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
-        puncture = super::solve(design, springs, &parameters)?;
+        puncture = super::solve(design, stiffness, &parameters)?;
     }
-    let chain = chain(design, springs, &parameters, &puncture)?;
+    let chain = chain(design, stiffness, &parameters, &puncture)?;
     let at = along(chain, design.length, &parameters, at);
     Ok(Snapshots { puncture, at })
 }
@@ -86,7 +87,7 @@ fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
 /// The chain of the row that `puncture` was solved on.
 fn chain(
     design: &Design,
-    springs: &Springs,
+    stiffness: &RowStiffness,
     parameters: &Parameters,
     puncture: &Puncture,
 ) -> Result<Chain, InvalidDesign> {
@@ -97,7 +98,7 @@ fn chain(
     let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
     let tilt = parameters.critical_tilt_deg.to_radians();
     let row = Arrangement::Even(design.row()?);
-    Ok(Chain::new(row, springs, law, layout, parameters.load_position, tilt))
+    Ok(Chain::new(row, stiffness, law, layout, parameters.load_position, tilt))
 }
 
 fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<Option<Snapshot>> {

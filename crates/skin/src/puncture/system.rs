@@ -3,7 +3,7 @@
 use contact::ContactLaw;
 use geometry::{Corner, Vec2};
 use solver::{BandMatrix, Control, Residual, State, System};
-use substrate::Springs;
+use substrate::{Neighbour, RowStiffness};
 
 use crate::arrangement::Arrangement;
 use crate::joints::{Joints, PAIR_FORCES};
@@ -64,7 +64,7 @@ impl Layout {
     }
 }
 
-/// A row of scales on springs, the load on one of them, as [`System`].
+/// A row of scales on a substrate, the load on one of them, as [`System`].
 ///
 /// Unknowns are the displacements and rotations, the force of each contact, and the load `F`.
 #[derive(Clone, Debug)]
@@ -74,8 +74,9 @@ pub(crate) struct Chain {
     half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     direct: [f64; 3],
-    /// `a β_x, a β_y, a³ β_φ`.
-    coupling: [f64; 3],
+    /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
+    /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
+    neighbours: Vec<Neighbour>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
@@ -85,7 +86,7 @@ pub(crate) struct Chain {
 impl Chain {
     pub(crate) fn new(
         arrangement: Arrangement,
-        springs: &Springs,
+        stiffness: &RowStiffness,
         law: ContactLaw,
         layout: Layout,
         load_position: f64,
@@ -94,8 +95,12 @@ impl Chain {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
         let powers = [a, a, a.powi(3)];
-        let direct: [f64; 3] = std::array::from_fn(|k| powers[k] * springs.direct[k]);
-        let coupling = std::array::from_fn(|k| powers[k] * springs.coupling[k]);
+        let scaled = |numbers: [f64; 3]| std::array::from_fn(|k| powers[k] * numbers[k]);
+        let direct: [f64; 3] = scaled(stiffness.direct);
+        let neighbours = stiffness.neighbours.iter().map(|neighbour| Neighbour {
+            direct: scaled(neighbour.direct),
+            cross: a * a * neighbour.cross,
+        });
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
         let mut units = vec![1.0; layout.size()];
@@ -110,7 +115,7 @@ impl Chain {
             joints: Joints::new(arrangement, law, scales, forces),
             half_base: a,
             direct,
-            coupling,
+            neighbours: neighbours.collect(),
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
@@ -143,16 +148,49 @@ impl Chain {
         self.half_base * rotation.sin().abs() - y
     }
 
-    /// Reaction of the springs on a scale (force and moment), opposed to its displacement: minus
-    /// the `F_x, F_y, M` of Eq. (1).
+    /// Reaction of the substrate on a scale (force and moment), opposed to its displacement: minus
+    /// the `F_x, F_y, M` of Eq. (1), or of (S9).
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let own = self.displacement(z, scale);
         let at = |neighbour: Option<usize>| {
             let neighbour = neighbour.filter(|&i| i < self.layout.scales());
             neighbour.map_or([0.0; 3], |i| self.displacement(z, i))
         };
-        let (left, right) = (at(scale.checked_sub(1)), at(Some(scale + 1)));
-        std::array::from_fn(|k| self.coupling[k] * (left[k] + right[k]) - self.direct[k] * own[k])
+        let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
+        for (before, neighbour) in self.neighbours.iter().enumerate() {
+            let distance = before + 1;
+            let (left, right) = (at(scale.checked_sub(distance)), at(Some(scale + distance)));
+            for k in 0..3 {
+                reaction[k] -= neighbour.direct[k] * (left[k] + right[k]);
+            }
+            reaction[1] -= neighbour.cross * (left[2] - right[2]);
+            reaction[2] -= neighbour.cross * (right[1] - left[1]);
+        }
+        reaction
+    }
+
+    /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
+    fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
+        for i in 0..self.layout.scales() {
+            let at = self.layout.scale(i);
+            for k in 0..3 {
+                entry(at + k, at + k, self.direct[k]);
+            }
+            for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
+                let other = self.layout.scale(i - 1 - before);
+                for k in 0..3 {
+                    entry(at + k, other + k, neighbour.direct[k]);
+                    entry(other + k, at + k, neighbour.direct[k]);
+                }
+                let cross = neighbour.cross;
+                if cross != 0.0 {
+                    entry(at + 1, other + 2, cross);
+                    entry(other + 2, at + 1, cross);
+                    entry(other + 1, at + 2, -cross);
+                    entry(at + 2, other + 1, -cross);
+                }
+            }
+        }
     }
 
     /// Elastic energy of the springs and of the contacts, over `E* t³`.
@@ -167,17 +205,7 @@ impl Chain {
     }
 
     fn add_springs(&self, z: &[f64], residual: &mut Residual) {
-        for i in 0..self.layout.scales() {
-            let at = self.layout.scale(i);
-            for k in 0..3 {
-                residual.add(at + k, self.direct[k] * z[at + k]);
-                if i > 0 {
-                    let before = self.layout.scale(i - 1);
-                    residual.add(at + k, -self.coupling[k] * z[before + k]);
-                    residual.add(before + k, -self.coupling[k] * z[at + k]);
-                }
-            }
-        }
+        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
     }
 
     fn add_load(&self, z: &[f64], residual: &mut Residual) {
@@ -195,8 +223,8 @@ impl System for Chain {
     }
 
     fn half_bandwidth(&self) -> usize {
-        // From x of a scale to φ of the next, with the load between them.
-        BLOCK + 3
+        // From x of a scale to φ of the last that it is coupled with, with the load between them.
+        BLOCK * self.neighbours.len().max(1) + 3
     }
 
     fn load(&self) -> usize {
@@ -219,17 +247,7 @@ impl System for Chain {
     }
 
     fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
-        for i in 0..self.layout.scales() {
-            let at = self.layout.scale(i);
-            for k in 0..3 {
-                matrix.add(at + k, at + k, self.direct[k]);
-                if i > 0 {
-                    let before = self.layout.scale(i - 1);
-                    matrix.add(at + k, before + k, -self.coupling[k]);
-                    matrix.add(before + k, at + k, -self.coupling[k]);
-                }
-            }
-        }
+        self.for_springs(|row, column, value| matrix.add(row, column, value));
         let at = self.layout.scale(self.layout.left);
         let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
         matrix.add(at + 1, self.layout.load(), 1.0);

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use contact::{ContactLaw, FORCES, Law};
 use solver::{BandMatrix, Path, Point, Residual, Settings, State, System};
-use substrate::calibrate;
+use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
 use super::{Parameters, Problem, Rows, Status};
@@ -27,11 +27,30 @@ fn law(design: &Design, law: Law, modulus: f64) -> ContactLaw {
 
 /// The path of a row of 21 scales to a tilt of 10°.
 fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
-    let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
+    path_on(
+        &(&calibrate(&design.footprint(0.5).unwrap()).unwrap()).into(),
+        design,
+        law,
+        load_position,
+    )
+}
+
+/// The same where all scales feel each other, with rotations.
+fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
+    let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+    path_on(&stiffness, design, law, load_position)
+}
+
+fn path_on(
+    stiffness: &RowStiffness,
+    design: &Design,
+    law: ContactLaw,
+    load_position: f64,
+) -> Path<Chain> {
     let layout = Layout { left: 10, right: 10 };
     let tilt = 10.0_f64.to_radians();
     let row = design.row().unwrap();
-    let chain = Chain::new(Arrangement::Even(row), &springs, law, layout, load_position, tilt);
+    let chain = Chain::new(Arrangement::Even(row), stiffness, law, layout, load_position, tilt);
     let rest = State::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
 }
@@ -181,6 +200,82 @@ fn the_work_of_the_load_is_stored() {
     }
 }
 
+#[test]
+fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees_with_differences()
+{
+    let mut points = 0;
+    for_segments(
+        coupled_path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0),
+        |before, from, to| {
+            let state = before.between(from, to, 0.5).unwrap().state;
+            check_tangent(before.system(), &state);
+            points += 1;
+        },
+    );
+    assert!(points > 10);
+    // At rest there is nothing but the substrate.
+    let path = coupled_path(&BLOCKS, law(&BLOCKS, Law::PRINTED, HARD), 1.0);
+    let (chain, state) = (path.system(), &path.point().state);
+    let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
+    chain.tangent(&state.z, &state.active, &mut tangent);
+    let mut coupled = 0;
+    for row in (0..chain.size()).filter(|&row| row != chain.load()) {
+        for column in tangent.columns(row).filter(|&column| column != chain.load()) {
+            let value = tangent.get(row, column);
+            assert_eq!(value, tangent.get(column, row));
+            coupled += usize::from(value != 0.0);
+        }
+    }
+    // Of 21 scales, 8 neighbours on each side as far as the row goes: 3 direct and 2 cross terms each.
+    let pairs: usize = (1..=8).map(|k| 21 - k).sum();
+    assert_eq!(coupled, 3 * 21 + 2 * pairs * 5);
+}
+
+#[test]
+fn the_work_of_the_load_is_stored_in_a_coupled_row() {
+    for design in [LIVELY, BLOCKS, DOMINO] {
+        let law = law(&design, Law::PRINTED, HARD);
+        let Balance { work, off, .. } = balance(coupled_path(&design, law, 1.0));
+        assert!(off < 1e-6 * work, "{:e} {design:?}", off / work);
+    }
+}
+
+#[test]
+fn one_neighbour_without_rotation_is_the_paper() {
+    for design in [LIVELY, BLOCKS] {
+        let footprint = design.footprint(0.5).unwrap();
+        let mut one = RowStiffness::solve(&footprint, 1).unwrap();
+        one.neighbours[0].cross = 0.0;
+        let springs = calibrate(&footprint).unwrap();
+        let parameters =
+            Parameters { scales: super::RowLength::Scales(21), ..Parameters::default() };
+        let ours = super::solve(&design, &one, &parameters).unwrap();
+        let paper = super::solve(&design, &springs, &parameters).unwrap();
+        assert_eq!(ours.measures, paper.measures);
+        let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let full = super::solve(&design, &full, &parameters).unwrap();
+        assert_ne!(full.measures.critical_force, paper.measures.critical_force);
+    }
+}
+
+/// (S11): eight neighbours on each side against sixteen.
+#[test]
+fn more_neighbours_change_next_to_nothing() {
+    for slant_deg in [0.0, 45.0, 75.0] {
+        let design = Design { slant_deg, ..BLOCKS };
+        let at = |neighbours| {
+            let row = RowStiffness::solve(&design.footprint(0.5).unwrap(), neighbours).unwrap();
+            super::solve(&design, &row, &Parameters::default()).unwrap().measures
+        };
+        let (ours, more) = (at(substrate::NEIGHBOURS), at(2 * substrate::NEIGHBOURS));
+        let close = |a: Option<f64>, b: Option<f64>| {
+            assert_relative_eq!(a.unwrap(), b.unwrap(), max_relative = 0.005);
+        };
+        close(ours.critical_force, more.critical_force);
+        close(ours.penetration, more.penetration);
+    }
+}
+
 /// So soft that the contacts take a good part of the energy.
 #[test]
 fn soft_contacts_store_their_part_of_the_work() {
@@ -213,7 +308,7 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
     let parameters = &Parameters::default();
     let row = Rows::Even(DOMINO.row().unwrap());
-    let problem = Problem::new(row, &DOMINO, &springs, parameters).unwrap();
+    let problem = Problem::new(row, &DOMINO, (&springs).into(), parameters).unwrap();
     let cut = problem.grow(60).unwrap();
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);

@@ -130,7 +130,7 @@ pub(super) static VALUES: &[Value] = &[
         tables: &[],
         name: "calibration_error",
         unit: "-",
-        meaning: "estimated relative error of the springs of the substrate",
+        meaning: "estimated relative error of the stiffness of the substrate, with what full coupling neglects",
         cell: |r| punctured(r, |p| p.calibration_error),
     },
     Value {

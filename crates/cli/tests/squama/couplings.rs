@@ -1,0 +1,52 @@
+//! The substrate as the paper has it and closer to a half-space, in one sweep.
+
+use crate::Place;
+
+const BOTH: &str = "name = 'both'\nmeasures = ['coverage', 'puncture', 'flexure']\n[designs]\n\
+                    slant_deg = [0, 45]\ncoupling = ['nearest', 'full']\ngap_over_t = 0.1\n\
+                    length_over_t = 1\n";
+
+fn cells<'t>(table: &'t str, column: &str) -> Vec<&'t str> {
+    let names = table.lines().next().expect("a header");
+    let place = names.split(',').position(|name| name == column).expect("a column");
+    table.lines().skip(1).map(|row| row.split(',').nth(place).expect("a cell")).collect()
+}
+
+#[test]
+fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {
+    let place = Place::with(BOTH);
+    let check = place.prints("check x.toml");
+    assert!(check.contains("calibrations  2\n"), "{check}");
+    place.squama("run x.toml -q --out both").assert().code(0);
+    place.squama("run x.toml -q --out again --threads 1").assert().code(0);
+    place.assert_same_tables("both", "again");
+    let table = place.read("both/designs.csv");
+    assert_eq!(cells(&table, "coupling"), ["nearest", "nearest", "full", "full"]);
+    for column in ["coverage", "compliance", "max_moment"] {
+        let cells = cells(&table, column);
+        assert_eq!(cells[..2], cells[2..], "{column}");
+    }
+    for column in ["critical_force", "penetration", "calibration_error"] {
+        let cells = cells(&table, column);
+        assert!(cells[0] != cells[2] && cells[1] != cells[3], "{column}");
+    }
+    // What is not said is the paper.
+    place.squama("run x.toml -q --out paper --set designs.coupling=nearest").assert().code(0);
+    let paper = place.read("paper/designs.csv");
+    assert_eq!(cells(&paper, "critical_force"), cells(&table, "critical_force")[..2]);
+    place.squama("rerun both --failed -q").assert().code(0);
+}
+
+#[test]
+fn a_rerun_may_change_the_coupling() {
+    let place = Place::with(BOTH);
+    place.squama("run x.toml -q --out full --set designs.coupling=full").assert().code(0);
+    let text = BOTH.replace("coupling = ['nearest', 'full']\n", "");
+    std::fs::write(place.path("y.toml"), text).expect("writable");
+    place.squama("run y.toml -q --out r").assert().code(0);
+    place.squama("rerun r --design 2 -q --set substrate.coupling=full").assert().code(0);
+    let (rerun, full) = (place.read("r/designs.csv"), place.read("full/designs.csv"));
+    assert_eq!(cells(&rerun, "settings"), ["", "substrate.coupling=full"]);
+    assert_eq!(cells(&rerun, "critical_force")[1], cells(&full, "critical_force")[1]);
+    place.squama("run y.toml -q --out z --set substrate.coupling=all").assert().code(2);
+}

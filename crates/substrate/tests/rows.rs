@@ -1,0 +1,134 @@
+//! The stiffness of whole rows, Eqs. (S9)–(S12).
+
+use std::f64::consts::PI;
+
+use substrate::{Calibrations, Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
+
+/// From long narrow bases close together to square ones far apart.
+const FOOTPRINTS: [[f64; 2]; 6] =
+    [[0.2, 2.0], [0.2, 20.0], [8.0, 80.0], [4.0, 2.0], [0.05, 0.5], [0.1, 1.0]];
+
+fn footprint([gap, width]: [f64; 2]) -> Footprint {
+    Footprint::new(gap, width, 0.5).unwrap()
+}
+
+fn row(numbers: [f64; 2], neighbours: usize) -> RowStiffness {
+    RowStiffness::solve(&footprint(numbers), neighbours).unwrap()
+}
+
+#[test]
+fn one_neighbour_without_rotation_is_equation_1() {
+    for numbers in FOOTPRINTS {
+        let (springs, row) = (calibrate(&footprint(numbers)).unwrap(), row(numbers, 1));
+        let mut eq1 = RowStiffness::from(&springs);
+        assert_eq!(row.direct, eq1.direct);
+        assert!(row.neighbours[0].cross < 0.0);
+        eq1.neighbours[0].cross = row.neighbours[0].cross;
+        assert_eq!(row.neighbours, eq1.neighbours);
+        assert!(row.error >= eq1.error);
+    }
+}
+
+/// (S12): the stiffness of an endless row for displacements that vary along it as `exp(i q k)`. Where it is
+/// positive for every `q`, that of every finite row is positive definite.
+#[test]
+fn the_stiffness_is_positive_definite() {
+    for numbers in FOOTPRINTS {
+        for neighbours in [1, 2, NEIGHBOURS] {
+            let row = row(numbers, neighbours);
+            for step in 0..=400 {
+                let q = PI * f64::from(step) / 400.0;
+                let waves = |part: fn(f64) -> f64, of: &dyn Fn(usize) -> f64| -> f64 {
+                    let terms = (0..row.neighbours.len()).map(|k| of(k) * part((k + 1) as f64 * q));
+                    2.0 * terms.sum::<f64>()
+                };
+                let own =
+                    |i: usize| row.direct[i] + waves(f64::cos, &|k| row.neighbours[k].direct[i]);
+                let cross = waves(f64::sin, &|k| row.neighbours[k].cross);
+                assert!(own(0) > 0.0 && own(1) > 0.0 && own(2) > 0.0, "{numbers:?} {q}");
+                assert!(own(1) * own(2) > cross * cross, "{numbers:?} {q}");
+            }
+        }
+    }
+}
+
+/// A scale far away feels a point load, and a couple: it is held against `u = α_y/(π r)` and against
+/// `u = α_φ/(π r²)`.
+#[test]
+fn far_scales_feel_point_loads_and_couples() {
+    let row = row([200.0, 2.0], 3);
+    let [_, alone, turned] = row.direct;
+    for (k, neighbour) in row.neighbours.iter().enumerate() {
+        let r = (k + 1) as f64 * 202.0;
+        let force = -alone * alone / (PI * r);
+        let couple = -alone * turned / (PI * r * r);
+        assert!((neighbour.direct[1] / force - 1.0).abs() < 0.02, "{k} {}", neighbour.direct[1]);
+        // The scale between takes a part.
+        assert!((neighbour.cross / couple - 1.0).abs() < 0.03, "{k} {}", neighbour.cross);
+    }
+}
+
+/// Betti's theorem is part of the error.
+#[test]
+fn the_numbers_are_as_good_as_those_of_equation_1() {
+    for numbers in FOOTPRINTS {
+        let row = row(numbers, NEIGHBOURS);
+        assert!(row.error < 1e-3, "{numbers:?} {:e}", row.error);
+        assert!(row.truncation < 0.02, "{numbers:?} {:e}", row.truncation);
+        assert_eq!(row.estimated_error(), row.error + row.truncation);
+    }
+}
+
+/// (S11): what a row with twice as many neighbours changes in any of the numbers is less than the
+/// truncation error.
+#[test]
+fn the_truncation_error_bounds_what_more_neighbours_change() {
+    for numbers in FOOTPRINTS {
+        for neighbours in [2, 4, 8] {
+            let (short, long) = (row(numbers, neighbours), row(numbers, 2 * neighbours));
+            let pairs = short.neighbours.iter().zip(&long.neighbours);
+            let pairs = pairs.map(|(a, b)| (a.direct, b.direct));
+            for (a, b) in pairs.chain([(short.direct, long.direct)]) {
+                for i in 0..3 {
+                    let change = (a[i] - b[i]).abs() / long.direct[i];
+                    assert!(change < short.truncation, "{numbers:?} {neighbours} {i} {change}");
+                }
+            }
+            assert!(long.truncation < 0.7 * short.truncation);
+        }
+    }
+}
+
+/// Rotations are felt by the nearest neighbours only, displacements far off.
+#[test]
+fn couplings_of_rotations_decay_faster_than_those_of_displacements() {
+    for numbers in FOOTPRINTS {
+        let row = row(numbers, NEIGHBOURS);
+        let part = |k: usize, i: usize| (row.neighbours[k].direct[i] / row.direct[i]).abs();
+        assert!(
+            part(3, 2) < 3e-4 && part(3, 1) > 7e-3,
+            "{numbers:?} {} {}",
+            part(3, 2),
+            part(3, 1)
+        );
+        let size = (row.direct[1] * row.direct[2]).sqrt();
+        assert!((row.neighbours[3].cross / size).abs() < 2e-3, "{numbers:?}");
+    }
+}
+
+#[test]
+fn both_couplings_are_shared() {
+    let shared = Calibrations::default();
+    let print = footprint([0.2, 2.0]);
+    let full = shared.row(&print, Coupling::Full).unwrap();
+    assert_eq!(*full, RowStiffness::of(&print, Coupling::Full).unwrap());
+    assert_eq!(full.neighbours.len(), NEIGHBOURS);
+    assert_eq!(shared.row(&print, Coupling::Full).unwrap(), full);
+    assert_eq!(shared.solved(), 1);
+    let nearest = shared.row(&print, Coupling::Nearest).unwrap();
+    assert_eq!(*nearest, RowStiffness::from(&calibrate(&print).unwrap()));
+    assert_eq!(shared.get(&print), calibrate(&print));
+    assert_eq!((shared.solved(), shared.held()), (2, 2));
+    let lost = Footprint::new(1e-17, 2.0, 0.5).unwrap();
+    assert!(shared.row(&lost, Coupling::Full).is_err());
+}
