@@ -10,6 +10,7 @@ use serde::Deserialize;
 
 pub use finding::{Finding, Verdict};
 pub(crate) use finding::{digits, named};
+pub(crate) use statistics::Value;
 
 use crate::Error;
 use crate::study::Study;

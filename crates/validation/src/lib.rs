@@ -20,7 +20,7 @@ use sweep::Sweep;
 pub use benchmarks::{Benchmark, benchmarks};
 pub use claims::{CheckedClaim, Claim, Finding, Verdict, claims};
 pub use search::{Scored, Search};
-pub use sensitivity::{Headlines, Sensitivity, sensitivity};
+pub use sensitivity::{CouplingEffect, Headlines, Sensitivity, sensitivity};
 use study::Study;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
@@ -61,6 +61,8 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// What the headline results depend on.
     pub sensitivity: Vec<Sensitivity>,
+    /// What the paper's simplified coupling through the substrate does to the measures.
+    pub coupling: Vec<CouplingEffect>,
 }
 
 impl Validation {
@@ -73,7 +75,8 @@ impl Validation {
         let study = |text: &str| Study::run(Sweep::parse(text, "paper", &[])?);
         let [paper, as_written] = [study(SWEEPS[0])?, study(SWEEPS[1])?];
         let claims = claims::check([&paper, &as_written])?;
-        Ok(Self { benchmarks, claims, sensitivity: sensitivity()? })
+        let (sensitivity, coupling) = sensitivity()?;
+        Ok(Self { benchmarks, claims, sensitivity, coupling })
     }
 
     /// Whether every benchmark lies within its band.

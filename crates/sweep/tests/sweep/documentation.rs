@@ -91,7 +91,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
-    assert_eq!(read("sweeps/coupling.toml").grid().len(), 2 * 4 * 4 * 6);
+    assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
     assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
     assert!(read("sweeps/imperfection.toml").is_imperfect());
     assert!(!read("sweeps/paper.toml").is_imperfect());
