@@ -52,6 +52,14 @@ mod tests {
             let value = coverage(slant.to_radians().tan(), base, base + gap);
             prop_assert!((0.0..1.0).contains(&value), "{value}");
         }
+
+        #[test]
+        fn wider_gaps_never_cover_more(
+            slant in 0.0_f64..89.0, base in 0.01_f64..6.0, gap in 0.01_f64..3.0, wider in 1.0_f64..3.0,
+        ) {
+            let at = |gap: f64| coverage(slant.to_radians().tan(), base, base + gap);
+            prop_assert!(at(wider * gap) <= at(gap) + 1e-12);
+        }
     }
 
     #[test]
