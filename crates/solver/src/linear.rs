@@ -2,7 +2,7 @@
 //!
 //! The unknowns of a row of scales are numbered along the row, so that every equation couples
 //! unknowns at most a dozen places apart and one factorisation costs time proportional to the length of the
-//! row. A general sparse LU needs two to four times as long on these matrices
+//! row. A general sparse LU needs more than twice as long on these matrices
 //! (`benches/linear.rs` compares them).
 
 use std::ops::Range;
