@@ -13,9 +13,9 @@ use crate::parameter::Parameter;
 use crate::results::{InvalidResults, Results};
 use crate::table::write_rows;
 use crate::whole_file::{self, OutputError};
-use correlation::rank_correlation;
 use matching::Matching;
 
+pub use correlation::rank_correlation;
 pub use matching::ParameterChange;
 
 /// Names of the tables.

@@ -110,7 +110,7 @@ pub use choice::{Choice, Condition, NoCondition, WrongChoice};
 pub use columns::Column;
 pub use compare::{
     ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
-    write_comparison,
+    rank_correlation, write_comparison,
 };
 pub use criteria::{CRITERIA, Criterion, InvalidWeights, Weights};
 pub use decimal::{Decimal, DecimalRange, InvalidRange, NotDecimal};

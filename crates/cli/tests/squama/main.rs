@@ -67,6 +67,20 @@ impl Place {
         command
     }
 
+    /// What `squama` says where no file may take more than so many blocks of 512 or 1024 bytes; it
+    /// must refuse.
+    fn refused_on_a_full_disk(&self, blocks: u32, arguments: &str) -> String {
+        let squama = assert_cmd::cargo::cargo_bin!("squama").display();
+        let output = std::process::Command::new("sh")
+            .args(["-c", &format!("ulimit -f {blocks}; exec {squama} {arguments}")])
+            .current_dir(self.path(""))
+            .output()
+            .expect("a shell");
+        let message = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{blocks}: {message}");
+        message
+    }
+
     /// What `squama` prints when it is done well.
     fn prints(&self, arguments: &str) -> String {
         let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();

@@ -41,17 +41,9 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
         .assert()
         .code(0);
     std::fs::write(place.path("r/x.xlsx"), "old").expect("writable");
-    let squama = assert_cmd::cargo::cargo_bin!("squama").display().to_string();
     // Full at once, while rows are put aside, and at the very end.
     for blocks in [1, 20, 60] {
-        let limited = format!("ulimit -f {blocks}; exec {squama} export r --xlsx r/x.xlsx");
-        let output = std::process::Command::new("sh")
-            .args(["-c", &limited])
-            .current_dir(place.path(""))
-            .output()
-            .expect("a shell");
-        let message = String::from_utf8(output.stderr).expect("text");
-        assert_eq!(output.status.code(), Some(2), "{blocks}: {message}");
+        let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(
             message,
             "error: r/x.xlsx: cannot be written (File too large), expected a disk that takes it\n"

@@ -2,7 +2,7 @@
 
 /// Spearman's rank correlation of pairs: 1 if both put them in the same order, -1 if in the
 /// opposite one. `None` if one of them has no order, because its values are all equal.
-pub(super) fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
+pub fn rank_correlation(pairs: &[[f64; 2]]) -> Option<f64> {
     let [first, second] = [0, 1].map(|side| ranks(pairs.iter().map(|pair| pair[side])));
     // Ranks sum to the same, whatever their ties.
     let mean = 0.5 * (pairs.len() as f64 + 1.0);
@@ -54,5 +54,14 @@ mod tests {
         assert_eq!(correlation(&[], &[]), None);
         assert_eq!(correlation(&[1.0], &[2.0]), None);
         assert_eq!(correlation(&[1.0, 1.0], &[1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn ranks_correlate_whatever_the_scale() {
+        let values: Vec<f64> = (0..20).map(f64::from).collect();
+        let [up, down] =
+            [1.0, -1.0].map(|sign| values.iter().map(|x| sign * x.exp()).collect::<Vec<_>>());
+        assert!((correlation(&values, &up).expect("an order") - 1.0).abs() < 1e-12);
+        assert!((correlation(&values, &down).expect("an order") + 1.0).abs() < 1e-12);
     }
 }

@@ -2,12 +2,11 @@
 
 use skin::puncture::{self, Puncture, RowLength};
 use solver::Settings;
+use substrate::RowStiffness;
 use sweep::Case;
 
 use super::finding::{Finding, digits, named};
-use super::statistics::{
-    Parameter, Value, explained, falls, lines, rank_correlation, rises, share,
-};
+use super::statistics::{Parameter, Value, explained, falls, lines, rises, share};
 use crate::study::{Design, Study};
 
 /// A scale carries a part of the load if it carries at least this much of it.
@@ -87,10 +86,12 @@ fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
     case
 }
 
+fn substrate(case: &Case) -> Option<RowStiffness> {
+    RowStiffness::of(&sweep::footprint(case)?, case.coupling).ok()
+}
+
 fn punctured(case: &Case) -> Option<Puncture> {
-    let footprint = case.design.footprint(case.puncture.poisson_ratio).ok()?;
-    let springs = substrate::calibrate(&footprint).ok()?;
-    puncture::solve(&case.design, &springs, &case.puncture).ok()
+    puncture::solve(&case.design, &substrate(case)?, &case.puncture).ok()
 }
 
 /// Mean stiffness of the step behind the first contact over that of the step before it.
@@ -110,10 +111,8 @@ fn finely(mut case: Case) -> Case {
 
 pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
     let case = finely(case(study, 0.1, 1.0, 0.0));
-    let footprint = case.design.footprint(case.puncture.poisson_ratio).ok()?;
-    let springs = substrate::calibrate(&footprint).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &springs, &case.puncture, &at).ok()?;
+    let solved = puncture::snapshots(&case.design, &substrate(&case)?, &case.puncture, &at).ok()?;
     let contacts = &solved.at.first()?.as_ref()?.contacts;
     let strongest = contacts
         .iter()
@@ -125,14 +124,13 @@ pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
     Some(Finding::graded(horizontal && little, horizontal || little, ours))
 }
 
-/// As Fig. 6d draws it: `dF*/du* = (1 − ν²) K*/(L/t)`.
-fn scaled_stiffness(design: &Design) -> Option<f64> {
-    Some(design.max_stiffness? * 0.75 / design.length)
-}
-
 pub(super) fn stiffness_by_length(study: &Study) -> Option<Finding> {
     let designs = study.designs.iter().filter(|d| (d.gap, d.slant) == (0.1, 45.0) && in_figures(d));
-    let line = lines(designs, LENGTH, [GAP, SLANT], scaled_stiffness).pop()?;
+    let per_length = |d: &Design| Some(d.max_stiffness? / d.length);
+    let line = lines(designs, LENGTH, [GAP, SLANT], per_length).pop()?;
+    // As Fig. 6d draws it: dF*/du* = (1 − ν²) K*/(L/t).
+    let plane = 1.0 - study.base.puncture.poisson_ratio.powi(2);
+    let line: Vec<f64> = line.into_iter().map(|stiffness| plane * stiffness).collect();
     Some(Finding::graded(falls(&line), falls(&line[line.len() / 2..]), listed(&line)))
 }
 
@@ -175,9 +173,9 @@ pub(super) fn largest_force_value(study: &Study) -> Option<Finding> {
 }
 
 pub(super) fn force_and_stiffness(study: &Study) -> Option<Finding> {
-    let pair = |d: &Design| Some((d.max_stiffness?, d.critical_force?));
+    let pair = |d: &Design| Some([d.max_stiffness?, d.critical_force?]);
     let pairs: Vec<_> = study.designs.iter().filter(|d| in_figures(d)).filter_map(pair).collect();
-    let rank = (pairs.len() > 2).then(|| rank_correlation(&pairs))?;
+    let rank = sweep::rank_correlation(&pairs)?;
     Some(Finding::graded(rank > 0.8, rank > 0.5, format!("{rank:.3}")))
 }
 

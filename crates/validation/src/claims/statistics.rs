@@ -1,4 +1,4 @@
-//! Trends along the lines of a grid, correlation, and shares of variance.
+//! Trends along the lines of a grid, and shares of variance.
 
 use std::collections::BTreeMap;
 
@@ -45,32 +45,6 @@ pub(crate) fn share(lines: &[Vec<f64>], holds: fn(&[f64]) -> bool) -> f64 {
     lines.iter().filter(|line| holds(line)).count() as f64 / lines.len() as f64
 }
 
-/// Pearson's correlation of two lists.
-pub(crate) fn correlation(pairs: &[(f64, f64)]) -> f64 {
-    let n = pairs.len() as f64;
-    let mean = |f: fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>() / n;
-    let (x, y) = (mean(|p| p.0), mean(|p| p.1));
-    let sum = |f: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(f).sum::<f64>();
-    let covariance = sum(&|p| (p.0 - x) * (p.1 - y));
-    covariance / (sum(&|p| (p.0 - x).powi(2)) * sum(&|p| (p.1 - y).powi(2))).sqrt()
-}
-
-/// Spearman's rank correlation; no two values of a list are equal but by accident.
-pub(crate) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
-    let (x, y): (Vec<_>, Vec<_>) = pairs.iter().copied().unzip();
-    correlation(&ranks(&x).into_iter().zip(ranks(&y)).collect::<Vec<_>>())
-}
-
-fn ranks(values: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
-    let mut ranks = vec![0.0; values.len()];
-    for (rank, &i) in order.iter().enumerate() {
-        ranks[i] = rank as f64;
-    }
-    ranks
-}
-
 /// The part of the variance of `value` that a parameter alone explains: the variance of the means over
 /// all designs that share a value of it (the first-order effect, Sobol 1993).
 pub(crate) fn explained(designs: &[(&Design, f64)], parameter: Parameter) -> f64 {
@@ -87,20 +61,12 @@ pub(crate) fn explained(designs: &[(&Design, f64)], parameter: Parameter) -> f64
 
 #[cfg(test)]
 mod tests {
-    use super::{falls, rank_correlation, rises, share};
+    use super::{falls, rises, share};
 
     #[test]
     fn trends() {
         assert!(falls(&[3.0, 2.0, 1.0]) && !falls(&[3.0, 3.0, 1.0]));
         assert!(rises(&[1.0, 2.0]) && !rises(&[1.0, 2.0, 1.5]));
         assert!((share(&[vec![2.0, 1.0], vec![1.0, 2.0]], falls) - 0.5).abs() < 1e-15);
-    }
-
-    #[test]
-    fn ranks_correlate_whatever_the_scale() {
-        let pairs: Vec<_> = (0..20).map(|i| (f64::from(i), f64::from(i).exp())).collect();
-        assert!((rank_correlation(&pairs) - 1.0).abs() < 1e-12);
-        let back: Vec<_> = pairs.iter().map(|(x, y)| (*x, -y)).collect();
-        assert!((rank_correlation(&back) + 1.0).abs() < 1e-12);
     }
 }
