@@ -37,15 +37,21 @@ pub enum Kind {
     BottomRightOnLeftEdge,
     /// Bottom left corner of the right scale on the right edge of the left scale.
     BottomLeftOnRightEdge,
+    /// Top right corner of the left scale on the top of the right scale.
+    TopRightOnTop,
+    /// Bottom left corner of the right scale on the base of the left scale.
+    BottomLeftOnBase,
 }
 
 impl Kind {
-    /// The four kinds.
-    pub const ALL: [Self; 4] = [
+    /// The six kinds.
+    pub const ALL: [Self; 6] = [
         Self::TopRightOnLeftEdge,
         Self::TopLeftOnRightEdge,
         Self::BottomRightOnLeftEdge,
         Self::BottomLeftOnRightEdge,
+        Self::TopRightOnTop,
+        Self::BottomLeftOnBase,
     ];
 
     /// Short name, as in tables.
@@ -55,33 +61,45 @@ impl Kind {
             Self::TopLeftOnRightEdge => "TL on right edge",
             Self::BottomRightOnLeftEdge => "BR on left edge",
             Self::BottomLeftOnRightEdge => "BL on right edge",
+            Self::TopRightOnTop => "TR on top",
+            Self::BottomLeftOnBase => "BL on base",
         }
     }
 
     /// The corner that touches.
     pub fn corner(self) -> Corner {
         match self {
-            Self::TopRightOnLeftEdge => Corner::TopRight,
+            Self::TopRightOnLeftEdge | Self::TopRightOnTop => Corner::TopRight,
             Self::TopLeftOnRightEdge => Corner::TopLeft,
             Self::BottomRightOnLeftEdge => Corner::BottomRight,
-            Self::BottomLeftOnRightEdge => Corner::BottomLeft,
+            Self::BottomLeftOnRightEdge | Self::BottomLeftOnBase => Corner::BottomLeft,
         }
     }
 
-    /// The kind in which the same two corners change their parts.
-    #[must_use]
-    pub fn partner(self) -> Self {
+    /// The kind in which the same two corners change their parts; none for a corner on a top or a base.
+    pub fn partner(self) -> Option<Self> {
         match self {
-            Self::TopRightOnLeftEdge => Self::TopLeftOnRightEdge,
-            Self::TopLeftOnRightEdge => Self::TopRightOnLeftEdge,
-            Self::BottomRightOnLeftEdge => Self::BottomLeftOnRightEdge,
-            Self::BottomLeftOnRightEdge => Self::BottomRightOnLeftEdge,
+            Self::TopRightOnLeftEdge => Some(Self::TopLeftOnRightEdge),
+            Self::TopLeftOnRightEdge => Some(Self::TopRightOnLeftEdge),
+            Self::BottomRightOnLeftEdge => Some(Self::BottomLeftOnRightEdge),
+            Self::BottomLeftOnRightEdge => Some(Self::BottomRightOnLeftEdge),
+            Self::TopRightOnTop | Self::BottomLeftOnBase => None,
         }
     }
 
     /// Whether the corner belongs to the left scale of the pair.
     pub fn corner_is_left(self) -> bool {
-        matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge)
+        matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge | Self::TopRightOnTop)
+    }
+
+    /// The edge that the corner meets.
+    fn edge(self, scale: &Parallelogram) -> Edge {
+        match self {
+            Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge => Edge::left(scale),
+            Self::TopLeftOnRightEdge | Self::BottomLeftOnRightEdge => Edge::right(scale),
+            Self::TopRightOnTop => Edge::top(scale),
+            Self::BottomLeftOnBase => Edge::base(scale),
+        }
     }
 }
 
@@ -95,7 +113,7 @@ pub struct Gap {
     pub gradient: [f64; 6],
     /// `∇²g`, symmetric.
     pub hessian: [[f64; 6]; 6],
-    /// Where the corner's foot lies on the edge: 0 at the base, 1 at the top.
+    /// Where the corner's foot lies on the edge: from 0 at the base (the left end of a base or a top) to 1.
     pub foot: f64,
     /// Outward normal of the edge: the direction of the force on the corner.
     pub normal: Vec2,
@@ -105,34 +123,54 @@ pub struct Gap {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
     /// The left scale and the right one.
-    sides: [Side; 2],
+    scales: [Parallelogram; 2],
     pitch: f64,
-    /// The corner of each kind of contact, undeformed, in the order of [`Kind`].
-    corners: [Vec2; 4],
+    /// The corner of each kind of contact and the edge that it meets, undeformed, in the order of [`Kind`].
+    meetings: [(Vec2, Edge); 6],
 }
 
-/// One scale of a pair, undeformed.
+/// An edge of a scale, undeformed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Side {
-    scale: Parallelogram,
-    /// Outward normal of the right edge.
-    right_normal: Vec2,
-    /// Distance of the right edge from the node, and of the left edge.
-    edge: f64,
-    /// From the base to the top along an edge, over the square of its length.
-    rise: Vec2,
+struct Edge {
+    /// Outward.
+    normal: Vec2,
+    /// Distance from the node.
+    distance: f64,
+    /// Where the edge begins: at the base, or at the left end of a base or a top.
+    start: Vec2,
+    /// From where it begins to where it ends, over the square of its length.
+    along: Vec2,
 }
 
-impl Side {
-    fn new(scale: Parallelogram) -> Self {
+impl Edge {
+    fn right(scale: &Parallelogram) -> Self {
         let (sin, cos) = scale.slant().sin_cos();
         let rise = Vec2::new(scale.shift(), 1.0);
         Self {
-            scale,
-            right_normal: Vec2::new(cos, -sin),
-            edge: scale.half_base() * cos,
-            rise: rise / rise.norm_squared(),
+            normal: Vec2::new(cos, -sin),
+            distance: scale.half_base() * cos,
+            start: scale.corner(Corner::BottomRight),
+            along: rise / rise.norm_squared(),
         }
+    }
+
+    fn left(scale: &Parallelogram) -> Self {
+        let right = Self::right(scale);
+        Self { normal: -right.normal, start: scale.corner(Corner::BottomLeft), ..right }
+    }
+
+    fn top(scale: &Parallelogram) -> Self {
+        Self {
+            normal: Vec2::y(),
+            distance: 1.0,
+            start: scale.corner(Corner::TopLeft),
+            along: Vec2::x() / (2.0 * scale.half_base()),
+        }
+    }
+
+    fn base(scale: &Parallelogram) -> Self {
+        let top = Self::top(scale);
+        Self { normal: -top.normal, distance: 0.0, start: scale.corner(Corner::BottomLeft), ..top }
     }
 }
 
@@ -149,13 +187,17 @@ impl Pair {
 
     /// Neighbours of any two shapes, the left and the right one, their nodes `pitch` apart (over `t`).
     pub fn of(scales: [Parallelogram; 2], pitch: f64) -> Self {
-        let corner = |kind: Kind| scales[usize::from(!kind.corner_is_left())].corner(kind.corner());
-        Self { sides: scales.map(Side::new), pitch, corners: Kind::ALL.map(corner) }
+        let meeting = |kind: Kind| {
+            let [left, right] = &scales;
+            let (a, b) = if kind.corner_is_left() { (left, right) } else { (right, left) };
+            (a.corner(kind.corner()), kind.edge(b))
+        };
+        Self { scales, pitch, meetings: Kind::ALL.map(meeting) }
     }
 
     /// The shapes of the left and of the right scale.
     pub fn scales(&self) -> [Parallelogram; 2] {
-        self.sides.map(|side| side.scale)
+        self.scales
     }
 
     /// Distance of the nodes at rest, over `t`.
@@ -163,15 +205,11 @@ impl Pair {
         self.pitch
     }
 
-    /// Outward normals, at rest, of the right edges of the left and of the right scale.
-    pub fn right_normals(&self) -> [Vec2; 2] {
-        self.sides.map(|side| side.right_normal)
-    }
-
-    /// How much farther the left scale leans to the right than the right one, at rest, radians.
-    pub fn convergence(&self) -> f64 {
-        let [left, right] = self.sides;
-        left.scale.slant() - right.scale.slant()
+    /// Normals, at rest, of the right edge of the left scale (inward) and of the left edge of the right
+    /// one (outward): both point left.
+    pub(crate) fn normals(&self) -> [Vec2; 2] {
+        let normal = |kind: Kind| self.meetings[kind as usize].1.normal;
+        [-normal(Kind::TopLeftOnRightEdge), normal(Kind::TopRightOnLeftEdge)]
     }
 
     /// The gap of one kind of contact, with all its derivatives.
@@ -227,6 +265,7 @@ impl Pair {
         self.facing([Kind::BottomRightOnLeftEdge, Kind::BottomLeftOnRightEdge], left, right)
     }
 
+    /// The first of `kinds` whose corner has its foot within the edge, and its gap.
     fn facing(&self, kinds: [Kind; 2], left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
         kinds.into_iter().find_map(|kind| {
             let frame = self.frame(kind, left, right);
@@ -235,23 +274,20 @@ impl Pair {
     }
 
     fn frame(&self, kind: Kind, left: &Pose, right: &Pose) -> Frame {
-        let [of_left, of_right] = &self.sides;
-        let (corner_pose, edge_pose, offset, side, normal) = if kind.corner_is_left() {
-            (left, right, -self.pitch, of_right, -of_right.right_normal)
+        let (corner_pose, edge_pose, offset) = if kind.corner_is_left() {
+            (left, right, -self.pitch)
         } else {
-            (right, left, self.pitch, of_left, of_left.right_normal)
+            (right, left, self.pitch)
         };
-        let arm = corner_pose.turn(self.corners[kind as usize]);
+        let (corner, edge) = &self.meetings[kind as usize];
+        let arm = corner_pose.turn(*corner);
         // Relative positions, so that the place of the pair in a long row costs no digits.
         let to_corner =
             Vec2::new(offset, 0.0) + (corner_pose.displacement - edge_pose.displacement) + arm;
-        let turned = edge_pose.turn(normal);
-        let gap = to_corner.dot(&turned) - side.edge;
-        // From the node to the base of the edge: `a` along the base, to the side that the normal tells.
-        let base = side.scale.half_base().copysign(normal.x);
-        let from_base = to_corner - edge_pose.turn(Vec2::new(base, 0.0));
-        let foot = from_base.dot(&edge_pose.turn(side.rise));
-        Frame { arm, normal: turned, to_corner, gap, foot }
+        let normal = edge_pose.turn(edge.normal);
+        let gap = to_corner.dot(&normal) - edge.distance;
+        let foot = (to_corner - edge_pose.turn(edge.start)).dot(&edge_pose.turn(edge.along));
+        Frame { arm, normal, to_corner, gap, foot }
     }
 }
 
@@ -290,7 +326,7 @@ mod tests {
         #[test]
         fn derivatives_agree_with_finite_differences(
             slant in 0.0_f64..80.0, half_base in 0.02_f64..3.0, gap in 0.05_f64..2.0,
-            q in prop::array::uniform6(-1.5_f64..1.5), kind in 0_usize..4,
+            q in prop::array::uniform6(-1.5_f64..1.5), kind in 0_usize..6,
         ) {
             let kind = Kind::ALL[kind];
             let scale = Parallelogram::new(half_base, slant).unwrap();

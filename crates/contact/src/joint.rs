@@ -1,9 +1,14 @@
 //! The upper and the lower contact of a pair of neighbours, from open to edge to corner and on.
 
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::FRAC_PI_2;
+
 use geometry::{Corner, Vec2};
 
-use crate::gap::{Kind, Pair, Pose, quarter};
-use crate::law::ContactLaw;
+use crate::gap::{Gap, Kind, Pair, Pose, quarter};
+use crate::law::{Approach, ContactLaw};
 
 /// Which of the two contacts of a pair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +20,22 @@ pub enum Level {
 }
 
 impl Level {
+    /// The kind in which the sharp corner of this level meets the neighbour's top or base.
+    pub fn tip(self) -> Kind {
+        match self {
+            Self::Upper => Kind::TopRightOnTop,
+            Self::Lower => Kind::BottomLeftOnBase,
+        }
+    }
+
+    /// The kind in which a corner rests on the side that ends in the tip.
+    fn on_side_of_tip(self) -> Kind {
+        match self {
+            Self::Upper => Kind::TopLeftOnRightEdge,
+            Self::Lower => Kind::BottomRightOnLeftEdge,
+        }
+    }
+
     /// The corners that meet: of the left and of the right scale.
     fn corners(self) -> [Corner; 2] {
         match self {
@@ -24,8 +45,8 @@ impl Level {
     }
 }
 
-/// Unknowns of a joint: the force of its kind and the force of its partner's kind.
-pub const FORCES: usize = 2;
+/// Unknowns of a joint: the force of its kind, the force of its partner's kind, and that of the tip.
+pub const FORCES: usize = 3;
 
 /// Unknowns that a joint couples: `(x, y, φ)` of the left and of the right scale, and the forces.
 pub const COUPLED: usize = 6 + FORCES;
@@ -38,7 +59,11 @@ const FAR: f64 = 1.0;
 /// of it as small as this angle.
 const FLUSH: f64 = 1e-6;
 
-/// The contact of neighbours at one level, as two complementarity conditions.
+/// How nearly level a side must be with a top or base (radians) for a tip to meet it. Short of it the
+/// corner at the other end of the side is nearer.
+const NEARLY_LEVEL: f64 = 0.1;
+
+/// The contact of neighbours at one level, as three complementarity conditions.
 ///
 /// Two corners meet here, `P` of the left and `Q` of the right scale, and each may rest on the
 /// edge that ends in the other. With the normals `m_A` (of the right scale's left edge) and `m_B` (inward, of
@@ -66,6 +91,15 @@ const FLUSH: f64 = 1e-6;
 /// ```
 ///
 /// and `v·m = g + δ(λ)` while `λ' = 0`. When `λ` vanishes before `λ'`, the partner's kind takes over.
+///
+/// The tip, `P` above and `Q` below, is as sharp as the scales are slanted. Where the other corner rests on the side that
+/// ends in the tip, and the side turns until it lies flush with the neighbour's top or base, the tip comes to
+/// rest on that. Both contacts act while the force moves from one to the other, and the law holds for their sum:
+///
+/// ```text
+/// 0 ≤ λ    ⟂  g  + δ(λ + λ'') ≥ 0
+/// 0 ≤ λ''  ⟂  g'' + δ(λ + λ'') ≥ 0                                                 (C7)
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Joint {
     level: Level,
@@ -74,8 +108,8 @@ pub struct Joint {
 
 /// Residual and tangent of a joint in the coordinates of the pair and its two forces.
 ///
-/// Rows 0 to 5 are what the contact subtracts from the balance of the two scales, rows 6 and 7 the
-/// conditions of the two forces.
+/// Rows 0 to 5 are what the contact subtracts from the balance of the two scales, rows 6 to 8 the
+/// conditions of the three forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointResponse {
     /// Values of the rows.
@@ -115,47 +149,139 @@ impl Joint {
         }
     }
 
+    /// The tip's gap, where it may meet the neighbour's top or base: not before the other corner rests on the
+    /// side that ends in it, nor while the corners are together.
+    fn tip(
+        self,
+        pair: &Pair,
+        [left, right]: [&Pose; 2],
+        [own, partner, _]: [bool; FORCES],
+    ) -> Option<Gap> {
+        if partner || own && self.kind != Some(self.level.on_side_of_tip()) {
+            return None;
+        }
+        let [of_left, of_right] = pair.scales();
+        let turned = left.rotation - right.rotation;
+        let beyond_level = match self.level {
+            Level::Upper => of_left.slant() - turned,
+            Level::Lower => of_right.slant() + turned,
+        } - FRAC_PI_2;
+        if beyond_level < -NEARLY_LEVEL {
+            return None;
+        }
+        let gap = pair.gap(self.level.tip(), left, right);
+        let (far_end, near_end) = match self.level {
+            Level::Upper => (gap.foot <= 1.0, gap.foot >= 0.0),
+            Level::Lower => (gap.foot >= 0.0, gap.foot <= 1.0),
+        };
+        // The other corner, when it rests on the side, is what keeps the tip from the near end.
+        (far_end && (near_end || own)).then_some(gap)
+    }
+
     /// Passes the contact on to the partner's kind.
     pub fn hand_over(&mut self) {
-        self.kind = self.kind.map(Kind::partner);
+        self.kind = self.kind.and_then(Kind::partner);
     }
 
-    /// The two conditions (C6) of an open joint.
+    /// The conditions (C6) and (C7) of a joint of which no force acts.
     pub fn open(&self, pair: &Pair, poses: [&Pose; 2]) -> [f64; FORCES] {
-        [self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap), FAR]
+        let gap = self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap);
+        let tip = self.tip(pair, poses, [false; FORCES]).map_or(FAR, |gap| gap.value);
+        [gap, FAR, tip]
     }
 
-    /// Force on the left scale; the right one takes its opposite.
-    pub fn force(&self, pair: &Pair, [left, right]: [&Pose; 2], forces: [f64; FORCES]) -> Vec2 {
-        self.kind.map_or_else(Vec2::zeros, |kind| {
+    /// Forces on the left scale, of the two corners on each other's edge and of the tip; the right scale takes
+    /// their opposites.
+    pub fn forces(
+        &self,
+        pair: &Pair,
+        [left, right]: [&Pose; 2],
+        forces: [f64; FORCES],
+    ) -> [Vec2; 2] {
+        let corners = self.kind.map_or_else(Vec2::zeros, |kind| {
             Corners::new(pair, kind, self.level, left, right).force(forces)
-        })
+        });
+        let tip = self.level.tip();
+        let tip = match forces[2] {
+            0.0 => Vec2::zeros(),
+            force if tip.corner_is_left() => force * pair.gap(tip, left, right).normal,
+            force => -force * pair.gap(tip, left, right).normal,
+        };
+        [corners, tip]
     }
 
     /// Whether the edges are so nearly parallel that the force need not turn at a corner.
     pub fn is_flush(pair: &Pair, [left, right]: [&Pose; 2]) -> bool {
         // A slant turns an edge clockwise.
-        (left.rotation - right.rotation - pair.convergence()).sin().abs() < FLUSH
+        let [of_left, of_right] = pair.scales();
+        let at_rest = of_left.slant() - of_right.slant();
+        (left.rotation - right.rotation - at_rest).sin().abs() < FLUSH
     }
 
-    /// Residual and tangent of a joint of which the first force acts, and the second if `at_corner`.
+    /// Residual and tangent of a joint of which some forces are `active`.
     pub fn response(
         &self,
         pair: &Pair,
         law: &ContactLaw,
-        [left, right]: [&Pose; 2],
+        poses: [&Pose; 2],
         forces: [f64; FORCES],
-        at_corner: bool,
+        active: [bool; FORCES],
     ) -> JointResponse {
-        let Some(kind) = self.kind else { return JointResponse::zero() };
-        let corners = Corners::new(pair, kind, self.level, left, right);
-        if at_corner { corners.corner(law, forces) } else { corners.edge(pair, law, forces[0]) }
+        let [left, right] = poses;
+        let together = if active[1] { forces[2] } else { forces[0] + forces[2] };
+        let mut response = match self.kind {
+            Some(kind) if active[0] => {
+                let corners = Corners::new(pair, kind, self.level, left, right);
+                if active[1] {
+                    corners.corner(law, forces)
+                } else {
+                    corners.edge(pair, law.approach(together), forces[0])
+                }
+            }
+            _ => {
+                let gap = self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap);
+                JointResponse::open(gap + law.approach(together).value)
+            }
+        };
+        let tip = self.level.tip();
+        let gap = if active[2] {
+            Some(pair.gap(tip, left, right))
+        } else {
+            self.tip(pair, poses, active)
+        };
+        if let Some(gap) = gap {
+            let approach = law.approach(together);
+            response.add_force(2, &gap, approach, forces[2]);
+            if !active[1] {
+                response.tangent[6][8] = approach.slope;
+                response.tangent[8][6] = approach.slope;
+            }
+        }
+        response
     }
 }
 
 impl JointResponse {
-    fn zero() -> Self {
-        Self { residual: [0.0; COUPLED], tangent: [[0.0; COUPLED]; COUPLED] }
+    /// Nothing acts, and only the gap between the corners and the edges is at hand.
+    fn open(gap: f64) -> Self {
+        let mut residual = [0.0; COUPLED];
+        residual[6..].copy_from_slice(&[gap, FAR, FAR]);
+        Self { residual, tangent: [[0.0; COUPLED]; COUPLED] }
+    }
+
+    /// Adds one of the forces, which acts along a gap, and its condition.
+    fn add_force(&mut self, number: usize, gap: &Gap, approach: Approach, force: f64) {
+        let condition = 6 + number;
+        for i in 0..6 {
+            self.residual[i] -= force * gap.gradient[i];
+            self.tangent[i][condition] = -gap.gradient[i];
+            self.tangent[condition][i] = gap.gradient[i];
+            for j in 0..6 {
+                self.tangent[i][j] -= force * gap.hessian[i][j];
+            }
+        }
+        self.residual[condition] = gap.value + approach.value;
+        self.tangent[condition][condition] = approach.slope;
     }
 }
 
@@ -183,8 +309,8 @@ impl<'a> Corners<'a> {
         let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
         let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
             - Vec2::new(pair.pitch(), 0.0);
-        let [of_left, of_right] = pair.right_normals();
-        let (from_right, from_left) = (right.turn(-of_right), left.turn(-of_left));
+        let [of_left, of_right] = pair.normals();
+        let (from_right, from_left) = (right.turn(of_right), left.turn(of_left));
         // P slides off its edge beyond Q, Q beyond P; upward at the upper, downward at the lower level.
         let outward = if level == Level::Upper { 1.0 } else { -1.0 };
         let (normals, turns, sign) = if kind.corner_is_left() {
@@ -207,23 +333,15 @@ impl<'a> Corners<'a> {
     }
 
     /// The corner on the edge: the first force alone acts, where the corner is.
-    fn edge(&self, pair: &Pair, law: &ContactLaw, force: f64) -> JointResponse {
+    fn edge(&self, pair: &Pair, approach: Approach, force: f64) -> JointResponse {
         let gap = pair.gap(self.kind, self.left, self.right);
-        let approach = law.approach(force);
-        let mut response = JointResponse::zero();
+        let mut response = JointResponse::open(gap.value);
+        response.add_force(0, &gap, approach, force);
         for i in 0..6 {
-            response.residual[i] = -force * gap.gradient[i];
-            response.tangent[i][6] = -gap.gradient[i];
-            response.tangent[6][i] = gap.gradient[i];
-            for j in 0..6 {
-                response.tangent[i][j] = -force * gap.hessian[i][j];
-            }
             response.tangent[7][i] = -self.overrun(self.apart_slope(i));
         }
         response.tangent[7][self.turns[0]] -= self.apart.dot(&quarter(self.beyond));
-        response.residual[6] = gap.value + approach.value;
         response.residual[7] = -self.overrun(self.apart);
-        response.tangent[6][6] = approach.slope;
         response
     }
 
@@ -232,7 +350,7 @@ impl<'a> Corners<'a> {
         let f = self.force(forces);
         let (compliance, growth) = secant(law, f);
         let v = self.apart + compliance * f;
-        let mut response = JointResponse::zero();
+        let mut response = JointResponse::open(0.0);
         response.residual[6] = v.dot(&self.normals[0]);
         response.residual[7] = -self.overrun(v);
         for column in 0..COUPLED {
@@ -273,7 +391,7 @@ impl<'a> Corners<'a> {
     /// `∂f` for any of the coupled unknowns.
     fn force_slope(&self, forces: [f64; FORCES], column: usize) -> Vec2 {
         let mut slope = Vec2::zeros();
-        for (k, force) in forces.into_iter().enumerate() {
+        for (k, &force) in forces[..2].iter().enumerate() {
             if column == 6 + k {
                 slope += self.normals[k];
             } else if column == self.turns[k] {
@@ -293,110 +411,4 @@ fn secant(law: &ContactLaw, f: Vec2) -> (f64, f64) {
     let approach = law.approach(force);
     let secant = approach.value / force;
     (secant, (approach.slope - secant) / (force * force))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{COUPLED, Joint, JointResponse, Level};
-    use crate::gap::{Kind, Pair, Pose};
-    use crate::law::{ContactLaw, Law};
-    use approx::assert_relative_eq;
-    use geometry::Parallelogram;
-    use proptest::prelude::*;
-
-    const KINDS: [(Level, Kind); 4] = [
-        (Level::Upper, Kind::TopRightOnLeftEdge),
-        (Level::Upper, Kind::TopLeftOnRightEdge),
-        (Level::Lower, Kind::BottomRightOnLeftEdge),
-        (Level::Lower, Kind::BottomLeftOnRightEdge),
-    ];
-
-    struct Case {
-        joint: Joint,
-        pair: Pair,
-        law: ContactLaw,
-        at_corner: bool,
-    }
-
-    impl Case {
-        fn at(&self, z: &[f64; COUPLED]) -> JointResponse {
-            let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
-            let forces = if self.at_corner { [z[6], z[7]] } else { [z[6], 0.0] };
-            self.joint.response(&self.pair, &self.law, [&left, &right], forces, self.at_corner)
-        }
-    }
-
-    fn case(kind: usize, slant: f64, law: Law, at_corner: bool) -> Case {
-        let (level, kind) = KINDS[kind];
-        let pair = Pair::new(Parallelogram::new(0.4, slant).unwrap(), 1.0);
-        // A soft law, so that its part of the tangent is seen.
-        let law = ContactLaw::new(law, 0.8, 1.0, 3.0).unwrap();
-        Case { joint: Joint { level, kind: Some(kind) }, pair, law, at_corner }
-    }
-
-    proptest! {
-        #[test]
-        fn tangents_agree_with_finite_differences(
-            kind in 0_usize..4, slant in 0.0_f64..80.0, printed: bool, at_corner: bool,
-            q in prop::array::uniform6(-0.5_f64..0.5), forces in prop::array::uniform2(0.2_f64..2.0),
-        ) {
-            let law = if printed { Law::PRINTED } else { Law::EXCHANGED };
-            let case = case(kind, slant, law, at_corner);
-            let z = [q[0], q[1], q[2], q[3], q[4], q[5], forces[0], forces[1]];
-            let ours = case.at(&z).tangent;
-            let h = 1e-6;
-            for j in 0..if at_corner { COUPLED } else { COUPLED - 1 } {
-                let (mut low, mut high) = (z, z);
-                low[j] -= h;
-                high[j] += h;
-                let (low, high) = (case.at(&low).residual, case.at(&high).residual);
-                for i in 0..COUPLED {
-                    let difference = (high[i] - low[i]) / (2.0 * h);
-                    assert_relative_eq!(ours[i][j], difference, epsilon = 1e-6, max_relative = 1e-6);
-                }
-            }
-        }
-    }
-
-    /// Two blocks with relative rotation, the corner of the left exactly at the end of the right one's edge.
-    #[test]
-    fn edge_and_corner_agree_where_one_becomes_the_other() {
-        for (k, slant) in [(0, 40.0), (1, 40.0), (2, 20.0), (3, 20.0)] {
-            let case = |at_corner| case(k, slant, Law::EXCHANGED, at_corner);
-            let (force, phi) = (0.7, [-0.05, 0.03]);
-            // Place the left scale so that D = −δ m: then the foot is at the end of the edge.
-            let edge = case(false);
-            let at = |x: f64, y: f64| [x, y, phi[0], 0.0, 0.0, phi[1], force, 0.0];
-            let (mut x, mut y) = (0.0, 0.0);
-            for _ in 0..30 {
-                let response = edge.at(&at(x, y));
-                let [a, b] = [response.residual[6], response.residual[7]];
-                let t = response.tangent;
-                let determinant = t[6][0] * t[7][1] - t[6][1] * t[7][0];
-                x -= (a * t[7][1] - b * t[6][1]) / determinant;
-                y -= (b * t[6][0] - a * t[7][0]) / determinant;
-            }
-            let (edge, corner) = (edge.at(&at(x, y)), case(true).at(&at(x, y)));
-            for i in 0..COUPLED {
-                assert_relative_eq!(edge.residual[i], corner.residual[i], epsilon = 1e-12);
-            }
-        }
-    }
-
-    #[test]
-    fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
-        let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
-        let law = ContactLaw::new(Law::PRINTED, 0.8, 1.0, 3.0).unwrap();
-        let (left, right) = (Pose::new(0.2, -0.1, 0.0), Pose::new(0.0, 0.0, 0.0));
-        for level in [Level::Upper, Level::Lower] {
-            let mut joint = Joint::new(level);
-            joint = joint.facing(&pair, [&left, &right]);
-            let short = |joint: &Joint| {
-                joint.response(&pair, &law, [&left, &right], [0.1, 0.0], false).residual[7]
-            };
-            assert!(short(&joint) > 0.0, "{level:?}");
-            joint.hand_over();
-            assert!(short(&joint) < 0.0, "{level:?}");
-        }
-    }
 }

@@ -43,23 +43,21 @@ fn main() {
     }
 }
 
-/// How a puncture ended, and the fold of its sides.
+/// How a puncture ended.
 struct End {
     status: Status,
     iterations: usize,
-    fold_deg: f64,
 }
 
-fn end(design: &Design, puncture: &Puncture) -> End {
-    let fold_deg = samples::fold_deg(design, puncture);
-    End { status: puncture.status, iterations: puncture.history.len(), fold_deg }
+fn end(puncture: &Puncture) -> End {
+    End { status: puncture.status, iterations: puncture.history.len() }
 }
 
 fn report(title: &str, known: &Calibrations, designs: &[Design], parameters: &Parameters) {
     let start = Instant::now();
     let ends: Vec<End> = designs
         .par_iter()
-        .map(|design| end(design, &samples::solve_with(known, design, parameters)))
+        .map(|design| end(&samples::solve_with(known, design, parameters)))
         .collect();
     let seconds = start.elapsed().as_secs_f64();
     let mut counts = BTreeMap::<String, usize>::new();
@@ -68,9 +66,9 @@ fn report(title: &str, known: &Calibrations, designs: &[Design], parameters: &Pa
     }
     let iterations: usize = ends.iter().map(|end| end.iterations).sum();
     println!("{title}: {counts:?}, {} iterations each, {seconds:.1} s", iterations / designs.len());
-    for (design, End { status, fold_deg, .. }) in designs.iter().zip(&ends) {
+    for (design, End { status, .. }) in designs.iter().zip(&ends) {
         if *status != Status::Complete {
-            println!("    {status:?}: {design:?}, folded by {fold_deg:.2}°");
+            println!("    {status:?}: {design:?}");
         }
     }
 }

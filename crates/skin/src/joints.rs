@@ -4,7 +4,9 @@ mod contacts;
 
 pub use contacts::Contact;
 
-use contact::{COUPLED, ContactLaw, FORCES, Joint, JointResponse, Level, Overlap, Pair, Pose};
+use contact::{
+    COUPLED, ContactLaw, FORCES, Joint, JointResponse, Kind, Level, Overlap, Pair, Pose,
+};
 use geometry::Vec2;
 use solver::{BandMatrix, Residual, State};
 
@@ -49,15 +51,35 @@ impl Change {
 
     /// What a contact has done where one of its forces has changed sides, from the state after.
     pub(crate) fn of(state: &State, change: solver::Change) -> Self {
-        let own = change.constraint.is_multiple_of(FORCES);
         let active = state.active[change.constraint];
-        match (own, change.activated) {
-            (true, true) => Self::Closed,
-            (true, false) if active => Self::HandedOver,
-            (true, false) => Self::Opened,
-            (false, true) if active => Self::ReachedCorner,
-            (false, true) => Self::HandedOver,
-            (false, false) => Self::LeftCorner,
+        match (Role::of(change.constraint), change.activated) {
+            (Role::Own | Role::Tip, true) => Self::Closed,
+            (Role::Own, false) if active => Self::HandedOver,
+            (Role::Own | Role::Tip, false) => Self::Opened,
+            (Role::Partner, true) if active => Self::ReachedCorner,
+            (Role::Partner, true) => Self::HandedOver,
+            (Role::Partner, false) => Self::LeftCorner,
+        }
+    }
+}
+
+/// Which of the forces of its joint a constraint is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Role {
+    /// That of the joint's kind.
+    Own,
+    /// That of its partner's kind.
+    Partner,
+    /// That of the tip.
+    Tip,
+}
+
+impl Role {
+    fn of(constraint: usize) -> Self {
+        match constraint % FORCES {
+            0 => Self::Own,
+            1 => Self::Partner,
+            _ => Self::Tip,
         }
     }
 }
@@ -65,7 +87,8 @@ impl Change {
 /// The contacts between the neighbours of a row, and where their unknowns stand.
 ///
 /// Joint `2 i` is the upper, `2 i + 1` the lower contact of the scales `i`, `i + 1`. Their forces are the
-/// constraints of the system: number `2 j` is the force of joint `j`, `2 j + 1` its partner's.
+/// constraints of the system: number `3 j` is the force of joint `j`, `3 j + 1` its partner's and
+/// `3 j + 2` that of its tip.
 #[derive(Clone, Debug)]
 pub(crate) struct Joints {
     arrangement: Arrangement,
@@ -125,9 +148,18 @@ impl Joints {
         }
     }
 
-    /// One of the joints.
-    pub(crate) fn joint(&self, joint: usize) -> Joint {
-        self.all[joint]
+    /// The left scale of the pair that a constraint belongs to.
+    pub(crate) fn left_of(constraint: usize) -> usize {
+        constraint / PAIR_FORCES
+    }
+
+    /// Which corner meets which edge where a constraint acts; `None` before its joint has closed.
+    pub(crate) fn kind(&self, constraint: usize) -> Option<Kind> {
+        let joint = self.all[constraint / FORCES];
+        match Role::of(constraint) {
+            Role::Own | Role::Partner => joint.kind(),
+            Role::Tip => Some(joint.level().tip()),
+        }
     }
 
     /// Pose of a scale, in the frame in which it is placed.
@@ -150,26 +182,33 @@ impl Joints {
         Some(self.scales[neighbour]? + 2)
     }
 
-    /// Whether a joint is closed.
-    pub(crate) fn is_closed(state: &State, joint: usize) -> bool {
-        state.active.get(FORCES * joint) == Some(&true)
+    /// Number of closed contacts.
+    pub(crate) fn closed(state: &State) -> usize {
+        let counts = (0..state.active.len()).filter(|&c| Role::of(c) != Role::Partner);
+        counts.filter(|&c| state.active[c]).count()
     }
 
-    /// Whether each joint is closed, along the row.
-    pub(crate) fn closed(state: &State) -> impl Iterator<Item = bool> + '_ {
-        state.active.iter().step_by(FORCES).copied()
+    /// Whether the scales of each pair touch, along the row.
+    pub(crate) fn touching(state: &State) -> impl Iterator<Item = bool> + '_ {
+        state.active.chunks(PAIR_FORCES).map(|forces| forces.contains(&true))
     }
 
-    /// Force of a joint on the left scale of its pair.
-    pub(crate) fn force(&self, z: &[f64], joint: usize) -> Vec2 {
+    /// Forces of a joint on the left scale of its pair: of its corners, and of its tip.
+    fn forces_on_left(&self, z: &[f64], joint: usize) -> [Vec2; 2] {
         let [left, right] = self.pair_poses(z, joint);
         let pair = self.pair(joint / JOINTS);
-        self.all[joint].force(pair, [&left, &right], self.pair_forces(z, joint))
+        self.all[joint].forces(pair, [&left, &right], self.joint_forces(z, joint))
+    }
+
+    /// All the force of a joint, along which the law holds.
+    fn force(&self, z: &[f64], joint: usize) -> f64 {
+        self.forces_on_left(z, joint).map(|force| force.norm()).iter().sum()
     }
 
     /// Elastic energy of all contacts.
     pub(crate) fn energy(&self, z: &[f64]) -> f64 {
-        (0..self.all.len()).map(|joint| self.law.energy(self.force(z, joint).norm())).sum()
+        let energy = |joint| self.law.energy(self.force(z, joint));
+        (0..self.all.len()).map(energy).sum()
     }
 
     /// Whether any two scales overlap by more than the approach of their contacts.
@@ -197,21 +236,23 @@ impl Joints {
         contact::overlaps_of(standing, poses)
     }
 
-    /// The larger approach of the two contacts of a pair.
+    /// The largest approach of the contacts of a pair.
     fn approach(&self, z: &[f64], left: usize) -> f64 {
-        let approach = |joint| self.law.approach(self.force(z, joint).norm()).value;
-        approach(JOINTS * left).max(approach(JOINTS * left + 1))
+        let joints = JOINTS * left..JOINTS * (left + 1);
+        joints.map(|joint| self.law.approach(self.force(z, joint)).value).fold(0.0, f64::max)
     }
 
     pub(crate) fn add_residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
         for (left, poses) in self.pairs(z) {
-            for joint in [JOINTS * left, JOINTS * left + 1] {
-                let rows = if active[FORCES * joint] {
-                    self.response(joint, &poses, z, active).residual
-                } else {
-                    let [gap, short] = self.all[joint].open(self.pair(left), poses.each_ref());
-                    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, gap, short]
-                };
+            for joint in JOINTS * left..JOINTS * (left + 1) {
+                if !Self::active(active, joint).contains(&true) {
+                    let open = self.all[joint].open(self.pair(left), poses.each_ref());
+                    for (force, gap) in open.into_iter().enumerate() {
+                        residual.add(self.forces[FORCES * joint + force], gap);
+                    }
+                    continue;
+                }
+                let rows = self.response(joint, &poses, z, active).residual;
                 for Entry { unknown, coordinate, sign } in self.entries(joint).into_iter().flatten()
                 {
                     residual.add(unknown, sign * rows[coordinate]);
@@ -222,8 +263,8 @@ impl Joints {
 
     pub(crate) fn add_tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
         for (left, poses) in self.pairs(z) {
-            for joint in [JOINTS * left, JOINTS * left + 1] {
-                if !active[FORCES * joint] {
+            for joint in JOINTS * left..JOINTS * (left + 1) {
+                if !Self::active(active, joint).contains(&true) {
                     continue;
                 }
                 let tangent = self.response(joint, &poses, z, active).tangent;
@@ -244,13 +285,16 @@ impl Joints {
         let [left, right] = self.pair_poses(&state.z, joint);
         let poses = [&left, &right];
         let pair = self.pair(joint / JOINTS);
-        let facing = if Self::is_closed(state, joint) {
-            self.all[joint]
-        } else {
-            self.all[joint].facing(pair, poses)
+        let active = Self::active(&state.active, joint);
+        let [closed, _, tip] = active;
+        // An open contact is looked at as if it were closed, without a force.
+        let (looked_at, acting) = match Role::of(force) {
+            Role::Tip => (self.all[joint], active),
+            _ if closed => (self.all[joint], [true, false, tip]),
+            _ => (self.all[joint].facing(pair, poses), [true, false, tip]),
         };
-        let forces = self.pair_forces(&state.z, joint);
-        let response = facing.response(pair, &self.law, poses, forces, false);
+        let forces = self.joint_forces(&state.z, joint);
+        let response = looked_at.response(pair, &self.law, poses, forces, acting);
         let row = response.tangent[6 + force % FORCES];
         let entries = self.entries(joint).into_iter().flatten();
         entries.map(|entry| entry.sign * row[entry.coordinate] * direction[entry.unknown]).sum()
@@ -288,14 +332,19 @@ impl Joints {
         z: &[f64],
         active: &[bool],
     ) -> JointResponse {
-        let at_corner = active[FORCES * joint + 1];
-        let forces = self.pair_forces(z, joint);
+        let forces = self.joint_forces(z, joint);
         let pair = self.pair(joint / JOINTS);
-        self.all[joint].response(pair, &self.law, [left, right], forces, at_corner)
+        let active = Self::active(active, joint);
+        self.all[joint].response(pair, &self.law, [left, right], forces, active)
     }
 
-    /// The two forces of a joint.
-    fn pair_forces(&self, z: &[f64], joint: usize) -> [f64; FORCES] {
+    /// Which forces of a joint act.
+    fn active(active: &[bool], joint: usize) -> [bool; FORCES] {
+        std::array::from_fn(|k| active[FORCES * joint + k])
+    }
+
+    /// The forces of a joint.
+    fn joint_forces(&self, z: &[f64], joint: usize) -> [f64; FORCES] {
         std::array::from_fn(|k| z[self.forces[FORCES * joint + k]])
     }
 
@@ -320,7 +369,7 @@ impl Joints {
         })
     }
 
-    /// What the coordinates of a pair, and its two forces, are made of.
+    /// What the coordinates of a pair, and the forces of a joint, are made of.
     fn entries(&self, joint: usize) -> [Option<Entry>; COUPLED + 1] {
         let pair = joint / JOINTS;
         let left = self.scales[pair].filter(|_| !self.relative);

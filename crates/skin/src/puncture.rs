@@ -296,8 +296,9 @@ impl<'a> Problem<'a> {
 fn reached_ends(chain: &Chain, state: &State) -> Reached {
     let last = chain.layout.scales() - 1;
     let moved = |scale| chain.displacement(&state.z, scale).iter().any(|u| u.abs() > STILL);
-    let touches = |pair: usize| {
-        [2 * pair, 2 * pair + 1].into_iter().any(|joint| Joints::is_closed(state, joint))
-    };
-    Reached { left: moved(0) || touches(0), right: moved(last) || touches(last.saturating_sub(1)) }
+    let touching: Vec<bool> = Joints::touching(state).collect();
+    Reached {
+        left: moved(0) || touching.first() == Some(&true),
+        right: moved(last) || touching.last() == Some(&true),
+    }
 }

@@ -9,12 +9,13 @@ use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
 use solver::{BandLu, BandMatrix};
 
-/// Unknowns of a scale: its three displacements, and two forces for each of two contacts.
+/// Unknowns of a scale: its three displacements and, at each of two levels, the two forces of corners that are
+/// together.
 const BLOCK: usize = 7;
 /// From the first unknown of a scale to the last of the next one.
 const HALF: usize = BLOCK + 3;
 
-/// Entries of a tangent with the pattern of a row of `scales`, every contact closed.
+/// Entries of a tangent with the pattern of a row of `scales`, all corners together.
 fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     let size = BLOCK * scales;
     let mut entries = Vec::new();

@@ -1,6 +1,6 @@
 //! What is written down while a strip is bent.
 
-use contact::{FORCES, Kind};
+use contact::Kind;
 use solver::{Path, Peak, Point, State};
 
 use super::frame::Step;
@@ -8,7 +8,7 @@ use super::strip::Strip;
 use super::{Flexure, Measures, Status};
 use crate::Change;
 use crate::arrangement::Arrangement;
-use crate::joints::{JOINTS, Joints};
+use crate::joints::Joints;
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,9 +104,9 @@ impl Record {
         if let Some(solver::Event::Changed(changes)) = &point.event {
             let strip = path.system();
             self.events.extend(changes.iter().filter_map(|change| {
-                let joint = change.constraint / FORCES;
-                let gap = (strip.gaps() == self.gaps).then_some(joint / JOINTS);
-                let kind = strip.joints.joint(joint).kind()?;
+                let gap = Joints::left_of(change.constraint);
+                let gap = (strip.gaps() == self.gaps).then_some(gap);
+                let kind = strip.joints.kind(change.constraint)?;
                 Some(Event { point: here, gap, kind, change: Change::of(&point.state, *change) })
             }));
         }
@@ -145,7 +145,7 @@ impl Record {
             bending_energy,
             axial_energy,
             contact_energy,
-            contacts: repeats * Joints::closed(state).filter(|closed| *closed).count(),
+            contacts: repeats * Joints::closed(state),
         }
     }
 

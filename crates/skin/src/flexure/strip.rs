@@ -13,8 +13,8 @@ use crate::joints::{Entry, Joints, PAIR_FORCES};
 /// Where the unknowns of a strip of `n` gaps of `m` elements stand. The first scale is held.
 ///
 /// ```text
-/// λ λ' λ λ' · node 1 … node m−1 · x y φ | … | λ λ' λ λ' · nodes · x y φ · M
-/// └──────── gap 0 and scale 1 ────────┘     └──── gap n − 1 and scale n ──┘
+/// λ λ' λ" λ λ' λ" · node 1 … node m−1 · x y φ | … | λ λ' λ" λ λ' λ" · nodes · x y φ · M
+/// └─────────── gap 0 and scale 1 ───────────┘     └─────── gap n − 1 and scale n ─────┘
 /// ```
 ///
 /// Positions `x y`, and the nodes, are those in the frame of the scale to the left of the gap; the

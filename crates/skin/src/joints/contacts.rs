@@ -1,6 +1,6 @@
 //! The contacts of a state, for those who look at them.
 
-use contact::Kind;
+use contact::{FORCES, Kind};
 use geometry::Vec2;
 use solver::State;
 
@@ -25,17 +25,21 @@ impl Joints {
     /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
     /// sees it.
     pub(crate) fn contacts(&self, state: &State) -> Vec<Contact> {
-        let closed = Self::closed(state).enumerate().filter(|(_, closed)| *closed);
-        closed.filter_map(|(joint, _)| self.contact(&state.z, joint)).collect()
+        let joints = 0..state.active.len() / FORCES;
+        joints.flat_map(|joint| self.of_joint(state, joint)).flatten().collect()
     }
 
-    fn contact(&self, z: &[f64], joint: usize) -> Option<Contact> {
-        let kind = self.joint(joint).kind()?;
-        let left = joint / JOINTS;
-        let point = self.corner(z, joint, kind);
-        let force = self.force(z, joint);
-        let approach = self.law.approach(force.norm()).value;
-        Some(Contact { left, kind, point: point.into(), force: force.into(), approach })
+    /// The contacts of a joint: of its corners with each other's edge, and of its tip.
+    fn of_joint(&self, state: &State, joint: usize) -> [Option<Contact>; 2] {
+        let [corners, _, tip] = [0, 1, 2].map(|k| FORCES * joint + k);
+        let [on_corners, on_tip] = self.forces_on_left(&state.z, joint);
+        let approach = self.law.approach(self.force(&state.z, joint)).value;
+        [(corners, on_corners), (tip, on_tip)].map(|(constraint, force)| {
+            let kind = self.kind(constraint).filter(|_| state.active[constraint])?;
+            let point = self.corner(&state.z, joint, kind);
+            let left = joint / JOINTS;
+            Some(Contact { left, kind, point: point.into(), force: force.into(), approach })
+        })
     }
 
     fn corner(&self, z: &[f64], joint: usize, kind: Kind) -> Vec2 {

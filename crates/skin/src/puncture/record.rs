@@ -1,12 +1,12 @@
 //! What is written down along the path.
 
-use contact::{FORCES, Kind};
+use contact::Kind;
 use solver::{Path, Peak, Point, State};
 
 use super::system::Chain;
 use super::{Measures, Puncture, Status};
 use crate::Change;
-use crate::joints::{JOINTS, Joints};
+use crate::joints::Joints;
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,9 +105,8 @@ impl Record {
         }));
         if let Some(solver::Event::Changed(changes)) = &point.event {
             self.events.extend(changes.iter().filter_map(|change| {
-                let joint = change.constraint / FORCES;
-                let left_scale = chain.layout.number(joint / JOINTS);
-                let kind = chain.joints.joint(joint).kind()?;
+                let left_scale = chain.layout.number(Joints::left_of(change.constraint));
+                let kind = chain.joints.kind(change.constraint)?;
                 Some(Event {
                     point: here,
                     left_scale,
@@ -125,7 +124,7 @@ impl Record {
             displacement: chain.depth(z),
             force: z[chain.layout.load()] / self.length,
             tilt_deg: -chain.displacement(z, chain.layout.left)[2].to_degrees(),
-            contacts: Joints::closed(state).filter(|closed| *closed).count(),
+            contacts: Joints::closed(state),
             substrate_energy,
             contact_energy,
         }
@@ -164,7 +163,9 @@ impl Record {
             sink: nodes.reduce(f64::max),
             first_contact_displacement: first_contact.map(|event| event.point.displacement),
             contacts: Some(end.contacts),
-            engaged_scales: Some(engaged(&Joints::closed(&path.point().state).collect::<Vec<_>>())),
+            engaged_scales: Some(engaged(
+                &Joints::touching(&path.point().state).collect::<Vec<_>>(),
+            )),
             scales: chain.layout.scales(),
             initial_stiffness: Some(modulus * self.initial_stiffness),
             max_stiffness: max_stiffness.map(|k| modulus * k),
@@ -178,9 +179,8 @@ fn stiffness(chain: &Chain, state: &State, direction: &[f64]) -> f64 {
     direction[chain.layout.load()] / chain.depth_slope(&state.z, direction)
 }
 
-/// Scales that touch a neighbour.
-fn engaged(closed: &[bool]) -> usize {
-    let touching: Vec<bool> = closed.chunks(JOINTS).map(|pair| pair.contains(&true)).collect();
+/// Scales that touch a neighbour, from which pairs are `touching`.
+fn engaged(touching: &[bool]) -> usize {
     let touches = |pair: Option<usize>| pair.is_some_and(|pair| touching.get(pair) == Some(&true));
     (0..=touching.len()).filter(|&i| touches(Some(i)) || touches(i.checked_sub(1))).count()
 }

@@ -14,8 +14,8 @@ const BLOCK: usize = 3 + PAIR_FORCES;
 /// Where scales and contacts stand among the unknowns.
 ///
 /// ```text
-/// x y φ · λ λ' λ λ' | … | x y φ · F · λ λ' λ λ' | … | x y φ
-/// scale 0 upper lower     punctured                   last
+/// x y φ · λ λ' λ" λ λ' λ" | … | x y φ · F · λ λ' λ" λ λ' λ" | … | x y φ
+/// scale 0  upper   lower       punctured                           last
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
@@ -57,7 +57,7 @@ impl Layout {
     }
 
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
-    /// `i`, `i + 1` from `4 i`, the upper joint's two before the lower's.
+    /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     fn force(self, force: usize) -> usize {
         let left = force / PAIR_FORCES;
         BLOCK * left + 3 + force % PAIR_FORCES + usize::from(left >= self.left)

@@ -57,11 +57,13 @@ fn reactions_add_up_to_the_load() {
     }
 }
 
-/// Joints that the events leave closed: the pair and whether it is the upper contact.
-fn closed_by(events: &[Event]) -> HashSet<(i64, bool)> {
+/// Contacts that the events leave closed: the pair, whether it is an upper one, and whether it is that of a tip.
+fn closed_by(events: &[Event]) -> HashSet<(i64, bool, bool)> {
     let mut closed = HashSet::new();
     for event in events {
-        let joint = (event.left_scale, event.kind.name().starts_with('T'));
+        let name = event.kind.name();
+        let tip = event.kind.partner().is_none();
+        let joint = (event.left_scale, name.starts_with('T'), tip);
         match event.change {
             Change::Closed => assert!(closed.insert(joint), "closed twice: {event:?}"),
             Change::Opened => assert!(closed.remove(&joint), "opened while open: {event:?}"),
@@ -76,7 +78,8 @@ fn events_account_for_the_contacts_and_the_scales_engaged() {
     for (_, puncture) in solved() {
         let (measures, closed) = (complete(&puncture), closed_by(&puncture.events));
         assert_eq!(measures.contacts, Some(closed.len()));
-        let engaged: HashSet<i64> = closed.iter().flat_map(|&(left, _)| [left, left + 1]).collect();
+        let engaged: HashSet<i64> =
+            closed.iter().flat_map(|&(left, ..)| [left, left + 1]).collect();
         assert_eq!(measures.engaged_scales, Some(engaged.len()));
         let first = puncture.events.iter().find(|event| event.change == Change::Closed);
         assert_eq!(measures.first_contact_displacement, first.map(|e| e.point.displacement));

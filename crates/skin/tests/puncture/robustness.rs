@@ -9,7 +9,7 @@ use skin::puncture::{Parameters, Puncture, Status};
 use substrate::Calibrations;
 
 use crate::end;
-use crate::samples::{BASES, fold_deg, on_row, random, reference_study, solve_with};
+use crate::samples::{BASES, on_row, random, reference_study, solve_with};
 
 const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
 
@@ -66,24 +66,15 @@ fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     assert_eq!(puncture.measures.critical_force, None);
 }
 
-/// All reach the critical tilt. The audit fails those in which the left side of a scale turns past
-/// the base of its left neighbour, so that its corner enters from below: the contacts of Fig. 2e
-/// are between sides alone. It takes a slant near 80°.
 #[test]
 fn random_designs_are_solved() {
     let known = Calibrations::default();
     let designs = random(2000, 1);
     for law in LAWS {
         let solved = solve_all(&designs, &Parameters { law, ..on_row(41) }, &known);
-        let mut folded = 0;
         for (design, puncture) in designs.iter().zip(&solved) {
-            assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
-            if puncture.status != Status::Complete {
-                assert_eq!(puncture.status, Status::Interpenetration, "{design:?}");
-                assert!(fold_deg(design, puncture) > 0.0, "{design:?}");
-                folded += 1;
-            }
+            assert_eq!(puncture.status, Status::Complete, "{design:?}");
+            assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9);
         }
-        assert!(folded <= 4, "{folded}");
     }
 }

@@ -35,7 +35,7 @@ pub fn settled() -> Design {
 }
 
 /// A few designs that differ in all that matters: contacts none to many, open, at edges and at
-/// corners, with loads that rise, fall and turn back.
+/// corners, at tips, with loads that rise, fall and turn back.
 pub fn spread() -> Vec<Design> {
     vec![
         blocks(),
@@ -47,7 +47,14 @@ pub fn spread() -> Vec<Design> {
         design(0.4, 0.05, 60.0, Base::TwoL),
         design(1.0, 0.025, 75.0, Base::L),
         design(1.0, 0.5, 45.0, Base::L),
+        folding(),
     ]
+}
+
+/// Scales so steep and long that the left side of one turns until it lies flush with the base of its left
+/// neighbour, and on, so that its tip carries the contact.
+pub fn folding() -> Design {
+    design(0.2, 2.8, 79.5, Base::TwoL)
 }
 
 /// The 720 designs of the reference study.
@@ -83,14 +90,6 @@ pub fn random(count: usize, seed: u64) -> Vec<Design> {
             design(gap, length, slant, base)
         })
         .collect()
-}
-
-/// By how much the left side of a scale has turned past the base of its left neighbour, degrees:
-/// the most along the row. Where this is positive the corner between side and base, which is as
-/// sharp as the scales are slanted, may point into the neighbour from below.
-pub fn fold_deg(design: &Design, puncture: &Puncture) -> f64 {
-    let turned = puncture.scales.windows(2).map(|pair| pair[0].rotation_deg - pair[1].rotation_deg);
-    turned.fold(0.0, f64::max) - (90.0 - design.slant_deg)
 }
 
 /// The generator of Steele, Lea & Flood 2014 (doi 10.1145/2660193.2660195).
