@@ -378,3 +378,49 @@ fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     let lowest = start + x * (falling + x * (square + x * cube));
     (lowest < 0.0 && 0.0 < x && x < 1.0).then_some(x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::dip;
+    use proptest::prelude::*;
+
+    /// The part of the way at which the cubic `value + slope x + …` through both ends is lowest, by looking.
+    fn lowest(ends: [f64; 2], slopes: [f64; 2]) -> (f64, f64) {
+        let cubic = |x: f64| {
+            // Hermite's basis.
+            let [a, b] = [(1.0 + 2.0 * x) * (1.0 - x).powi(2), x * x * (3.0 - 2.0 * x)];
+            let [c, d] = [x * (1.0 - x).powi(2), x * x * (x - 1.0)];
+            ends[0] * a + ends[1] * b + slopes[0] * c + slopes[1] * d
+        };
+        let places = (0..=1000).map(|i| f64::from(i) / 1000.0);
+        places.map(|x| (x, cubic(x))).min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn a_dip_is_where_the_cubic_is_lowest(
+            start in 0.0_f64..1.0, end in 0.0_f64..1.0, falling in -5.0_f64..-0.1, rising in 0.1_f64..5.0,
+        ) {
+            let (place, value) = lowest([start, end], [falling, rising]);
+            match dip([start, end], [falling, rising]) {
+                Some(x) => prop_assert!((x - place).abs() < 2e-3 && value < 1e-5, "{x} {place} {value}"),
+                None => prop_assert!(value > -1e-5, "{place} {value}"),
+            }
+        }
+
+        #[test]
+        fn a_guard_that_does_not_fall_and_rise_has_no_dip(
+            ends in prop::array::uniform2(0.0_f64..1.0), slopes in prop::array::uniform2(0.0_f64..5.0),
+        ) {
+            prop_assert_eq!(dip(ends, slopes), None);
+            prop_assert_eq!(dip(ends, slopes.map(|slope| -slope)), None);
+        }
+    }
+
+    #[test]
+    fn a_guard_that_only_touches_zero_has_no_dip() {
+        // (2x − 1)²
+        assert_eq!(dip([1.0, 1.0], [-4.0, 4.0]), None);
+        assert_eq!(dip([0.99, 0.99], [-4.0, 4.0]), Some(0.5));
+    }
+}

@@ -1,9 +1,11 @@
 //! Constraints that change sides.
 
 use approx::assert_relative_eq;
-use solver::{Settings, Stop};
+use solver::{Path, Settings, State, Stop, System};
 
-use crate::problems::{bump, corner};
+use crate::problems::{StringOverFloor, arch, arch_on_spring, bump, corner};
+use crate::scaled::Scaled;
+use crate::walls::Walls;
 use crate::{changes, extrema, follow, steps};
 
 #[test]
@@ -45,6 +47,71 @@ fn a_bump_within_one_step_is_not_missed() {
     assert_eq!(places.len(), 2);
     assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
     assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
+}
+
+/// From anywhere, and with a step of any length.
+#[test]
+fn a_bump_within_a_later_step_is_not_missed() {
+    for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
+        let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false] };
+        let mut path = Path::new(bump(), rest, steps(step));
+        let points: Vec<_> = path.by_ref().collect();
+        assert_eq!(path.stop(), Some(Stop::Reached));
+        let changes = changes(&points);
+        let places: Vec<f64> = changes.iter().map(|(point, _)| point.state.z[0]).collect();
+        assert_eq!(places.len(), 2);
+        assert_relative_eq!(places[0], 1.0, max_relative = 1e-10);
+        assert_relative_eq!(places[1], 3.0, max_relative = 1e-10);
+        assert!(points.len() <= 6, "{}", points.len());
+    }
+}
+
+/// The chord of the nearer wall's guard points behind the farther wall.
+#[test]
+fn the_nearer_of_two_walls_is_met_first() {
+    let near: fn(f64) -> [f64; 2] =
+        |u| [1.0 - (1.0 + 18.0 * u).log10(), -18.0 / (1.0 + 18.0 * u) / 10.0_f64.ln()];
+    let far: fn(f64) -> [f64; 2] = |u| [0.6 - u, -1.0];
+    for (walls, first) in [(vec![near, far], 0), (vec![far, near], 1)] {
+        let (points, stop) = follow(Walls::new(walls), steps(1.0));
+        assert_eq!(stop, Stop::Reached);
+        let changes = changes(&points);
+        assert_eq!(changes.len(), 2);
+        for ((point, changed), (wall, place)) in
+            changes.iter().zip([(first, 0.5), (1 - first, 0.6)])
+        {
+            assert_eq!(changed[..], [(wall, true)]);
+            assert_relative_eq!(point.state.z[0], place, max_relative = 1e-10);
+        }
+        assert_eq!(points.len(), 3);
+    }
+}
+
+/// Units are arbitrary: the path goes through the same points, of which there are as many.
+#[test]
+fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
+    fn compare<S: System>(system: S, factors: Vec<f64>, settings: Settings) {
+        let (ours, stop) = follow(system.clone(), settings);
+        let scaled = Scaled::new(system, factors);
+        let (theirs, same) = follow(scaled.clone(), settings);
+        assert_eq!((stop, ours.len()), (same, theirs.len()));
+        for (ours, theirs) in ours.iter().zip(&theirs) {
+            assert_eq!(ours.event, theirs.event);
+            for (a, b) in ours.state.z.iter().zip(scaled.unscaled(&theirs.state.z)) {
+                assert_relative_eq!(*a, b, epsilon = 1e-9);
+            }
+        }
+    }
+    for settings in [Settings::default(), steps(0.3)] {
+        compare(arch(), vec![-8.0, 3.0], settings);
+        compare(arch_on_spring(), vec![0.3, -8.0, 5.0], settings);
+        compare(bump(), vec![-8.0, 2.0, 0.25], settings);
+        compare(corner(), vec![-8.0, 4.0, 0.5], settings);
+        let string = StringOverFloor::halved(20, 10.0);
+        let mut factors = vec![1.0; string.size()];
+        factors[string.load()] = 7.0;
+        compare(string, factors, settings);
+    }
 }
 
 #[test]

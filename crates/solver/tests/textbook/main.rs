@@ -5,8 +5,11 @@ mod folds;
 mod obstacle;
 mod peaks;
 mod problems;
+mod scaled;
 mod stops;
 mod tangents;
+mod walls;
+mod work;
 
 use solver::{Event, Path, Point, Settings, State, Stop, System};
 

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use solver::{ActiveSet, Condition, Newton, Settings, State, Stop, System};
 
-use crate::problems::StringOverFloor;
+use crate::problems::{DEPTH, StringOverFloor};
 use crate::{changes, follow, steps};
 
 /// At a fixed load, from rest, by the semismooth Newton method alone.
@@ -23,6 +23,24 @@ fn a_string_comes_to_lie_on_the_floor() {
             assert_eq!(state.active[node - 1], held, "node {node} under {load}");
             assert!(state.z[2 * node - 1] >= 0.0);
         }
+    }
+}
+
+/// Whatever force an iteration begins with, what does not touch has none; and what just touches stays open.
+#[test]
+fn a_string_that_touches_without_a_force_lies_free() {
+    let string = StringOverFloor::whole(4, 1.0);
+    let mut newton = Newton::new(&string);
+    let touching = string.touching_load(2);
+    let condition = Condition { row: vec![(string.load(), 1.0)], value: touching };
+    let z = (0..string.size()).map(|i| if i % 2 == 1 { 0.3 } else { 0.0 }).collect();
+    let mut state = State { z, active: vec![false; 3] };
+    let settings = Settings::default();
+    for set in [ActiveSet::Held, ActiveSet::Updated] {
+        newton.solve(&string, &mut state, &condition, &settings, set).unwrap();
+        assert_eq!(state.active, [false; 3]);
+        assert_relative_eq!(state.z[2], DEPTH, max_relative = 1e-12);
+        assert_eq!([state.z[1], state.z[3], state.z[5]], [0.0; 3]);
     }
 }
 

@@ -51,6 +51,17 @@ fn a_constraint_that_never_settles_cycles() {
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
+/// Equations of large terms are satisfied to their round-off, which is large.
+#[test]
+fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
+    let mut stiff = arch();
+    stiff.equations = |z| vec![1e15 * z[0].sin() - 1e15 * z[1]];
+    stiff.derivatives = |z| vec![[1e15 * z[0].cos(), -1e15]];
+    let (points, stop) = follow(stiff, Settings::default());
+    assert_eq!(stop, Stop::Reached);
+    assert_relative_eq!(points.last().unwrap().state.z[1], 2.5_f64.sin(), max_relative = 1e-12);
+}
+
 #[test]
 fn newtons_method_says_why_it_fails() {
     let condition = |value| Condition { row: vec![(0, 1.0)], value };

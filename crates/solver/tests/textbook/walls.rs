@@ -1,0 +1,70 @@
+//! A coordinate that is pushed against walls.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use solver::{BandMatrix, Control, Residual, System};
+
+/// A coordinate `u` under a load `p`, against walls that give way: `p = u + Σ c_k` with
+/// `0 ≤ c_k ⟂ r_k(u) + c_k ≥ 0`. Unknowns `u, c_1, c_2 … p`; driven by `u` to 1.
+#[derive(Clone)]
+pub struct Walls {
+    /// `r_k` and its derivative.
+    gaps: Vec<fn(f64) -> [f64; 2]>,
+    constraints: Vec<usize>,
+    controls: [Control; 1],
+    /// How many tangents have been asked for.
+    pub tangents: Arc<AtomicUsize>,
+}
+
+impl Walls {
+    pub fn new(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
+        let constraints = (1..=gaps.len()).collect();
+        let controls = [Control { index: 0, scale: 1.0 }];
+        Self { gaps, constraints, controls, tangents: Arc::default() }
+    }
+}
+
+impl System for Walls {
+    fn size(&self) -> usize {
+        self.gaps.len() + 2
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.size() - 1
+    }
+
+    fn load(&self) -> usize {
+        self.size() - 1
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &self.constraints
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&vec![1.0; self.size()]);
+        residual.add(0, z[0]);
+        residual.add(0, -z[self.load()]);
+        for (k, gap) in self.gaps.iter().enumerate() {
+            residual.add(0, z[k + 1]);
+            residual.add(k + 1, gap(z[0])[0]);
+            residual.add(k + 1, z[k + 1]);
+        }
+    }
+
+    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+        self.tangents.fetch_add(1, Ordering::Relaxed);
+        matrix.add(0, 0, 1.0);
+        matrix.add(0, self.load(), -1.0);
+        for (k, gap) in self.gaps.iter().enumerate() {
+            matrix.add(0, k + 1, 1.0);
+            matrix.add(k + 1, 0, gap(z[0])[1]);
+            matrix.add(k + 1, k + 1, 1.0);
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! What a path takes: how many points, and how many Newton iterations.
+//!
+//! A search that converges slowly, or a step that is cut for no reason, still leads to the same
+//! equilibria, and shows here alone. A change that makes the solver better changes these numbers.
+
+use std::sync::atomic::Ordering;
+
+use solver::{Path, Peak, Settings, State, System};
+
+use crate::problems::{
+    Bratu, StringOverFloor, arch, arch_on_spring, bump, corner, kink, step, two_laws,
+};
+use crate::steps;
+use crate::walls::Walls;
+
+/// Points and Newton iterations of a path from rest.
+fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
+    let rest = State::at_rest(&system);
+    let mut path = Path::new(system, rest, settings);
+    let (mut points, mut iterations) = (0, 0);
+    while path.next().is_some() {
+        let history = path.take_history();
+        assert!(history.last().is_some_and(|&residual| residual <= settings.tolerance));
+        assert!(path.take_history().is_empty());
+        points += 1;
+        iterations += history.len();
+    }
+    [points, iterations]
+}
+
+#[test]
+fn paths_with_extrema() {
+    assert_eq!(work(arch(), Settings::default()), [24, 70]);
+    assert_eq!(work(arch(), steps(0.3)), [5, 38]);
+    assert_eq!(work(Bratu::new(20), Settings::default()), [23, 86]);
+}
+
+#[test]
+fn paths_whose_driver_turns() {
+    assert_eq!(work(arch_on_spring(), Settings::default()), [75, 476]);
+    assert_eq!(work(arch_on_spring(), steps(0.4)), [42, 432]);
+}
+
+#[test]
+fn paths_with_constraints() {
+    assert_eq!(work(bump(), Settings::default()), [23, 57]);
+    assert_eq!(work(bump(), steps(1.0)), [5, 28]);
+    assert_eq!(work(corner(), Settings::default()), [36, 149]);
+    assert_eq!(work(kink(), Settings::default()), [22, 34]);
+    assert_eq!(work(two_laws(), Settings::default()), [22, 37]);
+    assert_eq!(work(StringOverFloor::halved(40, 20.0), Settings::default()), [34, 68]);
+    assert_eq!(work(StringOverFloor::whole(20, 10.0), steps(0.5)), [9, 25]);
+}
+
+/// Evaluations of the quantity whose maximum is looked for.
+fn evaluations<S: System>(system: S, largest_step: f64) -> usize {
+    let load = system.load();
+    let count = std::cell::Cell::new(0);
+    let slope = |_: &S, _: &State, direction: &[f64]| {
+        count.set(count.get() + 1);
+        direction[load] / direction[0]
+    };
+    let rest = State::at_rest(&system);
+    let mut path = Path::new(system, rest, steps(largest_step));
+    let mut peak = Peak::default();
+    while path.next().is_some() {
+        peak.visit(&path, slope);
+    }
+    count.set(0);
+    peak.refined(&path, slope).unwrap();
+    count.get()
+}
+
+#[test]
+fn maxima_between_points() {
+    let mut tanh = step();
+    tanh.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
+    let places = [0.13, 0.047, 0.017].map(|step| evaluations(tanh.clone(), step));
+    assert_eq!(places, [13, 19, 10]);
+    assert_eq!([0.1, 0.05, 0.011].map(|step| evaluations(kink(), step)), [18, 23, 12]);
+    assert_eq!([0.047, 0.031].map(|step| evaluations(two_laws(), step)), [12, 11]);
+}
+
+/// Walls that are met at one place are met at once, and not one after the other with a solve for each.
+#[test]
+fn walls_that_stand_at_one_place_take_no_longer_than_one() {
+    let tangents = |count: usize| {
+        let walls = Walls::new(vec![|u| [0.5 - u, -1.0]; count]);
+        let counter = walls.tangents.clone();
+        work(walls, steps(0.2));
+        counter.load(Ordering::Relaxed)
+    };
+    assert_eq!(tangents(2), tangents(20));
+}
