@@ -7,6 +7,13 @@
 //! | [`sensitivity()`], [`Sensitivity`], [`Headlines`] | how far the headline results depend on what the paper leaves open |
 //! | [`Search`], [`Scored`] | every combination of open choices, by how many claims it reproduces |
 //! | [`Validation`] | all of it, and the page that says so |
+//!
+//! ```
+//! for benchmark in validation::benchmarks()? {
+//!     assert!(benchmark.holds(), "{}: {}", benchmark.name, benchmark.ours);
+//! }
+//! # Ok::<(), validation::Error>(())
+//! ```
 
 mod benchmarks;
 mod claims;
