@@ -307,9 +307,9 @@ fn set(hessian: &mut [[f64; 6]; 6], row: usize, column: usize, value: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, Pair, Pose};
+    use super::{Kind, Pair, Pose, quarter};
     use approx::assert_relative_eq;
-    use geometry::Parallelogram;
+    use geometry::{Corner, Parallelogram, Vec2};
     use proptest::prelude::*;
 
     fn poses(q: &[f64; 6]) -> (Pose, Pose) {
@@ -350,6 +350,62 @@ mod tests {
                 }
             }
         }
+    }
+
+    proptest! {
+        /// A corner that is laid on its edge, some way along it.
+        #[test]
+        fn the_foot_is_where_the_corner_stands_on_the_edge(
+            slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
+            rotations in prop::array::uniform2(-0.5_f64..0.5), place in -0.5_f64..1.5, off in -0.2_f64..0.2,
+            kind in 0_usize..6,
+        ) {
+            let kind = Kind::ALL[kind];
+            let scales: [_; 2] =
+                std::array::from_fn(|i| Parallelogram::new(half_bases[i], slants[i]).unwrap());
+            let pair = Pair::of(scales, 7.0);
+            prop_assert_eq!(pair.pitch(), 7.0);
+            let (a, b) = if kind.corner_is_left() { (0, 1) } else { (1, 0) };
+            // From the base up, or from the left to the right.
+            let (start, end, outward) = match kind {
+                Kind::TopRightOnLeftEdge | Kind::BottomRightOnLeftEdge => {
+                    (Corner::BottomLeft, Corner::TopLeft, 1.0)
+                }
+                Kind::TopLeftOnRightEdge | Kind::BottomLeftOnRightEdge => {
+                    (Corner::BottomRight, Corner::TopRight, -1.0)
+                }
+                Kind::TopRightOnTop => (Corner::TopLeft, Corner::TopRight, 1.0),
+                Kind::BottomLeftOnBase => (Corner::BottomLeft, Corner::BottomRight, -1.0),
+            };
+            let (start, end) = (scales[b].corner(start), scales[b].corner(end));
+            let along = end - start;
+            let target = start + place * along + outward * off * quarter(along.normalize());
+            let turned = |i: usize| Pose::new(0.0, 0.0, rotations[i]);
+            let at = [0.0, 7.0];
+            let corner = turned(a).turn(scales[a].corner(kind.corner()));
+            let shift = turned(b).turn(target) - corner + Vec2::new(at[b] - at[a], 0.0);
+            let mut poses = [turned(0), turned(1)];
+            poses[a] = Pose::new(shift.x, shift.y, rotations[a]);
+            let gap = pair.gap(kind, &poses[0], &poses[1]);
+            assert_relative_eq!(gap.foot, place, epsilon = 1e-11);
+            assert_relative_eq!(gap.value, off, epsilon = 1e-12);
+        }
+    }
+
+    #[test]
+    fn kinds_have_names_that_say_what_meets_what() {
+        let told = Kind::ALL.map(|kind| (kind.name(), kind.partner().map(Kind::name)));
+        assert_eq!(
+            told,
+            [
+                ("TR on left edge", Some("TL on right edge")),
+                ("TL on right edge", Some("TR on left edge")),
+                ("BR on left edge", Some("BL on right edge")),
+                ("BL on right edge", Some("BR on left edge")),
+                ("TR on top", None),
+                ("BL on base", None),
+            ]
+        );
     }
 
     #[test]

@@ -125,10 +125,11 @@ fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{overlap_polygon, overlaps};
-    use crate::gap::Pose;
+    use super::{corners, extent, overlap_polygon, overlaps, overlaps_of};
+    use crate::gap::{Pose, quarter};
     use approx::assert_relative_eq;
-    use geometry::Parallelogram;
+    use geometry::{Parallelogram, Vec2};
+    use proptest::prelude::*;
 
     #[test]
     fn a_scale_pushed_into_its_neighbour_overlaps_by_as_much() {
@@ -148,6 +149,53 @@ mod tests {
         let poses = [Pose::new(0.55, 0.0, 0.0), rest, rest];
         let found = overlaps(&scale, 0.3, &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
+    }
+
+    #[test]
+    fn a_scale_that_reaches_back_over_one_that_does_not_is_found() {
+        let scale = Parallelogram::new(0.1, 0.0).unwrap();
+        let poses =
+            [Pose::new(0.0, 0.0, 0.0), Pose::new(0.5, 0.0, 0.0), Pose::new(-0.55, 0.0, 0.0)];
+        let found = overlaps(&scale, 0.3, &poses);
+        assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
+        assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
+    }
+
+    /// Two convex polygons do not overlap where the normal of an edge parts them.
+    fn overlap(first: &[Vec2; 4], second: &[Vec2; 4]) -> f64 {
+        let edges = [first, second].into_iter().flat_map(|corners| {
+            (0..4).map(|i| quarter((corners[(i + 1) % 4] - corners[i]).normalize()))
+        });
+        let depth = edges.map(|normal| {
+            let ((a, b), (c, d)) = (extent(first, normal), extent(second, normal));
+            (b - c).min(d - a)
+        });
+        depth.fold(f64::INFINITY, f64::min)
+    }
+
+    proptest! {
+        #[test]
+        fn unlike_scales_overlap_where_no_edge_parts_them(
+            slants in prop::array::uniform3(-80.0_f64..80.0), half_bases in prop::array::uniform3(0.1_f64..1.0),
+            q in prop::array::uniform9(-0.8_f64..0.8),
+        ) {
+            let scales: [_; 3] =
+                std::array::from_fn(|i| Parallelogram::leaning(half_bases[i], slants[i]).unwrap());
+            let poses: [_; 3] =
+                std::array::from_fn(|i| Pose::new(q[3 * i], q[3 * i + 1], q[3 * i + 2]));
+            let standing = |i: usize| (scales[i], 1.5 * i as f64);
+            let found = overlaps_of(standing, &poses);
+            let placed: [_; 3] =
+                std::array::from_fn(|i| corners(&scales[i], &poses[i], 1.5 * i as f64));
+            for (left, right) in [(0, 1), (0, 2), (1, 2)] {
+                let depth = overlap(&placed[left], &placed[right]);
+                let ours = found.iter().find(|o| (o.left, o.right) == (left, right));
+                match ours {
+                    Some(ours) => assert_relative_eq!(ours.depth, depth, epsilon = 1e-6),
+                    None => prop_assert!(depth < 1e-6, "{left} and {right} by {depth}"),
+                }
+            }
+        }
     }
 
     #[test]

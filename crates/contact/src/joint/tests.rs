@@ -179,6 +179,15 @@ fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Pose; 2]) {
     (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
 }
 
+/// The same for the top: half a turn of the pair.
+fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
+    let (pair, [left, right]) = under_the_base(turned, inside, above);
+    let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
+    let ([a, b, c], [d, e, f]) = (coordinates(&left), coordinates(&right));
+    let [a, b, c, d, e, f] = half_turn(75.0, &[a, b, c, d, e, f]);
+    (pair, [Pose::new(a, b, c), Pose::new(d, e, f)])
+}
+
 fn soft() -> ContactLaw {
     ContactLaw::new(Law::EXCHANGED, 2.0, 1.0, 3.0).unwrap()
 }
@@ -187,9 +196,20 @@ fn lower(kind: Option<Kind>) -> Joint {
     Joint { level: Level::Lower, kind }
 }
 
+/// The gap of the tip, the same at both levels.
 fn tip_gap(kind: Option<Kind>, active: [bool; FORCES], turned: f64, inside: f64) -> f64 {
-    let (pair, [left, right]) = under_the_base(turned, inside, 0.1);
-    lower(kind).response(&pair, &soft(), [&left, &right], [0.0; FORCES], active).residual[8]
+    let gap = |level, kind, (pair, [left, right]): (Pair, [Pose; 2])| {
+        let joint = Joint { level, kind };
+        joint.response(&pair, &soft(), [&left, &right], [0.0; FORCES], active).residual[8]
+    };
+    let below = gap(Level::Lower, kind, under_the_base(turned, inside, 0.1));
+    let across = |kind| match kind {
+        Kind::BottomRightOnLeftEdge => Kind::TopLeftOnRightEdge,
+        _ => Kind::TopRightOnLeftEdge,
+    };
+    let above = gap(Level::Upper, kind.map(across), above_the_top(turned, inside, 0.1));
+    assert_relative_eq!(below, above, epsilon = 1e-12);
+    below
 }
 
 #[test]
@@ -238,4 +258,60 @@ fn flush_contacts_share_one_approach() {
         assert_relative_eq!(on_tip.y, forces[2], epsilon = 1e-12);
         assert_relative_eq!(response.residual[1], -0.5, epsilon = 1e-12);
     }
+}
+
+#[test]
+fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
+    let forces = [0.3, 0.0, 0.2];
+    let (pair, [left, right]) = under_the_base(15.0, 0.3, 0.0);
+    let below = lower(Some(Kind::BottomRightOnLeftEdge));
+    let [corner, tip] = below.forces(&pair, [&left, &right], forces);
+    let (pair, [left, right]) = above_the_top(15.0, 0.3, 0.0);
+    let above = Joint { level: Level::Upper, kind: Some(Kind::TopLeftOnRightEdge) };
+    let turned = above.forces(&pair, [&left, &right], forces);
+    // The force on the left scale is now minus that on what was the right one, turned round.
+    assert_relative_eq!(turned[0], corner, epsilon = 1e-12);
+    assert_relative_eq!(turned[1], tip, epsilon = 1e-12);
+    let [none, _] = Joint::new(Level::Upper).forces(&pair, [&left, &right], forces);
+    assert_eq!(none, Vec2::zeros());
+}
+
+/// What an open joint is about to do depends on the poses, and not on what it did before.
+#[test]
+fn a_joint_without_forces_is_open() {
+    let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);
+    let (law, poses) = (soft(), [&left, &right]);
+    for level in [Level::Upper, Level::Lower] {
+        for kind in [None, Some(Kind::BottomRightOnLeftEdge), Some(Kind::BottomLeftOnRightEdge)] {
+            let joint = Joint { level, kind };
+            let [gap, short, tip] = joint.open(&pair, poses);
+            let facing = joint.facing(&pair, poses).kind();
+            let distance = facing.map_or(FAR, |kind| pair.distance(kind, &left, &right));
+            assert_eq!((gap, short), (distance, FAR));
+            let response = joint.response(&pair, &law, poses, [0.0; FORCES], [false; FORCES]);
+            assert_eq!(response.residual[6..], [gap, short, tip]);
+            // Under the force of the tip the scales approach, and the corner with them.
+            let tip_alone = [false, false, true];
+            let response = joint.response(&pair, &law, poses, [0.0, 0.0, 0.4], tip_alone);
+            let expected = gap + law.approach(0.4).value;
+            assert_relative_eq!(response.residual[6], expected, epsilon = 1e-14);
+        }
+    }
+    let kind = Joint::new(Level::Lower).facing(&pair, poses).kind();
+    assert_eq!(kind, Some(Kind::BottomRightOnLeftEdge));
+}
+
+#[test]
+fn sides_are_flush_where_their_directions_agree() {
+    let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
+    let pair = Pair::of(scales, 1.0);
+    // The left one leans by 20° more, and turns back by as much.
+    let flush = |left: f64, right: f64| {
+        let poses = [left, right].map(|degrees| Pose::new(0.3, 0.1, degrees.to_radians()));
+        Joint::is_flush(&pair, [&poses[0], &poses[1]])
+    };
+    assert!(flush(20.0, 0.0) && flush(25.0, 5.0) && flush(0.0, -20.0));
+    assert!(flush(20.0 + 4e-5, 0.0) && flush(20.0 - 4e-5, 0.0));
+    assert!(!flush(20.0 + 8e-5, 0.0) && !flush(20.0 - 8e-5, 0.0));
+    assert!(!flush(0.0, 0.0) && !flush(-20.0, 0.0) && !flush(0.0, 20.0));
 }

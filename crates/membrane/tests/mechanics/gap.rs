@@ -30,6 +30,15 @@ fn pure_bending_turns_the_scales_by_the_free_length() -> Result<(), InvalidMembr
     Ok(())
 }
 
+#[test]
+fn a_gap_knows_its_mesh() -> Result<(), InvalidMembrane> {
+    for elements in [1, 2, 5] {
+        let gap = gap(Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 }, elements)?;
+        assert_eq!((gap.elements(), gap.unknowns()), (elements, 3 * (elements + 1)));
+    }
+    Ok(())
+}
+
 /// An axis below the bases pulls there: the right scale is held by a counter-clockwise couple `N e`.
 #[test]
 fn tension_acts_below_the_base_for_a_positive_offset() -> Result<(), InvalidMembrane> {
