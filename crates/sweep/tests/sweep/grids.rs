@@ -80,7 +80,8 @@ fn axes() -> Vec<(&'static str, Vec<f64>)> {
 
 /// The rows of the sweep over these axes, in the order in which they are found, without their numbers.
 fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
-    let axes: String = axes.iter().map(|(key, values)| format!("{key} = {values:?}\n")).collect();
+    let axes: Vec<_> = axes.iter().map(|(key, values)| format!("{key} = {values:?}")).collect();
+    let axes = axes.join("\n");
     let sweep = sweep(&format!("name = 'x'\npuncture.scales = 21\n[designs]\n{axes}"));
     let (bench, mut columns) = (Workbench::new(sweep.measures()), design_columns(&sweep));
     columns.retain(|column| column.name != "design");
