@@ -152,12 +152,12 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_that_reaches_back_over_one_that_does_not_is_found() {
+    fn a_scale_that_reaches_back_over_others_that_do_not_is_found() {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
-        let poses =
-            [Pose::new(0.0, 0.0, 0.0), Pose::new(0.5, 0.0, 0.0), Pose::new(-0.55, 0.0, 0.0)];
+        // The two between stand far to the right.
+        let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
         let found = overlaps(&scale, 0.3, &poses);
-        assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
+        assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 3)]);
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
     }
 
