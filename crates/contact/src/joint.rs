@@ -106,7 +106,7 @@ pub struct Joint {
     kind: Option<Kind>,
 }
 
-/// Residual and tangent of a joint in the coordinates of the pair and its two forces.
+/// Residual and tangent of a joint in the coordinates of the pair and its three forces.
 ///
 /// Rows 0 to 5 are what the contact subtracts from the balance of the two scales, rows 6 to 8 the
 /// conditions of the three forces.
@@ -149,8 +149,9 @@ impl Joint {
         }
     }
 
-    /// The tip's gap, where it may meet the neighbour's top or base: not before the other corner rests on the
-    /// side that ends in it, nor while the corners are together.
+    /// The tip's gap, where it may meet the neighbour's top or base: its side nearly level with that, its foot
+    /// within. A closed joint keeps it out of reach while the other corner rests elsewhere than on that side, or
+    /// the corners are together.
     fn tip(
         self,
         pair: &Pair,
@@ -244,11 +245,8 @@ impl Joint {
             }
         };
         let tip = self.level.tip();
-        let gap = if active[2] {
-            Some(pair.gap(tip, left, right))
-        } else {
-            self.tip(pair, poses, active)
-        };
+        let reached = || self.tip(pair, poses, active);
+        let gap = if active[2] { Some(pair.gap(tip, left, right)) } else { reached() };
         if let Some(gap) = gap {
             let approach = law.approach(together);
             response.add_force(2, &gap, approach, forces[2]);

@@ -8,6 +8,7 @@
 //! | `steps` | the same path with steps a tenth as long |
 //! | `rows` | rows of any length, and those that `Auto` chooses |
 //! | `scaling` | changes of units that must change nothing |
+//! | `snapshots` | chosen places of the path, between its points and beyond its end |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
@@ -19,6 +20,7 @@ mod rows;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod scaling;
+mod snapshots;
 mod steps;
 mod two_blocks;
 

@@ -1,0 +1,103 @@
+//! A row at chosen places of its path.
+
+use approx::assert_relative_eq;
+use skin::Design;
+use skin::puncture::{At, Parameters, Snapshot, Snapshots, snapshots};
+use substrate::Calibrations;
+
+use crate::samples::{folding, on_row, settled, solve, spread, springs};
+
+fn shots(design: &Design, parameters: &Parameters, at: &[At]) -> Snapshots {
+    let springs = springs(design, parameters, &Calibrations::default());
+    snapshots(design, &springs, parameters, at).unwrap()
+}
+
+fn shot(design: &Design, at: At) -> Snapshot {
+    shots(design, &on_row(41), &[at]).at.remove(0).expect("a place of the path")
+}
+
+#[test]
+fn a_snapshot_is_an_equilibrium_of_the_path() {
+    for design in spread() {
+        let puncture = solve(&design, &on_row(41));
+        let point = puncture.path[puncture.path.len() / 3];
+        let here = shot(&design, At::Displacement(point.displacement));
+        assert_relative_eq!(here.displacement, point.displacement, max_relative = 1e-10);
+        assert_relative_eq!(here.force, point.force, max_relative = 1e-8);
+        assert_relative_eq!(here.tilt_deg, point.tilt_deg, max_relative = 1e-8);
+        let end = shot(&design, At::Tilt(10.0));
+        assert_eq!(Some(end.force), puncture.measures.critical_force);
+        assert_eq!(Some(end.contacts.len()), puncture.measures.contacts);
+        assert_eq!(end.scales, puncture.scales);
+    }
+}
+
+#[test]
+fn places_between_the_points_are_solved_for() {
+    for design in spread() {
+        for tilt in [0.0, 0.37, 3.21, 7.77] {
+            assert_relative_eq!(shot(&design, At::Tilt(tilt)).tilt_deg, tilt, epsilon = 1e-9);
+        }
+        let peak = solve(&design, &on_row(41)).measures.peak_force.unwrap();
+        let force = 0.613 * peak;
+        let close = 2e-12 * (1.0 + force);
+        assert_relative_eq!(shot(&design, At::Force(force)).force, force, epsilon = close);
+    }
+}
+
+/// The load, the substrate and the neighbours leave nothing on any scale.
+#[test]
+fn every_scale_is_in_equilibrium() {
+    for design in spread() {
+        for tilt in [2.0, 6.0, 10.0] {
+            let Snapshot { force, scales, contacts, .. } = shot(&design, At::Tilt(tilt));
+            let first = scales[0].scale;
+            let mut vertical: Vec<f64> = scales.iter().map(|scale| scale.reaction).collect();
+            let punctured = usize::try_from(-first).unwrap();
+            vertical[punctured] -= force * design.length;
+            for contact in &contacts {
+                vertical[contact.left] += contact.force[1];
+                vertical[contact.left + 1] -= contact.force[1];
+            }
+            for rest in vertical {
+                assert_relative_eq!(rest, 0.0, epsilon = 1e-8 * force.abs().max(1.0));
+            }
+        }
+    }
+}
+
+/// Where a contact is, its two scales are together.
+#[test]
+fn a_contact_stands_at_the_corner_that_touches() {
+    let design = folding();
+    let Snapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
+    let row = design.row().unwrap();
+    assert!(contacts.iter().any(|contact| contact.kind.partner().is_none()));
+    for contact in contacts {
+        let of = contact.left + usize::from(!contact.kind.corner_is_left());
+        let (sin, cos) = scales[of].rotation_deg.to_radians().sin_cos();
+        let arm = row.scale().corner(contact.kind.corner());
+        let [x, y] = scales[of].displacement;
+        let place = of as f64 * row.pitch() + x + cos * arm.x - sin * arm.y;
+        assert_relative_eq!(contact.point[0], place, epsilon = 1e-9);
+        assert_relative_eq!(contact.point[1], y + sin * arm.x + cos * arm.y, epsilon = 1e-9);
+        assert!(contact.approach >= 0.0);
+    }
+}
+
+#[test]
+fn a_place_beyond_the_critical_tilt_is_followed_to() {
+    let places = [At::Tilt(5.0), At::Tilt(25.0)];
+    let Snapshots { puncture, at } = shots(&settled(), &on_row(41), &places);
+    let tilts: Vec<f64> = at.iter().flatten().map(|shot| shot.tilt_deg).collect();
+    assert_relative_eq!(tilts[0], 5.0, epsilon = 1e-9);
+    assert_relative_eq!(tilts[1], 25.0, epsilon = 1e-9);
+    let steepest = puncture.path.iter().map(|point| point.tilt_deg).fold(0.0, f64::max);
+    assert!(steepest >= 25.0);
+}
+
+#[test]
+fn a_place_that_no_path_gets_to_has_no_snapshot() {
+    let at = shots(&settled(), &on_row(11), &[At::Force(1e6), At::Tilt(1.0)]).at;
+    assert!(at[0].is_none() && at[1].is_some());
+}
