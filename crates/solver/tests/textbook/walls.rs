@@ -12,7 +12,7 @@ pub struct Walls {
     /// `r_k` and its derivative.
     gaps: Vec<fn(f64) -> [f64; 2]>,
     constraints: Vec<usize>,
-    controls: [Control; 1],
+    controls: Vec<Control>,
     /// How many tangents have been asked for.
     pub tangents: Arc<AtomicUsize>,
 }
@@ -20,8 +20,15 @@ pub struct Walls {
 impl Walls {
     pub fn new(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
         let constraints = (1..=gaps.len()).collect();
-        let controls = [Control { index: 0, scale: 1.0 }];
+        let controls = vec![Control { index: 0, scale: 1.0 }];
         Self { gaps, constraints, controls, tangents: Arc::default() }
+    }
+
+    /// The same, the path measured by the load too.
+    pub fn measured_by_the_load(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
+        let mut walls = Self::new(gaps);
+        walls.controls.push(Control { index: walls.load(), scale: 1.0 });
+        walls
     }
 }
 
