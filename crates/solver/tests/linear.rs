@@ -147,3 +147,19 @@ fn a_cleared_matrix_is_zero() {
 fn entries_outside_the_band_are_refused() {
     BandMatrix::new(5, 2).add(0, 3, 1.0);
 }
+
+/// A large row is not a good pivot for being large. Unscaled, the first would be taken and the digits of the second
+/// lost.
+#[test]
+fn rows_are_compared_by_their_sizes() {
+    let mut matrix = BandMatrix::new(2, 1);
+    for (row, column, value) in [(0, 0, 10.0), (0, 1, 1e17), (1, 0, 1.0), (1, 1, 1.0)] {
+        matrix.add(row, column, value);
+    }
+    let mut lu = BandLu::new(2, 1);
+    lu.factorise(&matrix).unwrap();
+    let mut x = [1e17, 3.0];
+    lu.solve(&mut x);
+    assert_relative_eq!(x[0], 2.0, max_relative = 1e-14);
+    assert_relative_eq!(x[1], 1.0, max_relative = 1e-14);
+}

@@ -105,6 +105,26 @@ fn the_nearer_of_two_walls_is_met_first() {
     }
 }
 
+/// Two walls at one place, of which one takes the force off the other: that one never acts, whichever is looked at
+/// first.
+#[test]
+fn of_two_walls_at_one_place_the_shielded_one_stays_open() {
+    let wall: fn(f64) -> [f64; 2] = |u| [0.5 - u, -1.0];
+    for (shielded, by) in [(0, 1), (1, 0)] {
+        let walls = Walls::shielded(vec![wall, wall], shielded, by);
+        let (points, stop) = follow(walls, steps(0.2));
+        assert_eq!(stop, Stop::Reached);
+        let changes = changes(&points);
+        assert_eq!(changes.len(), 1);
+        let (point, changed) = &changes[0];
+        assert_eq!(changed[..], [(by, true)]);
+        assert_relative_eq!(point.state.z[0], 0.5, max_relative = 1e-12);
+        let end = &points.last().unwrap().state;
+        assert_relative_eq!(end.z[by + 1], 0.5, max_relative = 1e-12);
+        assert_eq!((end.z[shielded + 1], end.active[shielded]), (0.0, false));
+    }
+}
+
 /// Units are arbitrary: the path goes through the same points, of which there are as many.
 #[test]
 fn a_path_does_not_depend_on_the_units_of_its_unknowns() {

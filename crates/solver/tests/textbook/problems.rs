@@ -517,3 +517,36 @@ impl System for Refusing {
         constraint
     }
 }
+
+/// `10¹⁵ (sin u − p) = 0`, driven by `u` to 1: two large terms, which leave a round-off of about 0.1.
+#[derive(Clone)]
+pub struct Stiff;
+
+impl System for Stiff {
+    fn size(&self) -> usize {
+        2
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        1
+    }
+
+    fn load(&self) -> usize {
+        1
+    }
+
+    fn controls(&self) -> &[Control] {
+        &[Control { index: 0, scale: 1.0 }]
+    }
+
+    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        residual.clear(&[1.0; 2]);
+        residual.add(0, 1e15 * z[0].sin());
+        residual.add(0, -1e15 * z[1]);
+    }
+
+    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+        matrix.add(0, 0, 1e15 * z[0].cos());
+        matrix.add(0, 1, -1e15);
+    }
+}

@@ -6,11 +6,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use solver::{BandMatrix, Control, Residual, System};
 
 /// A coordinate `u` under a load `p`, against walls that give way: `p = u + Σ c_k` with
-/// `0 ≤ c_k ⟂ r_k(u) + c_k ≥ 0`. Unknowns `u, c_1, c_2 … p`; driven by `u` to 1.
+/// `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, where `s_k` is twice the force on a wall that shields this one. Unknowns
+/// `u, c_1, c_2 … p`; driven by `u` to 1.
 #[derive(Clone)]
 pub struct Walls {
     /// `r_k` and its derivative.
     gaps: Vec<fn(f64) -> [f64; 2]>,
+    /// A wall, and the one that shields it.
+    shielded: Option<(usize, usize)>,
     constraints: Vec<usize>,
     controls: Vec<Control>,
     /// How many tangents have been asked for.
@@ -21,7 +24,12 @@ impl Walls {
     pub fn new(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
         let constraints = (1..=gaps.len()).collect();
         let controls = vec![Control { index: 0, scale: 1.0 }];
-        Self { gaps, constraints, controls, tangents: Arc::default() }
+        Self { gaps, shielded: None, constraints, controls, tangents: Arc::default() }
+    }
+
+    /// The same, one of the walls shielded by another.
+    pub fn shielded(gaps: Vec<fn(f64) -> [f64; 2]>, wall: usize, by: usize) -> Self {
+        Self { shielded: Some((wall, by)), ..Self::new(gaps) }
     }
 
     /// The same, the path measured by the load too.
@@ -62,6 +70,9 @@ impl System for Walls {
             residual.add(k + 1, gap(z[0])[0]);
             residual.add(k + 1, z[k + 1]);
         }
+        if let Some((wall, by)) = self.shielded {
+            residual.add(wall + 1, 2.0 * z[by + 1]);
+        }
     }
 
     fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
@@ -72,6 +83,9 @@ impl System for Walls {
             matrix.add(0, k + 1, 1.0);
             matrix.add(k + 1, 0, gap(z[0])[1]);
             matrix.add(k + 1, k + 1, 1.0);
+        }
+        if let Some((wall, by)) = self.shielded {
+            matrix.add(wall + 1, by + 1, 2.0);
         }
     }
 }
