@@ -5,7 +5,7 @@
 
 use std::sync::atomic::Ordering;
 
-use solver::{Path, Peak, Settings, State, System};
+use solver::{Control, Path, Peak, Settings, State, System};
 
 use crate::problems::{
     Bratu, StringOverFloor, arch, arch_on_spring, bump, corner, kink, step, two_laws,
@@ -39,6 +39,19 @@ fn paths_with_extrema() {
 fn paths_whose_driver_turns() {
     assert_eq!(work(arch_on_spring(), Settings::default()), [75, 476]);
     assert_eq!(work(arch_on_spring(), steps(0.4)), [42, 432]);
+}
+
+/// `p = tanh 4 (u − 0.6)` up to where it is steepest: the step is one of arc length, and goes past the target.
+#[test]
+fn a_path_that_meets_its_target_slowly() {
+    let mut steep = step();
+    let [driver, load] = [(0, 0.6), (1, 0.03)].map(|(index, scale)| Control { index, scale });
+    steep.controls = vec![driver, load];
+    steep.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
+    let rest = State::at_rest(&steep);
+    let end = Path::new(steep.clone(), rest, steps(0.5)).last().unwrap();
+    assert!((end.state.z[0] - 0.6).abs() < 1e-12, "{:?}", end.state.z);
+    assert_eq!(work(steep, steps(0.5)), [57, 163]);
 }
 
 #[test]
