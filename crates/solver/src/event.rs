@@ -214,7 +214,6 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         changes: &mut Vec<Change>,
     ) -> Result<Vec<f64>, Stop> {
-        self.count_idle(state)?;
         match self.turn_together(state, arriving, changes) {
             Some(leaving) => Ok(leaving),
             None => self.turn_in_turn(state, arriving, changes),
@@ -340,16 +339,6 @@ impl<S: System> Path<S> {
         let single = controls.iter().map(|c| vec![(c.index, 1.0 / c.scale)]);
         let rows = std::iter::once(arc).chain(single);
         rows.map(|row| Condition::through(row, &state.z)).collect()
-    }
-
-    /// Counts events at one and the same place.
-    fn count_idle(&mut self, state: &State) -> Result<(), Stop> {
-        let controls = self.system.controls();
-        let moved = controls
-            .iter()
-            .any(|c| ((state.z[c.index] - self.point.state.z[c.index]) / c.scale).abs() > FLOOR);
-        self.idle = if moved { 0 } else { self.idle + 1 };
-        if self.idle > self.most_changes() { Err(Stop::Cycling) } else { Ok(()) }
     }
 
     /// More constraints than this do not change sides at one place.

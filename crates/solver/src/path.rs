@@ -61,8 +61,6 @@ pub struct Path<S> {
     pub(crate) slopes: Vec<f64>,
     step: f64,
     points: usize,
-    /// Events since the path last moved on.
-    pub(crate) idle: usize,
     stop: Option<Stop>,
 }
 
@@ -88,7 +86,6 @@ impl<S: System> Path<S> {
             slopes: Vec::new(),
             step: settings.first_step,
             points: 0,
-            idle: 0,
             stop: None,
         };
         path.start(point);
@@ -244,17 +241,16 @@ impl<S: System> Path<S> {
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
     /// in which the path left.
     fn turns_sharply(&self, from: &Point, candidate: &Candidate) -> bool {
-        let mut products = [0.0; 4];
+        let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;
             let arriving = candidate.direction[*index] / scale;
             let chord = (candidate.state.z[*index] - from.state.z[*index]) / scale;
-            let terms = [leaving * arriving, leaving * chord, chord * chord, leaving * leaving];
+            let terms = [leaving * arriving, leaving * chord, chord * chord];
             products = std::array::from_fn(|k| products[k] + terms[k]);
         }
-        let [turn, along, chord, unit] = products;
-        chord > SHORT * SHORT
-            && (turn < STRAIGHT * unit || along < STRAIGHT * (chord * unit).sqrt())
+        let [turn, along, chord] = [products[0], products[1], products[2].sqrt()];
+        chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
     }
 
     /// The next point of the path, or why there is none.
@@ -289,8 +285,6 @@ impl<S: System> Path<S> {
     fn adapt(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
             self.step = (self.step * 1.7).min(self.settings.max_step);
-        } else if smooth && iterations > 8 {
-            self.step *= 0.7;
         }
     }
 

@@ -11,7 +11,7 @@ pub struct Settings {
     pub min_step: f64,
     /// Newton's iteration ends when no equation, scaled, is off by more than this.
     pub tolerance: f64,
-    /// Iterations after which a Newton solve has failed and the step is halved.
+    /// Iterations after which a Newton solve has failed, and the step is cut to a third.
     pub max_iterations: usize,
     /// Equilibria after which the path stops.
     pub max_points: usize,

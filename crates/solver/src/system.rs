@@ -119,3 +119,52 @@ impl State {
         Self { z: vec![0.0; system.size()], active: vec![false; system.constraints().len()] }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{BandMatrix, Control, Residual, State, System};
+    use approx::assert_relative_eq;
+
+    /// A constraint whose equation is `u³`.
+    #[derive(Clone)]
+    struct Cube;
+
+    impl System for Cube {
+        fn size(&self) -> usize {
+            3
+        }
+
+        fn half_bandwidth(&self) -> usize {
+            2
+        }
+
+        fn load(&self) -> usize {
+            2
+        }
+
+        fn controls(&self) -> &[Control] {
+            &[]
+        }
+
+        fn constraints(&self) -> &[usize] {
+            &[1]
+        }
+
+        fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+            residual.clear(&[1.0; 3]);
+            residual.add(1, z[0].powi(3));
+        }
+
+        fn tangent(&self, _z: &[f64], _active: &[bool], _matrix: &mut BandMatrix) {}
+    }
+
+    #[test]
+    fn a_slope_by_differences_is_as_exact_along_any_length() {
+        let state = State { z: vec![2.0, 0.0, 0.0], active: vec![false] };
+        for length in [1e-6, 1.0, 1e6] {
+            let slope = Cube.slope(&state, 0, &[-length, 0.0, 0.5 * length]);
+            assert_relative_eq!(slope, -12.0 * length, max_relative = 1e-8);
+        }
+        assert_eq!(Cube.slope(&state, 0, &[0.0; 3]), 0.0);
+    }
+}

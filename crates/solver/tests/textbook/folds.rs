@@ -84,6 +84,23 @@ fn a_circle_is_followed_all_the_way_round() {
     }
 }
 
+/// The path leaves each point within 45° of the direction in which it left the one before.
+#[test]
+fn steps_that_turn_too_sharply_are_cut() {
+    let start = State { z: vec![0.0, -1.0], active: Vec::new() };
+    let points: Vec<_> = Path::new(circle(), start, steps(1.0)).take(100).collect();
+    let turns = points.windows(2).map(|pair| {
+        let cross = |a: &[f64], b: &[f64]| a[0] * b[1] - a[1] * b[0];
+        let [from, to] = [&pair[0], &pair[1]].map(|point| &point.leaving[..]);
+        let along = (from[0] * to[0] + from[1] * to[1]) / from[0].hypot(from[1]).powi(2);
+        assert!(cross(from, to) > 0.0);
+        along.min(1.0).acos().to_degrees()
+    });
+    let turns: Vec<f64> = turns.collect();
+    let sharpest = turns.iter().copied().fold(0.0, f64::max);
+    assert!((30.0..46.0).contains(&sharpest), "{turns:?}");
+}
+
 #[test]
 fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
     let start = State { z: vec![0.6, -0.8], active: Vec::new() };

@@ -391,19 +391,16 @@ pub fn corner() -> OneConstraint {
     }
 }
 
-/// Decay of the force of [`kink`].
-pub const DECAY: f64 = 5.0;
-
-/// A constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−5c)`, `c = u − 0.5`: infinitely curved at
-/// first, and steepest soon after.
-pub fn kink() -> OneConstraint {
+/// A constraint that acts from `u = 0.5` on with a force `c^1.1 e^(−kc)`, `c = u − 0.5`, of decay `k`: infinitely
+/// curved at first, and steepest soon after.
+pub fn kink<const DECAY: u32>() -> OneConstraint {
     OneConstraint {
         controls: controls(&[(0, 1.0)]),
         condition: |u, c| [0.5 - u + c, -1.0, 1.0],
         load: |u, c| {
             // Odd below zero, where Newton's method may pass.
-            let (size, decay) = (c.abs(), (-DECAY * c).exp());
-            let slope = decay * (1.1 * size.powf(0.1) - DECAY * size.powf(1.1));
+            let (size, decay) = (c.abs(), (-f64::from(DECAY) * c).exp());
+            let slope = decay * (1.1 * size.powf(0.1) - f64::from(DECAY) * size.powf(1.1));
             [u + decay * size.powf(1.1).copysign(c), 1.0, slope]
         },
     }
@@ -425,11 +422,11 @@ pub fn two_laws() -> TwoLaws {
             let x = 10.0 * (u - 0.2);
             [u + 0.2 * (x.tanh() + 2.0_f64.tanh()), 1.0 + 2.0 * x.cosh().powi(-2), 0.0]
         },
-        ..kink()
+        ..kink::<5>()
     };
     let after = OneConstraint {
         load: |u, _| [u + 0.2 * (3.0_f64.tanh() + 2.0_f64.tanh()), 1.0, 0.0],
-        ..kink()
+        ..kink::<5>()
     };
     TwoLaws { before, after, exchanged: false }
 }

@@ -46,7 +46,7 @@ fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
 
 #[test]
 fn a_constraint_that_never_settles_cycles() {
-    let (points, stop) = follow(Refusing(kink()), Settings::default());
+    let (points, stop) = follow(Refusing(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }

@@ -59,7 +59,7 @@ fn paths_with_constraints() {
     assert_eq!(work(bump(), Settings::default()), [23, 57]);
     assert_eq!(work(bump(), steps(1.0)), [5, 28]);
     assert_eq!(work(corner(), Settings::default()), [36, 149]);
-    assert_eq!(work(kink(), Settings::default()), [22, 34]);
+    assert_eq!(work(kink::<5>(), Settings::default()), [22, 34]);
     assert_eq!(work(two_laws(), Settings::default()), [22, 37]);
     assert_eq!(work(StringOverFloor::halved(40, 20.0), Settings::default()), [34, 68]);
     assert_eq!(work(StringOverFloor::whole(20, 10.0), steps(0.5)), [9, 25]);
@@ -90,7 +90,7 @@ fn maxima_between_points() {
     tanh.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
     let places = [0.13, 0.047, 0.017].map(|step| evaluations(tanh.clone(), step));
     assert_eq!(places, [13, 19, 10]);
-    assert_eq!([0.1, 0.05, 0.011].map(|step| evaluations(kink(), step)), [18, 23, 12]);
+    assert_eq!([0.1, 0.05, 0.011].map(|step| evaluations(kink::<5>(), step)), [18, 23, 12]);
     assert_eq!([0.047, 0.031].map(|step| evaluations(two_laws(), step)), [12, 11]);
 }
 
