@@ -303,7 +303,7 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "max_iterations",
         section: "solver",
         unit: "-",
-        meaning: "Newton iterations after which a step is halved",
+        meaning: "Newton iterations after which a step is cut to a third",
         kind: Kind::Count {
             range: CountRange { low: 1, high: 1000 },
             field: |c| &mut c.puncture.solver.max_iterations,

@@ -51,7 +51,9 @@ impl Validation {
              Every checkable statement of Shafiei et al. (2021), on both readings of \"length\": with a base of `L` \
              (`sweeps/paper.toml`) {}; with a base of `2L` (`sweeps/paper-as-written.toml`) {}. Nothing is tuned. A number counts \
              as reproduced within 10 % and in part within 30 %, a trend in part if it holds for what the figure shows. \
-             Designs are `(d/t, L/t, slant)`.\n\n\
+             Where the paper gives words instead of numbers, \"near 1\" (C08) is a ratio below 1.5, \"about eight\" (C18) 7 to 9 and in part 5 \
+             to 11, \"three orders of magnitude\" (C21) a factor of 300 to 3,000 and in part of 30 to 30,000, \"a wide range\" (C29) a share of \
+             20 %. C19 and C20 are solved on a strip of 10 t, on which the scales touch. Designs are `(d/t, L/t, slant)`.\n\n\
              | | Where | Claim | Paper | Base L | Base 2L | Why |\n|---|---|---|---|---|---|---|\n",
             counts(0),
             counts(1)
