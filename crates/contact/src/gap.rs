@@ -76,17 +76,6 @@ impl Kind {
         }
     }
 
-    /// The kind in which the same two corners change their parts; none for a corner on a top or a base.
-    pub fn partner(self) -> Option<Self> {
-        match self {
-            Self::TopRightOnLeftEdge => Some(Self::TopLeftOnRightEdge),
-            Self::TopLeftOnRightEdge => Some(Self::TopRightOnLeftEdge),
-            Self::BottomRightOnLeftEdge => Some(Self::BottomLeftOnRightEdge),
-            Self::BottomLeftOnRightEdge => Some(Self::BottomRightOnLeftEdge),
-            Self::TopRightOnTop | Self::BottomLeftOnBase => None,
-        }
-    }
-
     /// Whether the corner belongs to the left scale of the pair.
     pub fn corner_is_left(self) -> bool {
         matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge | Self::TopRightOnTop)
@@ -251,22 +240,12 @@ impl Pair {
         self.frame(kind, left, right).gap
     }
 
-    /// The upper contact and its gap: the top right corner on the left edge while its foot lies within that
-    /// edge, otherwise the top left corner on the right edge; `None` where neither corner faces
-    /// the other scale's edge.
-    pub fn upper(&self, left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
-        self.facing([Kind::TopRightOnLeftEdge, Kind::TopLeftOnRightEdge], left, right)
-    }
-
-    /// The lower contact and its gap: the bottom right corner on the left edge while its foot lies within that
-    /// edge, otherwise the bottom left corner on the right edge; `None` where neither corner
-    /// faces the other scale's edge.
-    pub fn lower(&self, left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
-        self.facing([Kind::BottomRightOnLeftEdge, Kind::BottomLeftOnRightEdge], left, right)
-    }
-
     /// The first of `kinds` whose corner has its foot within the edge, and its gap.
-    fn facing(&self, kinds: [Kind; 2], left: &Pose, right: &Pose) -> Option<(Kind, f64)> {
+    pub(crate) fn facing(
+        &self,
+        kinds: [Kind; 2],
+        [left, right]: [&Pose; 2],
+    ) -> Option<(Kind, f64)> {
         kinds.into_iter().find_map(|kind| {
             let frame = self.frame(kind, left, right);
             (0.0..=1.0).contains(&frame.foot).then_some((kind, frame.gap))
@@ -394,16 +373,15 @@ mod tests {
 
     #[test]
     fn kinds_have_names_that_say_what_meets_what() {
-        let told = Kind::ALL.map(|kind| (kind.name(), kind.partner().map(Kind::name)));
         assert_eq!(
-            told,
+            Kind::ALL.map(Kind::name),
             [
-                ("TR on left edge", Some("TL on right edge")),
-                ("TL on right edge", Some("TR on left edge")),
-                ("BR on left edge", Some("BL on right edge")),
-                ("BL on right edge", Some("BR on left edge")),
-                ("TR on top", None),
-                ("BL on base", None),
+                "TR on left edge",
+                "TL on right edge",
+                "BR on left edge",
+                "BL on right edge",
+                "TR on top",
+                "BL on base",
             ]
         );
     }
@@ -413,46 +391,9 @@ mod tests {
         let scale = Parallelogram::new(0.5, 60.0).unwrap();
         let pair = Pair::new(scale, 1.2);
         let rest = Pose::new(0.0, 0.0, 0.0);
-        assert_eq!(pair.upper(&rest, &rest).map(|(kind, _)| kind), Some(Kind::TopRightOnLeftEdge));
-        assert_eq!(
-            pair.lower(&rest, &rest).map(|(kind, _)| kind),
-            Some(Kind::BottomLeftOnRightEdge)
-        );
         for kind in [Kind::TopRightOnLeftEdge, Kind::BottomLeftOnRightEdge] {
             assert_relative_eq!(pair.distance(kind, &rest, &rest), 0.1, max_relative = 1e-14);
         }
-    }
-
-    #[test]
-    fn a_corner_that_has_left_its_edge_hands_over_to_its_partner() {
-        let scale = Parallelogram::new(0.5, 0.0).unwrap();
-        let pair = Pair::new(scale, 1.2);
-        let rest = Pose::new(0.0, 0.0, 0.0);
-        let raised = Pose::new(0.0, 0.1, 0.0);
-        assert_eq!(
-            pair.upper(&raised, &rest).map(|(kind, _)| kind),
-            Some(Kind::TopLeftOnRightEdge)
-        );
-        assert_eq!(
-            pair.lower(&raised, &rest).map(|(kind, _)| kind),
-            Some(Kind::BottomRightOnLeftEdge)
-        );
-        assert_eq!(
-            pair.upper(&rest, &raised).map(|(kind, _)| kind),
-            Some(Kind::TopRightOnLeftEdge)
-        );
-        assert_eq!(
-            pair.lower(&rest, &raised).map(|(kind, _)| kind),
-            Some(Kind::BottomLeftOnRightEdge)
-        );
-    }
-
-    #[test]
-    fn a_corner_below_its_neighbour_faces_no_edge() {
-        let scale = Parallelogram::new(0.5, 60.0).unwrap();
-        let pair = Pair::new(scale, 3.0);
-        let (sunk, rest) = (Pose::new(0.0, -0.6, 0.0), Pose::new(0.0, 0.0, 0.0));
-        assert_eq!(pair.upper(&sunk, &rest), None);
     }
 
     #[test]

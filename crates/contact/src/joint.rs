@@ -20,16 +20,24 @@ pub enum Level {
 }
 
 impl Level {
-    /// The kind in which the sharp corner of this level meets the neighbour's top or base.
-    pub fn tip(self) -> Kind {
+    /// The kind in which the sharp corner of this level, the tip, rests on the neighbour's top or base.
+    fn tip_on_end(self) -> Kind {
         match self {
             Self::Upper => Kind::TopRightOnTop,
             Self::Lower => Kind::BottomLeftOnBase,
         }
     }
 
-    /// The kind in which a corner rests on the side that ends in the tip.
-    fn on_side_of_tip(self) -> Kind {
+    /// The kind in which the tip rests on the neighbour's side.
+    fn tip_on_side(self) -> Kind {
+        match self {
+            Self::Upper => Kind::TopRightOnLeftEdge,
+            Self::Lower => Kind::BottomLeftOnRightEdge,
+        }
+    }
+
+    /// The kind in which the neighbour's corner rests on the side that ends in the tip.
+    fn side_on_corner(self) -> Kind {
         match self {
             Self::Upper => Kind::TopLeftOnRightEdge,
             Self::Lower => Kind::BottomRightOnLeftEdge,
@@ -45,7 +53,7 @@ impl Level {
     }
 }
 
-/// Unknowns of a joint: the force of its kind, the force of its partner's kind, and that of the tip.
+/// Unknowns of a joint: the force of its kind, that of its partner's kind, and that of the contact beside it.
 pub const FORCES: usize = 3;
 
 /// Unknowns that a joint couples: `(x, y, φ)` of the left and of the right scale, and the forces.
@@ -59,13 +67,9 @@ const FAR: f64 = 1.0;
 /// of it as small as this angle.
 const FLUSH: f64 = 1e-6;
 
-/// How nearly level a side must be with a top or base (radians) for a tip to meet it. Short of it the
-/// corner at the other end of the side is nearer.
-const NEARLY_LEVEL: f64 = 0.1;
-
 /// The contact of neighbours at one level, as three complementarity conditions.
 ///
-/// Two corners meet here, `P` of the left and `Q` of the right scale, and each may rest on the
+/// Two corners meet here, `P` of the left and `Q` of the right scale, and each may rest on an
 /// edge that ends in the other. With the normals `m_A` (of the right scale's left edge) and `m_B` (inward, of
 /// the left scale's right edge), both pointing left, and `D = P − Q`:
 ///
@@ -74,16 +78,24 @@ const NEARLY_LEVEL: f64 = 0.1;
 /// kind B,  Q on the right edge:  force −λ m_B on Q,  gap D·m_B
 /// ```
 ///
+/// One of the two, `P` above and `Q` below, is as sharp as the scales are slanted: the *tip*. Where the side that ends
+/// in it leans beyond the level of the neighbour's end, its top or base, the neighbour's corner cannot rest on that
+/// side, but the tip can rest on that end, whose normal `m` takes the place of the side's:
+///
+/// ```text
+/// kind C,  P on the top, or Q on the base:   gap D·m
+/// ```
+///
 /// A corner that slides to the end of its edge meets the other corner. The force cannot jump from
 /// one normal to the other: it turns between them while the corners stay together. There both
 /// forces act, and the law holds along their sum,
 ///
 /// ```text
-/// v ≡ D + δ(|f|) f/|f| = 0,    f = λ_A m_A + λ_B m_B                               (C5)
+/// v ≡ D + δ(|f|) f/|f| = 0,    f = λ m + λ' m'                                     (C5)
 /// ```
 ///
-/// With the kind's own force `λ`, normal `m` and edge direction `s` (up), `λ'` its partner's force, and `σ = ±1` for the
-/// end of the edge at which the partner waits, this is
+/// With the kind's own force `λ`, normal `m` and edge direction `s`, `λ'` and `m'` those of its partner, and `σ = ±1` for
+/// the end of the edge at which the partner waits, this is
 ///
 /// ```text
 /// 0 ≤ λ   ⟂   v·m ≥ 0         (closed or open)
@@ -92,13 +104,13 @@ const NEARLY_LEVEL: f64 = 0.1;
 ///
 /// and `v·m = g + δ(λ)` while `λ' = 0`. When `λ` vanishes before `λ'`, the partner's kind takes over.
 ///
-/// The tip, `P` above and `Q` below, is as sharp as the scales are slanted. Where the other corner rests on the side that
-/// ends in the tip, and the side turns until it lies flush with the neighbour's top or base, the tip comes to
-/// rest on that. Both contacts act while the force moves from one to the other, and the law holds for their sum:
+/// While the side is level with the neighbour's end they lie flush: the corner rests on the side and, *beside* it, the
+/// tip on the end. Both contacts act while the force moves from one to the other, and the law holds for their
+/// sum. With the angle `β ≥ 0` by which the side is short of level, or beyond it where the tip alone rests,
 ///
 /// ```text
-/// 0 ≤ λ    ⟂  g  + δ(λ + λ'') ≥ 0
-/// 0 ≤ λ''  ⟂  g'' + δ(λ + λ'') ≥ 0                                                 (C7)
+/// 0 ≤ λ    ⟂  g + δ(λ + λ'') ≥ 0
+/// 0 ≤ λ''  ⟂  β ≥ 0                                                                (C7)
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Joint {
@@ -135,80 +147,95 @@ impl Joint {
         self.kind
     }
 
+    /// The kind of the contact beside it where side and end lie flush; `None` for a tip on a side.
+    pub fn beside(&self) -> Option<Kind> {
+        let [side, tip] = [self.level.side_on_corner(), self.level.tip_on_end()];
+        match self.kind {
+            Some(kind) if kind == side => Some(tip),
+            Some(kind) if kind == tip => Some(side),
+            _ => None,
+        }
+    }
+
     /// The joint with the kind that the poses of an open joint give it.
     #[must_use]
     pub fn facing(self, pair: &Pair, poses: [&Pose; 2]) -> Self {
         Self { kind: self.nearest(pair, poses).map(|(kind, _)| kind), ..self }
     }
 
-    /// The kind that the poses of an open joint give it, and its gap.
-    fn nearest(self, pair: &Pair, [left, right]: [&Pose; 2]) -> Option<(Kind, f64)> {
+    /// The kind that the poses of an open joint give it, and its gap: of those whose corner has its foot within the
+    /// edge, the one with the corner of the left scale before the other.
+    fn nearest(self, pair: &Pair, poses: [&Pose; 2]) -> Option<(Kind, f64)> {
+        let (leaning, on_side) = (self.leaning(pair, poses), self.level.tip_on_side());
+        let kinds = match self.level {
+            Level::Upper => [on_side, leaning],
+            Level::Lower => [leaning, on_side],
+        };
+        pair.facing(kinds, poses)
+    }
+
+    /// Angle (radians) by which the side that ends in the tip leans beyond the level of the neighbour's end.
+    fn beyond_level(self, pair: &Pair, [left, right]: [&Pose; 2]) -> f64 {
+        let [of_left, of_right] = pair.scales();
+        let turned = left.rotation - right.rotation;
+        let from_the_vertical = match self.level {
+            Level::Upper => of_left.slant() - turned,
+            Level::Lower => of_right.slant() + turned,
+        };
+        from_the_vertical - FRAC_PI_2
+    }
+
+    /// Its derivative with respect to the rotation of the left scale; that of the right one is the opposite.
+    fn levelling(self) -> f64 {
         match self.level {
-            Level::Upper => pair.upper(left, right),
-            Level::Lower => pair.lower(left, right),
+            Level::Upper => -1.0,
+            Level::Lower => 1.0,
         }
     }
 
-    /// The tip's gap, where it may meet the neighbour's top or base: its side nearly level with that, its foot
-    /// within. A closed joint keeps it out of reach while the other corner rests elsewhere than on that side, or
-    /// the corners are together.
-    fn tip(
-        self,
-        pair: &Pair,
-        [left, right]: [&Pose; 2],
-        [own, partner, _]: [bool; FORCES],
-    ) -> Option<Gap> {
-        if partner || own && self.kind != Some(self.level.on_side_of_tip()) {
-            return None;
+    /// Where the tip does not rest on a side: which of corner on side and tip on end is possible.
+    fn leaning(self, pair: &Pair, poses: [&Pose; 2]) -> Kind {
+        if self.beyond_level(pair, poses) > 0.0 {
+            self.level.tip_on_end()
+        } else {
+            self.level.side_on_corner()
         }
-        let [of_left, of_right] = pair.scales();
-        let turned = left.rotation - right.rotation;
-        let beyond_level = match self.level {
-            Level::Upper => of_left.slant() - turned,
-            Level::Lower => of_right.slant() + turned,
-        } - FRAC_PI_2;
-        if beyond_level < -NEARLY_LEVEL {
-            return None;
-        }
-        let gap = pair.gap(self.level.tip(), left, right);
-        let (far_end, near_end) = match self.level {
-            Level::Upper => (gap.foot <= 1.0, gap.foot >= 0.0),
-            Level::Lower => (gap.foot >= 0.0, gap.foot <= 1.0),
-        };
-        // The other corner, when it rests on the side, is what keeps the tip from the near end.
-        (far_end && (near_end || own)).then_some(gap)
+    }
+
+    /// The same two corners where they are together: what is on its side stays, the other one is as it leans.
+    fn at_corner(self, kind: Kind, pair: &Pair, poses: [&Pose; 2]) -> [Kind; 2] {
+        let (leaning, on_side) = (self.leaning(pair, poses), self.level.tip_on_side());
+        if kind == on_side { [on_side, leaning] } else { [leaning, on_side] }
     }
 
     /// Passes the contact on to the partner's kind.
-    pub fn hand_over(&mut self) {
-        self.kind = self.kind.and_then(Kind::partner);
+    pub fn hand_over(&mut self, pair: &Pair, poses: [&Pose; 2]) {
+        self.kind = self.kind.map(|kind| self.at_corner(kind, pair, poses)[1]);
+    }
+
+    /// Leaves the corner with the kind that came, or with what has become of it there.
+    pub fn leave_corner(&mut self, pair: &Pair, poses: [&Pose; 2]) {
+        self.kind = self.kind.map(|kind| self.at_corner(kind, pair, poses)[0]);
+    }
+
+    /// Passes the contact on to the one beside it.
+    pub fn pass_beside(&mut self) {
+        self.kind = self.beside();
     }
 
     /// The conditions (C6) and (C7) of a joint of which no force acts.
     pub fn open(&self, pair: &Pair, poses: [&Pose; 2]) -> [f64; FORCES] {
-        let gap = self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap);
-        let tip = self.tip(pair, poses, [false; FORCES]).map_or(FAR, |gap| gap.value);
-        [gap, FAR, tip]
+        [self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap), FAR, FAR]
     }
 
-    /// Forces on the left scale, of the two corners on each other's edge and of the tip; the right scale takes
-    /// their opposites.
-    pub fn forces(
-        &self,
-        pair: &Pair,
-        [left, right]: [&Pose; 2],
-        forces: [f64; FORCES],
-    ) -> [Vec2; 2] {
-        let corners = self.kind.map_or_else(Vec2::zeros, |kind| {
-            Corners::new(pair, kind, self.level, left, right).force(forces)
-        });
-        let tip = self.level.tip();
-        let tip = match forces[2] {
-            0.0 => Vec2::zeros(),
-            force if tip.corner_is_left() => force * pair.gap(tip, left, right).normal,
-            force => -force * pair.gap(tip, left, right).normal,
-        };
-        [corners, tip]
+    /// Forces on the left scale, of the two corners on each other's edge and of the contact beside; the right scale
+    /// takes their opposites.
+    pub fn forces(&self, pair: &Pair, poses: [&Pose; 2], forces: [f64; FORCES]) -> [Vec2; 2] {
+        let corners = self
+            .kind
+            .map(|kind| Corners::new(*self, kind, pair, poses, forces[1] != 0.0).force(forces));
+        let beside = self.beside().map(|kind| forces[2] * kind.normal(pair, poses).0);
+        [corners, beside].map(Option::unwrap_or_default)
     }
 
     /// Whether the edges are so nearly parallel that the force need not turn at a corner.
@@ -228,34 +255,37 @@ impl Joint {
         forces: [f64; FORCES],
         active: [bool; FORCES],
     ) -> JointResponse {
-        let [left, right] = poses;
-        let together = if active[1] { forces[2] } else { forces[0] + forces[2] };
-        let mut response = match self.kind {
-            Some(kind) if active[0] => {
-                let corners = Corners::new(pair, kind, self.level, left, right);
-                if active[1] {
-                    corners.corner(law, forces)
-                } else {
-                    corners.edge(pair, law.approach(together), forces[0])
-                }
-            }
-            _ => {
-                let gap = self.nearest(pair, poses).map_or(FAR, |(_, gap)| gap);
-                JointResponse::open(gap + law.approach(together).value)
-            }
+        let Some(kind) = self.kind.filter(|_| active[0]) else {
+            return JointResponse::open(self.open(pair, poses)[0]);
         };
-        let tip = self.level.tip();
-        let reached = || self.tip(pair, poses, active);
-        let gap = if active[2] { Some(pair.gap(tip, left, right)) } else { reached() };
-        if let Some(gap) = gap {
-            let approach = law.approach(together);
-            response.add_force(2, &gap, approach, forces[2]);
-            if !active[1] {
+        let corners = Corners::new(*self, kind, pair, poses, active[1]);
+        if active[1] {
+            return corners.corner(law, forces);
+        }
+        let approach = law.approach(forces[0] + forces[2]);
+        let mut response = corners.edge(&pair.gap(kind, poses[0], poses[1]), approach, forces[0]);
+        if let Some(beside) = self.beside() {
+            let gap = pair.gap(beside, poses[0], poses[1]);
+            if active[2] {
+                response.add_force(2, &gap, forces[2]);
                 response.tangent[6][8] = approach.slope;
-                response.tangent[8][6] = approach.slope;
+            }
+            if active[2] || self.on_far_side(beside, &gap) {
+                let short = if beside == self.level.tip_on_end() { -1.0 } else { 1.0 };
+                response.residual[8] = short * self.beyond_level(pair, poses);
+                response.tangent[8][2] = short * self.levelling();
+                response.tangent[8][5] = -short * self.levelling();
             }
         }
         response
+    }
+
+    /// Whether a corner has not passed the end of its edge that is far from where the corners meet.
+    fn on_far_side(self, kind: Kind, gap: &Gap) -> bool {
+        match (self.level, kind == self.level.tip_on_end()) {
+            (Level::Upper, true) | (Level::Lower, false) => gap.foot <= 1.0,
+            (Level::Upper, false) | (Level::Lower, true) => gap.foot >= 0.0,
+        }
     }
 }
 
@@ -267,27 +297,34 @@ impl JointResponse {
         Self { residual, tangent: [[0.0; COUPLED]; COUPLED] }
     }
 
-    /// Adds one of the forces, which acts along a gap, and its condition.
-    fn add_force(&mut self, number: usize, gap: &Gap, approach: Approach, force: f64) {
-        let condition = 6 + number;
+    /// Adds what one of the forces, which acts along a gap, does to the balance.
+    fn add_force(&mut self, number: usize, gap: &Gap, force: f64) {
+        let column = 6 + number;
         for i in 0..6 {
             self.residual[i] -= force * gap.gradient[i];
-            self.tangent[i][condition] = -gap.gradient[i];
-            self.tangent[condition][i] = gap.gradient[i];
+            self.tangent[i][column] = -gap.gradient[i];
             for j in 0..6 {
                 self.tangent[i][j] -= force * gap.hessian[i][j];
             }
         }
-        self.residual[condition] = gap.value + approach.value;
-        self.tangent[condition][condition] = approach.slope;
+    }
+}
+
+impl Kind {
+    /// The direction of its force on the left scale, and the column of the rotation with which that turns.
+    fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
+        let [of_left, of_right] = pair.normals();
+        match self {
+            Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge => (right.turn(of_right), 5),
+            Self::TopLeftOnRightEdge | Self::BottomLeftOnRightEdge => (left.turn(of_left), 2),
+            Self::TopRightOnTop => (right.turn(Vec2::y()), 5),
+            Self::BottomLeftOnBase => (left.turn(Vec2::y()), 2),
+        }
     }
 }
 
 /// The two corners of a joint and the directions at them.
-struct Corners<'a> {
-    kind: Kind,
-    left: &'a Pose,
-    right: &'a Pose,
+struct Corners {
     /// `D = P − Q`.
     apart: Vec2,
     /// From the node of its scale to each corner, turned.
@@ -300,25 +337,22 @@ struct Corners<'a> {
     beyond: Vec2,
 }
 
-impl<'a> Corners<'a> {
-    fn new(pair: &Pair, kind: Kind, level: Level, left: &'a Pose, right: &'a Pose) -> Self {
-        let [p, q] = level.corners();
+impl Corners {
+    fn new(joint: Joint, kind: Kind, pair: &Pair, poses: [&Pose; 2], together: bool) -> Self {
+        let [left, right] = poses;
+        let [p, q] = joint.level.corners();
         let [of_left, of_right] = pair.scales();
         let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
         let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
             - Vec2::new(pair.pitch(), 0.0);
-        let [of_left, of_right] = pair.normals();
-        let (from_right, from_left) = (right.turn(of_right), left.turn(of_left));
-        // P slides off its edge beyond Q, Q beyond P; upward at the upper, downward at the lower level.
-        let outward = if level == Level::Upper { 1.0 } else { -1.0 };
-        let (normals, turns, sign) = if kind.corner_is_left() {
-            ([from_right, from_left], [5, 2], outward)
-        } else {
-            ([from_left, from_right], [2, 5], -outward)
-        };
-        // A normal that points left, turned clockwise, points up its edge.
-        let beyond = -sign * quarter(normals[0]);
-        Self { kind, left, right, apart, arms, normals, turns, beyond }
+        let [own, partner] = joint.at_corner(kind, pair, poses);
+        let own = if together { own } else { kind };
+        let [(own, own_turns), (partner, partner_turns)] =
+            [own, partner].map(|kind| kind.normal(pair, poses));
+        // A normal that points left, turned clockwise, points up its edge. The tip leaves the neighbour's side, and the
+        // neighbour's corner the side of the tip, towards its end.
+        let beyond = if kind == joint.level.tip_on_side() { -quarter(own) } else { quarter(own) };
+        Self { apart, arms, normals: [own, partner], turns: [own_turns, partner_turns], beyond }
     }
 
     fn force(&self, forces: [f64; FORCES]) -> Vec2 {
@@ -331,11 +365,12 @@ impl<'a> Corners<'a> {
     }
 
     /// The corner on the edge: the first force alone acts, where the corner is.
-    fn edge(&self, pair: &Pair, approach: Approach, force: f64) -> JointResponse {
-        let gap = pair.gap(self.kind, self.left, self.right);
-        let mut response = JointResponse::open(gap.value);
-        response.add_force(0, &gap, approach, force);
+    fn edge(&self, gap: &Gap, approach: Approach, force: f64) -> JointResponse {
+        let mut response = JointResponse::open(gap.value + approach.value);
+        response.add_force(0, gap, force);
+        response.tangent[6][6] = approach.slope;
         for i in 0..6 {
+            response.tangent[6][i] = gap.gradient[i];
             response.tangent[7][i] = -self.overrun(self.apart_slope(i));
         }
         response.tangent[7][self.turns[0]] -= self.apart.dot(&quarter(self.beyond));

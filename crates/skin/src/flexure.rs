@@ -20,6 +20,7 @@ use solver::{Path, Settings, State, Stop};
 use strip::Strip;
 
 use crate::arrangement::Arrangement;
+use crate::joints::Joints;
 use crate::{Change, Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
@@ -80,12 +81,14 @@ impl Default for Parameters {
 /// How bending ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The ends reached the largest rotation, without interpenetration.
+    /// The ends reached the largest rotation, and the audit has no objection.
     Complete,
     /// The path stopped before.
     Stopped(Stop),
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
+    /// A contact carries beyond the end of its edge.
+    OffEdge,
 }
 
 /// A strip that was bent.
@@ -225,15 +228,22 @@ impl SetUp {
         let Self { row, strip, gaps, bending_stiffness } = self;
         let rest = State::at_rest(&strip);
         let mut path = Path::new(strip, rest, parameters.solver);
+        let alike = matches!(row, Arrangement::Even(_));
         let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
-        while let Some(point) = path.next() {
+        let mut locked = false;
+        while !locked && let Some(point) = path.next() {
             record.visit(&mut path, &point);
+            // Where all gaps are alike and a side lies flush, none can bend on, whatever the moment: the
+            // path stands still in all that measures it.
+            locked = alike && Joints::flush(&point.state);
         }
-        let interpenetrate = path.system().joints.neighbours_interpenetrate(&path.point().state.z);
-        let status = match path.stop() {
-            Some(Stop::Reached) | None if interpenetrate => Status::Interpenetration,
-            Some(Stop::Reached) | None => Status::Complete,
-            Some(stop) => Status::Stopped(stop),
+        let (joints, end) = (&path.system().joints, &path.point().state);
+        let stop = if locked { Some(Stop::Singular) } else { path.stop() };
+        let status = match stop.unwrap_or(Stop::Reached) {
+            Stop::Reached if joints.neighbours_interpenetrate(&end.z) => Status::Interpenetration,
+            Stop::Reached if joints.off_edge(end) => Status::OffEdge,
+            Stop::Reached => Status::Complete,
+            stop => Status::Stopped(stop),
         };
         record.finish(&mut path, status)
     }

@@ -22,6 +22,9 @@ pub(crate) const PAIR_FORCES: usize = JOINTS * FORCES;
 /// collision query.
 const AUDIT_TOLERANCE: f64 = 1e-8;
 
+/// Part of an edge by which a foot may lie beyond its end: round-off of the path.
+const OFF_EDGE: f64 = 1e-6;
+
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
@@ -53,9 +56,9 @@ impl Change {
     pub(crate) fn of(state: &State, change: solver::Change) -> Self {
         let active = state.active[change.constraint];
         match (Role::of(change.constraint), change.activated) {
-            (Role::Own | Role::Tip, true) => Self::Closed,
+            (Role::Own | Role::Beside, true) => Self::Closed,
             (Role::Own, false) if active => Self::HandedOver,
-            (Role::Own | Role::Tip, false) => Self::Opened,
+            (Role::Own | Role::Beside, false) => Self::Opened,
             (Role::Partner, true) if active => Self::ReachedCorner,
             (Role::Partner, true) => Self::HandedOver,
             (Role::Partner, false) => Self::LeftCorner,
@@ -70,8 +73,8 @@ enum Role {
     Own,
     /// That of its partner's kind.
     Partner,
-    /// That of the tip.
-    Tip,
+    /// That of the contact beside it.
+    Beside,
 }
 
 impl Role {
@@ -79,7 +82,7 @@ impl Role {
         match constraint % FORCES {
             0 => Self::Own,
             1 => Self::Partner,
-            _ => Self::Tip,
+            _ => Self::Beside,
         }
     }
 }
@@ -88,7 +91,7 @@ impl Role {
 ///
 /// Joint `2 i` is the upper, `2 i + 1` the lower contact of the scales `i`, `i + 1`. Their forces are the
 /// constraints of the system: number `3 j` is the force of joint `j`, `3 j + 1` its partner's and
-/// `3 j + 2` that of its tip.
+/// `3 j + 2` that of the contact beside it.
 #[derive(Clone, Debug)]
 pub(crate) struct Joints {
     arrangement: Arrangement,
@@ -158,7 +161,7 @@ impl Joints {
         let joint = self.all[constraint / FORCES];
         match Role::of(constraint) {
             Role::Own | Role::Partner => joint.kind(),
-            Role::Tip => Some(joint.level().tip()),
+            Role::Beside => joint.beside(),
         }
     }
 
@@ -193,7 +196,7 @@ impl Joints {
         state.active.chunks(PAIR_FORCES).map(|forces| forces.contains(&true))
     }
 
-    /// Forces of a joint on the left scale of its pair: of its corners, and of its tip.
+    /// Forces of a joint on the left scale of its pair: of its corners, and of the contact beside.
     fn forces_on_left(&self, z: &[f64], joint: usize) -> [Vec2; 2] {
         let [left, right] = self.pair_poses(z, joint);
         let pair = self.pair(joint / JOINTS);
@@ -209,6 +212,28 @@ impl Joints {
     pub(crate) fn energy(&self, z: &[f64]) -> f64 {
         let energy = |joint| self.law.energy(self.force(z, joint));
         (0..self.all.len()).map(energy).sum()
+    }
+
+    /// Whether a side and a neighbour's end lie flush anywhere.
+    pub(crate) fn flush(state: &State) -> bool {
+        (0..state.active.len()).any(|c| Role::of(c) == Role::Beside && state.active[c])
+    }
+
+    /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
+    /// edge any more, and at the other one the model has no contact to go on with.
+    pub(crate) fn off_edge(&self, state: &State) -> bool {
+        let on_edge = |&c: &usize| {
+            Role::of(c) != Role::Partner
+                && state.active[c]
+                && !state.active[FORCES * (c / FORCES) + 1]
+        };
+        (0..state.active.len()).filter(on_edge).any(|c| {
+            let joint = c / FORCES;
+            let [left, right] = self.pair_poses(&state.z, joint);
+            let pair = self.pair(joint / JOINTS);
+            let foot = self.kind(c).map_or(0.0, |kind| pair.gap(kind, &left, &right).foot);
+            !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot)
+        })
     }
 
     /// Whether any two scales overlap by more than the approach of their contacts.
@@ -286,12 +311,11 @@ impl Joints {
         let poses = [&left, &right];
         let pair = self.pair(joint / JOINTS);
         let active = Self::active(&state.active, joint);
-        let [closed, _, tip] = active;
         // An open contact is looked at as if it were closed, without a force.
         let (looked_at, acting) = match Role::of(force) {
-            Role::Tip => (self.all[joint], active),
-            _ if closed => (self.all[joint], [true, false, tip]),
-            _ => (self.all[joint].facing(pair, poses), [true, false, tip]),
+            Role::Beside => (self.all[joint], active),
+            _ if active[0] => (self.all[joint], [true, false, active[2]]),
+            _ => (self.all[joint].facing(pair, poses), [true, false, false]),
         };
         let forces = self.joint_forces(&state.z, joint);
         let response = looked_at.response(pair, &self.law, poses, forces, acting);
@@ -300,29 +324,50 @@ impl Joints {
         entries.map(|entry| entry.sign * row[entry.coordinate] * direction[entry.unknown]).sum()
     }
 
-    /// Where a force has just changed sides: fixes the kind of a joint that closes, and passes the
-    /// contact on to the partner's kind where its own force has vanished, or where the edges are flush.
+    /// Where a force has just changed sides: fixes the kind of a joint that closes or leaves a corner, and passes the
+    /// contact on to the partner's kind, or to the one beside it, where its own force has vanished.
     /// Returns the force whose condition has to stay valid.
     pub(crate) fn exchange(&mut self, state: &mut State, force: usize) -> usize {
-        let joint = force / FORCES;
-        let (own, partner) = (FORCES * joint, FORCES * joint + 1);
-        let [left, right] = self.pair_poses(&state.z, joint);
-        let (pair, poses) = (*self.pair(joint / JOINTS), [&left, &right]);
-        let passed_on = force == own && state.active[partner];
-        let flush = force == partner && state.active[partner] && Joint::is_flush(&pair, poses);
-        if passed_on || flush {
-            self.all[joint].hand_over();
-            if passed_on {
-                state.z.swap(self.forces[own], self.forces[partner]);
-                state.active[own] = true;
+        let at = force / FORCES;
+        let [own, partner, beside] = [0, 1, 2].map(|k| FORCES * at + k);
+        let [left, right] = self.pair_poses(&state.z, at);
+        let (pair, poses) = (*self.pair(at / JOINTS), [&left, &right]);
+        let [z_own, z_partner, z_beside] = [own, partner, beside].map(|force| self.forces[force]);
+        let joint = &mut self.all[at];
+        let takes_over = match Role::of(force) {
+            Role::Own if state.active[own] => {
+                *joint = joint.facing(&pair, poses);
+                return own;
             }
-            state.active[partner] = false;
-            return partner;
-        }
-        if force == own && state.active[own] {
-            self.all[joint] = self.all[joint].facing(&pair, poses);
-        }
-        force
+            Role::Own if state.active[partner] => {
+                joint.hand_over(&pair, poses);
+                state.z.swap(z_own, z_partner);
+                partner
+            }
+            Role::Own if state.active[beside] => {
+                joint.pass_beside();
+                state.z.swap(z_own, z_beside);
+                beside
+            }
+            Role::Partner if state.active[partner] => {
+                // Together, the corners are where both contacts of flush edges were.
+                state.z[z_own] += std::mem::take(&mut state.z[z_beside]);
+                state.active[beside] = false;
+                if !Joint::is_flush(&pair, poses) {
+                    return partner;
+                }
+                joint.hand_over(&pair, poses);
+                partner
+            }
+            Role::Partner => {
+                joint.leave_corner(&pair, poses);
+                return partner;
+            }
+            _ => return force,
+        };
+        state.active[own] = true;
+        state.active[takes_over] = false;
+        takes_over
     }
 
     fn response(

@@ -75,7 +75,7 @@ impl Default for Parameters {
 /// How a puncture ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The critical tilt was reached, on a row that is long enough, without interpenetration.
+    /// The critical tilt was reached, on a row that is long enough, and the audit has no objection.
     Complete,
     /// The path stopped before the critical tilt.
     Stopped(Stop),
@@ -83,6 +83,8 @@ pub enum Status {
     RowLimit,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
+    /// A contact carries beyond the end of its edge.
+    OffEdge,
 }
 
 /// A solved puncture.
@@ -282,10 +284,10 @@ impl<'a> Problem<'a> {
             }
         }
         let stop = path.stop().unwrap_or(Stop::Reached);
+        let (joints, end) = (&path.system().joints, &path.point().state);
         let status = match stop {
-            Stop::Reached if path.system().joints.interpenetrate(&path.point().state.z) => {
-                Status::Interpenetration
-            }
+            Stop::Reached if joints.interpenetrate(&end.z) => Status::Interpenetration,
+            Stop::Reached if joints.off_edge(end) => Status::OffEdge,
             Stop::Reached => Status::Complete,
             stop => Status::Stopped(stop),
         };

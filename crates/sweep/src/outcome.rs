@@ -26,6 +26,8 @@ pub enum Outcome {
     RowLimit,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
+    /// A contact carries beyond the end of its edge.
+    OffEdge,
     /// The springs of the substrate could not be found.
     Calibration,
     /// The program is at fault.
@@ -34,7 +36,7 @@ pub enum Outcome {
 
 impl Outcome {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -43,6 +45,7 @@ impl Outcome {
         Self::NotFinite,
         Self::RowLimit,
         Self::Interpenetration,
+        Self::OffEdge,
         Self::Calibration,
         Self::Internal,
     ];
@@ -58,6 +61,7 @@ impl Outcome {
             Self::NotFinite => "not finite",
             Self::RowLimit => "row limit",
             Self::Interpenetration => "interpenetration",
+            Self::OffEdge => "off the edge",
             Self::Calibration => "no calibration",
             Self::Internal => "internal error",
         }
@@ -74,6 +78,7 @@ impl Outcome {
             Self::NotFinite => "a value is not a finite number",
             Self::RowLimit => "a row needs more scales than it may take",
             Self::Interpenetration => "two scales overlap by more than their contact law allows",
+            Self::OffEdge => "a contact carries beyond the end of its edge",
             Self::Calibration => "the springs of the substrate could not be found",
             Self::Internal => "the program is at fault; please report the design",
         }
@@ -92,6 +97,7 @@ impl From<puncture::Status> for Outcome {
             puncture::Status::Complete => Self::Complete,
             puncture::Status::RowLimit => Self::RowLimit,
             puncture::Status::Interpenetration => Self::Interpenetration,
+            puncture::Status::OffEdge => Self::OffEdge,
             puncture::Status::Stopped(stop) => stop.into(),
         }
     }
@@ -102,6 +108,7 @@ impl From<flexure::Status> for Outcome {
         match status {
             flexure::Status::Complete => Self::Complete,
             flexure::Status::Interpenetration => Self::Interpenetration,
+            flexure::Status::OffEdge => Self::OffEdge,
             flexure::Status::Stopped(stop) => stop.into(),
         }
     }

@@ -29,12 +29,12 @@ impl Joints {
         joints.flat_map(|joint| self.of_joint(state, joint)).flatten().collect()
     }
 
-    /// The contacts of a joint: of its corners with each other's edge, and of its tip.
+    /// The contacts of a joint: of its corners with each other's edge, and the one beside.
     fn of_joint(&self, state: &State, joint: usize) -> [Option<Contact>; 2] {
-        let [corners, _, tip] = [0, 1, 2].map(|k| FORCES * joint + k);
-        let [on_corners, on_tip] = self.forces_on_left(&state.z, joint);
+        let [corners, _, beside] = [0, 1, 2].map(|k| FORCES * joint + k);
+        let [on_corners, on_beside] = self.forces_on_left(&state.z, joint);
         let approach = self.law.approach(self.force(&state.z, joint)).value;
-        [(corners, on_corners), (tip, on_tip)].map(|(constraint, force)| {
+        [(corners, on_corners), (beside, on_beside)].map(|(constraint, force)| {
             let kind = self.kind(constraint).filter(|_| state.active[constraint])?;
             let point = self.corner(&state.z, joint, kind);
             let left = joint / JOINTS;

@@ -1,6 +1,7 @@
 //! A row at chosen places of its path.
 
 use approx::assert_relative_eq;
+use contact::Kind;
 use skin::Design;
 use skin::puncture::{At, Parameters, Snapshot, Snapshots, snapshots};
 use substrate::Calibrations;
@@ -72,7 +73,7 @@ fn a_contact_stands_at_the_corner_that_touches() {
     let design = folding();
     let Snapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
     let row = design.row().unwrap();
-    assert!(contacts.iter().any(|contact| contact.kind.partner().is_none()));
+    assert!(contacts.iter().any(|contact| contact.kind == Kind::BottomLeftOnBase));
     for contact in contacts {
         let of = contact.left + usize::from(!contact.kind.corner_is_left());
         let (sin, cos) = scales[of].rotation_deg.to_radians().sin_cos();

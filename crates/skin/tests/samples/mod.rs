@@ -48,6 +48,9 @@ pub fn spread() -> Vec<Design> {
         design(1.0, 0.025, 75.0, Base::L),
         design(1.0, 0.5, 45.0, Base::L),
         folding(),
+        design(0.05, 0.15, 80.0, Base::TwoL),
+        design(0.6, 2.0, 80.0, Base::TwoL),
+        design(0.1, 0.15, 80.0, Base::TwoL),
     ]
 }
 
