@@ -5,7 +5,7 @@
 //! | `closed_forms` | the strip before contact, and the first contact of upright blocks |
 //! | `chain` | the assembled chain against the unit cell |
 //! | `steps` | the same path with steps a tenth as long |
-//! | `robustness` | the 720 designs of the reference study |
+//! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
 
 mod chain;
 mod closed_forms;

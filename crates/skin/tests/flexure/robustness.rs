@@ -2,9 +2,11 @@
 
 use contact::Law;
 use rayon::prelude::*;
+use skin::Base;
 use skin::flexure::{Parameters, Status, solve};
+use solver::Stop;
 
-use crate::samples::{BASES, reference_study};
+use crate::samples::{BASES, design, reference_study};
 
 #[test]
 fn the_reference_study_completes_with_either_law() {
@@ -21,5 +23,34 @@ fn the_reference_study_completes_with_either_law() {
                 .sum();
             assert!((100..720).contains(&touching), "{touching}");
         }
+    }
+}
+
+/// Scales as long as a third of the strip turn so far against each other that a corner slides off the top of a side.
+#[test]
+fn a_contact_beyond_its_edge_fails_the_audit() {
+    let parameters = Parameters { membrane_length: 6.0, ..Parameters::default() };
+    let flexure = solve(&design(0.05, 2.05, 30.0, Base::L), &parameters).unwrap();
+    assert_eq!(flexure.status, Status::OffEdge);
+    assert_eq!(flexure.measures.max_moment, None);
+}
+
+/// On a membrane far below their bases steep scales turn until a side lies flush with a base: no moment bends the
+/// strip on, and its compliance has no value.
+#[test]
+fn a_strip_whose_sides_lie_flush_is_locked() {
+    let parameters = |length| Parameters {
+        membrane_length: length,
+        membrane_axis_offset: 1.0,
+        ..Parameters::default()
+    };
+    for (design, length) in
+        [(design(0.97, 0.4, 80.0, Base::L), 6.0), (design(0.18, 3.0, 80.0, Base::L), 28.0)]
+    {
+        let flexure = solve(&design, &parameters(length)).unwrap();
+        assert_eq!(flexure.status, Status::Stopped(Stop::Singular));
+        assert_eq!(flexure.measures.compliance, None);
+        let last = flexure.events.last().unwrap();
+        assert!(last.kind.name().ends_with("base") || last.kind.name().ends_with("top"));
     }
 }

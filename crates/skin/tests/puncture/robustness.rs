@@ -9,7 +9,7 @@ use skin::puncture::{Parameters, Puncture, Status};
 use substrate::Calibrations;
 
 use crate::end;
-use crate::samples::{BASES, on_row, random, reference_study, solve_with};
+use crate::samples::{BASES, design, on_row, random, reference_study, solve_with};
 
 const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
 
@@ -57,7 +57,7 @@ fn hard_and_soft_contacts_are_solved() {
 /// At 1/100 of the reference modulus the exchanged law lets an approach of more than a thickness.
 #[test]
 fn scales_too_soft_to_carry_the_load_fail_the_audit() {
-    let design = crate::samples::design(0.1, 0.5, 75.0, skin::Base::L);
+    let design = design(0.1, 0.5, 75.0, skin::Base::L);
     let mut parameters = Parameters { law: Law::EXCHANGED, ..on_row(41) };
     parameters.contact_modulus_over_substrate *= 1e-2;
     let puncture = crate::samples::solve(&design, &parameters);
@@ -76,5 +76,22 @@ fn random_designs_are_solved() {
             assert_eq!(puncture.status, Status::Complete, "{design:?}");
             assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9);
         }
+    }
+}
+
+/// Where tips slide along bases and tops, to their ends and round the corners there.
+#[test]
+fn scales_steeper_than_those_of_the_study_are_solved() {
+    let known = Calibrations::default();
+    let mut designs = Vec::new();
+    for base in BASES {
+        for gap in [0.02, 0.05, 0.1, 0.2, 0.5, 0.8] {
+            for length in [0.05, 0.15, 0.3, 0.5, 1.6, 2.4, 3.0] {
+                designs.extend([79.0, 80.0, 82.0].map(|slant| design(gap, length, slant, base)));
+            }
+        }
+    }
+    for (design, puncture) in designs.iter().zip(solve_all(&designs, &on_row(41), &known)) {
+        assert_eq!(puncture.status, Status::Complete, "{design:?}");
     }
 }
