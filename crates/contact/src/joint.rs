@@ -10,7 +10,7 @@ use geometry::{Corner, Vec2};
 use crate::gap::{Gap, Kind, Pair, Pose, quarter};
 use crate::law::{Approach, ContactLaw};
 
-/// Which of the two contacts of a pair.
+/// Where the contacts of a pair are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
     /// Between the tops.

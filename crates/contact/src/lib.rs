@@ -15,7 +15,7 @@
 //! | [`Pose`], [`Pair`] | where a scale stands; two neighbours, alike or not, at a pitch |
 //! | [`Kind`], [`Gap`] | which corner meets which edge; how far, with gradient and Hessian |
 //! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
-//! | [`Level`], [`Joint`], [`JointResponse`] | the upper or lower contact of a pair, corners included; what it adds to a system |
+//! | [`Level`], [`Joint`], [`JointResponse`] | what may touch at the tops or at the bases of a pair, corners and flush edges included; what it adds to a system |
 //! | [`overlaps`], [`overlaps_of`], [`overlap_polygon`] | scales that overlap, for the audit of final states and for drawings |
 //!
 //! ```

@@ -12,7 +12,7 @@ use solver::{BandMatrix, Residual, State};
 
 use crate::arrangement::Arrangement;
 
-/// Contacts of a pair of neighbours: an upper and a lower one.
+/// Levels at which neighbours meet: an upper and a lower one.
 pub(crate) const JOINTS: usize = 2;
 
 /// Contact forces between neighbours.
@@ -36,7 +36,8 @@ pub enum Change {
     ReachedCorner,
     /// It leaves the corner on the edge on which it came.
     LeftCorner,
-    /// It leaves the corner, or passes it, as the partner's kind: the corners have changed their parts.
+    /// It passes the corner as the partner's kind, the corners having changed their parts; or the contact beside it, on
+    /// flush edges, carries alone.
     HandedOver,
 }
 
@@ -89,7 +90,7 @@ impl Role {
 
 /// The contacts between the neighbours of a row, and where their unknowns stand.
 ///
-/// Joint `2 i` is the upper, `2 i + 1` the lower contact of the scales `i`, `i + 1`. Their forces are the
+/// Joint `2 i` is the upper, `2 i + 1` the lower one of the scales `i`, `i + 1`. Their forces are the
 /// constraints of the system: number `3 j` is the force of joint `j`, `3 j + 1` its partner's and
 /// `3 j + 2` that of the contact beside it.
 #[derive(Clone, Debug)]
