@@ -136,11 +136,6 @@ impl Joint {
         Self { level, kind: None }
     }
 
-    /// Which contact of the pair.
-    pub fn level(&self) -> Level {
-        self.level
-    }
-
     /// Which corner meets which edge; `None` before the joint has
     /// closed; an open joint keeps the kind that it had.
     pub fn kind(&self) -> Option<Kind> {
@@ -185,12 +180,12 @@ impl Joint {
         from_the_vertical - FRAC_PI_2
     }
 
-    /// Its derivative with respect to the rotation of the left scale; that of the right one is the opposite.
-    fn levelling(self) -> f64 {
-        match self.level {
-            Level::Upper => -1.0,
-            Level::Lower => 1.0,
-        }
+    /// `β` of (C7) for a contact `beside`, and its derivative with respect to the rotation of the left scale; with
+    /// respect to that of the right one it is the opposite.
+    fn angle(self, beside: Kind, pair: &Pair, poses: [&Pose; 2]) -> [f64; 2] {
+        let toward = if beside == self.level.tip_on_end() { -1.0 } else { 1.0 };
+        let turning = if self.level == Level::Upper { -1.0 } else { 1.0 };
+        [toward * self.beyond_level(pair, poses), toward * turning]
     }
 
     /// Where the tip does not rest on a side: which of corner on side and tip on end is possible.
@@ -270,18 +265,17 @@ impl Joint {
                 response.add_force(2, &gap, forces[2]);
                 response.tangent[6][8] = approach.slope;
             }
-            if active[2] || self.on_far_side(beside, &gap) {
-                let short = if beside == self.level.tip_on_end() { -1.0 } else { 1.0 };
-                response.residual[8] = short * self.beyond_level(pair, poses);
-                response.tangent[8][2] = short * self.levelling();
-                response.tangent[8][5] = -short * self.levelling();
+            if active[2] || self.within_far_end(beside, &gap) {
+                let [angle, slope] = self.angle(beside, pair, poses);
+                response.residual[8] = angle;
+                (response.tangent[8][2], response.tangent[8][5]) = (slope, -slope);
             }
         }
         response
     }
 
     /// Whether a corner has not passed the end of its edge that is far from where the corners meet.
-    fn on_far_side(self, kind: Kind, gap: &Gap) -> bool {
+    fn within_far_end(self, kind: Kind, gap: &Gap) -> bool {
         match (self.level, kind == self.level.tip_on_end()) {
             (Level::Upper, true) | (Level::Lower, false) => gap.foot <= 1.0,
             (Level::Upper, false) | (Level::Lower, true) => gap.foot >= 0.0,
