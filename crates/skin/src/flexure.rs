@@ -230,15 +230,18 @@ impl SetUp {
         let mut path = Path::new(strip, rest, parameters.solver);
         let alike = matches!(row, Arrangement::Even(_));
         let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
-        let mut locked = false;
-        while !locked && let Some(point) = path.next() {
+        let mut flush = false;
+        while let Some(point) = path.next() {
+            // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
+            // other and nothing else moves: the path stands still in all that measures it.
+            flush = alike && Joints::flush(&point.state);
+            if flush {
+                break;
+            }
             record.visit(&mut path, &point);
-            // Where all gaps are alike and a side lies flush, none can bend on, whatever the moment: the
-            // path stands still in all that measures it.
-            locked = alike && Joints::flush(&point.state);
         }
         let (joints, end) = (&path.system().joints, &path.point().state);
-        let stop = if locked { Some(Stop::Singular) } else { path.stop() };
+        let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = match stop.unwrap_or(Stop::Reached) {
             Stop::Reached if joints.neighbours_interpenetrate(&end.z) => Status::Interpenetration,
             Stop::Reached if joints.off_edge(end) => Status::OffEdge,
