@@ -37,7 +37,7 @@ impl Level {
     }
 
     /// The kind in which the neighbour's corner rests on the side that ends in the tip.
-    fn side_on_corner(self) -> Kind {
+    fn corner_on_side(self) -> Kind {
         match self {
             Self::Upper => Kind::TopLeftOnRightEdge,
             Self::Lower => Kind::BottomRightOnLeftEdge,
@@ -144,7 +144,7 @@ impl Joint {
 
     /// The kind of the contact beside it where side and end lie flush; `None` for a tip on a side.
     pub fn beside(&self) -> Option<Kind> {
-        let [side, tip] = [self.level.side_on_corner(), self.level.tip_on_end()];
+        let [side, tip] = [self.level.corner_on_side(), self.level.tip_on_end()];
         match self.kind {
             Some(kind) if kind == side => Some(tip),
             Some(kind) if kind == tip => Some(side),
@@ -193,7 +193,7 @@ impl Joint {
         if self.beyond_level(pair, poses) > 0.0 {
             self.level.tip_on_end()
         } else {
-            self.level.side_on_corner()
+            self.level.corner_on_side()
         }
     }
 

@@ -223,17 +223,15 @@ impl Joints {
     /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
     /// edge any more, and at the other one the model has no contact to go on with.
     pub(crate) fn off_edge(&self, state: &State) -> bool {
-        let on_edge = |&c: &usize| {
-            Role::of(c) != Role::Partner
-                && state.active[c]
-                && !state.active[FORCES * (c / FORCES) + 1]
-        };
-        (0..state.active.len()).filter(on_edge).any(|c| {
-            let joint = c / FORCES;
+        let joints = 0..self.all.len();
+        joints.filter(|&joint| !Self::active(&state.active, joint)[1]).any(|joint| {
             let [left, right] = self.pair_poses(&state.z, joint);
-            let pair = self.pair(joint / JOINTS);
-            let foot = self.kind(c).map_or(0.0, |kind| pair.gap(kind, &left, &right).foot);
-            !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot)
+            let contacts = [FORCES * joint, FORCES * joint + 2];
+            contacts.into_iter().filter(|&c| state.active[c]).any(|c| {
+                let pair = self.pair(joint / JOINTS);
+                let foot = self.kind(c).map_or(0.0, |kind| pair.gap(kind, &left, &right).foot);
+                !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot)
+            })
         })
     }
 

@@ -57,26 +57,25 @@ fn reactions_add_up_to_the_load() {
     }
 }
 
-/// Contacts that the events leave closed: how many at each level of each pair. Two are beside each other on flush edges,
-/// and one of them is left where it is handed over to the other or the corner is reached.
-fn closed_by(events: &[Event]) -> HashMap<(i64, bool), usize> {
+/// Contacts that the events leave closed: their kinds at each level of each pair. Two are beside each other on flush
+/// edges, and one of them is left where it is handed over to the other or the corner is reached.
+fn closed_by(events: &[Event]) -> HashMap<(i64, bool), HashSet<&'static str>> {
     let mut closed = HashMap::new();
     for event in events {
-        let joint = (event.left_scale, event.kind.name().starts_with('T'));
-        let contacts: &mut usize = closed.entry(joint).or_default();
+        let kind = event.kind.name();
+        let joint = (event.left_scale, kind.starts_with('T'));
+        let kinds: &mut HashSet<_> = closed.entry(joint).or_default();
         match event.change {
-            Change::Closed => *contacts += 1,
-            Change::Opened => {
-                *contacts = contacts.checked_sub(1).expect("what opens was closed");
-            }
+            Change::Closed => assert!(kinds.insert(kind), "closed twice: {event:?}"),
+            Change::Opened => assert!(kinds.remove(kind), "opened while open: {event:?}"),
             _ => {
-                assert!(*contacts > 0, "turned while open: {event:?}");
-                *contacts = 1;
+                assert!(!kinds.is_empty(), "turned while open: {event:?}");
+                *kinds = [kind].into();
             }
         }
-        assert!(*contacts <= 2, "{event:?}");
+        assert!(kinds.len() <= 2, "{event:?}");
     }
-    closed.retain(|_, contacts| *contacts > 0);
+    closed.retain(|_, kinds| !kinds.is_empty());
     closed
 }
 
@@ -84,7 +83,7 @@ fn closed_by(events: &[Event]) -> HashMap<(i64, bool), usize> {
 fn events_account_for_the_contacts_and_the_scales_engaged() {
     for (_, puncture) in solved() {
         let (measures, closed) = (complete(&puncture), closed_by(&puncture.events));
-        assert_eq!(measures.contacts, Some(closed.values().sum()));
+        assert_eq!(measures.contacts, Some(closed.values().map(HashSet::len).sum()));
         let engaged: HashSet<i64> = closed.keys().flat_map(|&(left, _)| [left, left + 1]).collect();
         assert_eq!(measures.engaged_scales, Some(engaged.len()));
         let first = puncture.events.iter().find(|event| event.change == Change::Closed);
