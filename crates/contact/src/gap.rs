@@ -28,7 +28,7 @@ impl Pose {
 
 /// Which corner of a pair of neighbours meets which edge of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum CornerEdge {
     /// Top right corner of the left scale on the left edge of the right scale.
     TopRightOnLeftEdge,
     /// Top left corner of the right scale on the right edge of the left scale.
@@ -43,8 +43,8 @@ pub enum Kind {
     BottomLeftOnBase,
 }
 
-impl Kind {
-    /// The six kinds.
+impl CornerEdge {
+    /// The six possible meetings, the tips on a top or a base last.
     pub const ALL: [Self; 6] = [
         Self::TopRightOnLeftEdge,
         Self::TopLeftOnRightEdge,
@@ -81,6 +81,18 @@ impl Kind {
         matches!(self, Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge | Self::TopRightOnTop)
     }
 
+    /// The contact at the other end of the two edges when they lie flush: the tip on the neighbour's end for the
+    /// neighbour's corner on the side of the tip, and the other way round. `None` for a tip on a side.
+    pub fn flush(self) -> Option<Self> {
+        match self {
+            Self::TopLeftOnRightEdge => Some(Self::TopRightOnTop),
+            Self::TopRightOnTop => Some(Self::TopLeftOnRightEdge),
+            Self::BottomRightOnLeftEdge => Some(Self::BottomLeftOnBase),
+            Self::BottomLeftOnBase => Some(Self::BottomRightOnLeftEdge),
+            Self::TopRightOnLeftEdge | Self::BottomLeftOnRightEdge => None,
+        }
+    }
+
     /// The edge that the corner meets.
     fn edge(self, scale: &Parallelogram) -> Edge {
         match self {
@@ -114,7 +126,7 @@ pub struct Pair {
     /// The left scale and the right one.
     scales: [Parallelogram; 2],
     pitch: f64,
-    /// The corner of each kind of contact and the edge that it meets, undeformed, in the order of [`Kind`].
+    /// The corner and the edge of each contact, undeformed, in the order of [`CornerEdge`].
     meetings: [(Vec2, Edge); 6],
 }
 
@@ -176,12 +188,12 @@ impl Pair {
 
     /// Neighbours of any two shapes, the left and the right one, their nodes `pitch` apart (over `t`).
     pub fn of(scales: [Parallelogram; 2], pitch: f64) -> Self {
-        let meeting = |kind: Kind| {
+        let meeting = |corner_edge: CornerEdge| {
             let [left, right] = &scales;
-            let (a, b) = if kind.corner_is_left() { (left, right) } else { (right, left) };
-            (a.corner(kind.corner()), kind.edge(b))
+            let (a, b) = if corner_edge.corner_is_left() { (left, right) } else { (right, left) };
+            (a.corner(corner_edge.corner()), corner_edge.edge(b))
         };
-        Self { scales, pitch, meetings: Kind::ALL.map(meeting) }
+        Self { scales, pitch, meetings: CornerEdge::ALL.map(meeting) }
     }
 
     /// The shapes of the left and of the right scale.
@@ -197,11 +209,11 @@ impl Pair {
     /// Normals, at rest, of the right edge of the left scale (inward) and of the left edge of the right
     /// one (outward): both point left.
     pub(crate) fn normals(&self) -> [Vec2; 2] {
-        let normal = |kind: Kind| self.meetings[kind as usize].1.normal;
-        [-normal(Kind::TopLeftOnRightEdge), normal(Kind::TopRightOnLeftEdge)]
+        let normal = |corner_edge: CornerEdge| self.meetings[corner_edge as usize].1.normal;
+        [-normal(CornerEdge::TopLeftOnRightEdge), normal(CornerEdge::TopRightOnLeftEdge)]
     }
 
-    /// The gap of one kind of contact, with all its derivatives.
+    /// The gap between a corner and an edge, with all its derivatives.
     ///
     /// With the corner `ρ` from the node of its scale `A`, turned by `φ_A`; the edge's outward normal `n`
     /// and quarter turn `n'`, turned by `φ_B`; the edge's distance `e` from the node of `B`; and the vector `D` from the
@@ -213,12 +225,12 @@ impl Pair {
     /// ∂²g/∂u_A∂φ_B = n'      ∂²g/∂u_B∂φ_B = −n'
     /// ∂²g/∂φ_A² = −ρ·n       ∂²g/∂φ_A∂φ_B = ρ·n        ∂²g/∂φ_B² = −D·n            (C3)
     /// ```
-    pub fn gap(&self, kind: Kind, left: &Pose, right: &Pose) -> Gap {
-        let frame = self.frame(kind, left, right);
-        let Frame { arm, normal, to_corner, .. } = frame;
+    pub fn gap(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
+        let meeting = self.meeting(corner_edge, left, right);
+        let Meeting { arm, normal, to_corner, .. } = meeting;
         let normal_turned = quarter(normal);
         // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
-        let (a, b) = if kind.corner_is_left() { (0, 3) } else { (3, 0) };
+        let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
         let mut gradient = [0.0; 6];
         let mut hessian = [[0.0; 6]; 6];
         for axis in 0..2 {
@@ -232,33 +244,38 @@ impl Pair {
         set(&mut hessian, a + 2, a + 2, -arm.dot(&normal));
         set(&mut hessian, a + 2, b + 2, arm.dot(&normal));
         set(&mut hessian, b + 2, b + 2, -to_corner.dot(&normal));
-        Gap { value: frame.gap, gradient, hessian, foot: frame.foot, normal }
+        Gap { value: meeting.gap, gradient, hessian, foot: meeting.foot, normal }
     }
 
-    /// The gap of one kind of contact alone.
-    pub fn distance(&self, kind: Kind, left: &Pose, right: &Pose) -> f64 {
-        self.frame(kind, left, right).gap
+    /// The gap between a corner and an edge alone.
+    pub fn distance(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> f64 {
+        self.meeting(corner_edge, left, right).gap
     }
 
-    /// The first of `kinds` whose corner has its foot within the edge, and its gap.
+    /// Where the foot of a corner lies on an edge, as [`Gap::foot`].
+    pub(crate) fn foot(&self, corner_edge: CornerEdge, [left, right]: [&Pose; 2]) -> f64 {
+        self.meeting(corner_edge, left, right).foot
+    }
+
+    /// The first of `corner_edges` whose corner has its foot within the edge, and its gap.
     pub(crate) fn facing(
         &self,
-        kinds: [Kind; 2],
+        corner_edges: [CornerEdge; 2],
         [left, right]: [&Pose; 2],
-    ) -> Option<(Kind, f64)> {
-        kinds.into_iter().find_map(|kind| {
-            let frame = self.frame(kind, left, right);
-            (0.0..=1.0).contains(&frame.foot).then_some((kind, frame.gap))
+    ) -> Option<(CornerEdge, f64)> {
+        corner_edges.into_iter().find_map(|corner_edge| {
+            let meeting = self.meeting(corner_edge, left, right);
+            (0.0..=1.0).contains(&meeting.foot).then_some((corner_edge, meeting.gap))
         })
     }
 
-    fn frame(&self, kind: Kind, left: &Pose, right: &Pose) -> Frame {
-        let (corner_pose, edge_pose, offset) = if kind.corner_is_left() {
+    fn meeting(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Meeting {
+        let (corner_pose, edge_pose, offset) = if corner_edge.corner_is_left() {
             (left, right, -self.pitch)
         } else {
             (right, left, self.pitch)
         };
-        let (corner, edge) = &self.meetings[kind as usize];
+        let (corner, edge) = &self.meetings[corner_edge as usize];
         let arm = corner_pose.turn(*corner);
         // Relative positions, so that the place of the pair in a long row costs no digits.
         let to_corner =
@@ -266,12 +283,12 @@ impl Pair {
         let normal = edge_pose.turn(edge.normal);
         let gap = to_corner.dot(&normal) - edge.distance;
         let foot = (to_corner - edge_pose.turn(edge.start)).dot(&edge_pose.turn(edge.along));
-        Frame { arm, normal, to_corner, gap, foot }
+        Meeting { arm, normal, to_corner, gap, foot }
     }
 }
 
-/// The vectors that a gap is made of, turned.
-struct Frame {
+/// A corner at an edge of the neighbour, deformed.
+struct Meeting {
     arm: Vec2,
     normal: Vec2,
     to_corner: Vec2,
@@ -286,7 +303,7 @@ fn set(hessian: &mut [[f64; 6]; 6], row: usize, column: usize, value: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, Pair, Pose, quarter};
+    use super::{CornerEdge, Pair, Pose, quarter};
     use approx::assert_relative_eq;
     use geometry::{Corner, Parallelogram, Vec2};
     use proptest::prelude::*;
@@ -305,19 +322,19 @@ mod tests {
         #[test]
         fn derivatives_agree_with_finite_differences(
             slant in 0.0_f64..80.0, half_base in 0.02_f64..3.0, gap in 0.05_f64..2.0,
-            q in prop::array::uniform6(-1.5_f64..1.5), kind in 0_usize..6,
+            q in prop::array::uniform6(-1.5_f64..1.5), corner_edge in 0_usize..6,
         ) {
-            let kind = Kind::ALL[kind];
+            let corner_edge = CornerEdge::ALL[corner_edge];
             let scale = Parallelogram::new(half_base, slant).unwrap();
             let pair = Pair::new(scale, 2.0 * half_base + gap);
             let (left, right) = poses(&q);
-            let ours = pair.gap(kind, &left, &right);
+            let ours = pair.gap(corner_edge, &left, &right);
             let h = 1e-6;
             for i in 0..6 {
                 let (l, r) = moved(&q, i, h);
-                let high = pair.gap(kind, &l, &r);
+                let high = pair.gap(corner_edge, &l, &r);
                 let (l, r) = moved(&q, i, -h);
-                let low = pair.gap(kind, &l, &r);
+                let low = pair.gap(corner_edge, &l, &r);
                 assert_relative_eq!(
                     ours.gradient[i], (high.value - low.value) / (2.0 * h), epsilon = 1e-7, max_relative = 1e-7
                 );
@@ -337,35 +354,35 @@ mod tests {
         fn the_foot_is_where_the_corner_stands_on_the_edge(
             slants in prop::array::uniform2(0.0_f64..80.0), half_bases in prop::array::uniform2(0.02_f64..3.0),
             rotations in prop::array::uniform2(-0.5_f64..0.5), place in -0.5_f64..1.5, off in -0.2_f64..0.2,
-            kind in 0_usize..6,
+            corner_edge in 0_usize..6,
         ) {
-            let kind = Kind::ALL[kind];
+            let corner_edge = CornerEdge::ALL[corner_edge];
             let scales: [_; 2] =
                 std::array::from_fn(|i| Parallelogram::new(half_bases[i], slants[i]).unwrap());
             let pair = Pair::of(scales, 7.0);
             prop_assert_eq!(pair.pitch(), 7.0);
-            let (a, b) = if kind.corner_is_left() { (0, 1) } else { (1, 0) };
+            let (a, b) = if corner_edge.corner_is_left() { (0, 1) } else { (1, 0) };
             // From the base up, or from the left to the right.
-            let (start, end, outward) = match kind {
-                Kind::TopRightOnLeftEdge | Kind::BottomRightOnLeftEdge => {
+            let (start, end, outward) = match corner_edge {
+                CornerEdge::TopRightOnLeftEdge | CornerEdge::BottomRightOnLeftEdge => {
                     (Corner::BottomLeft, Corner::TopLeft, 1.0)
                 }
-                Kind::TopLeftOnRightEdge | Kind::BottomLeftOnRightEdge => {
+                CornerEdge::TopLeftOnRightEdge | CornerEdge::BottomLeftOnRightEdge => {
                     (Corner::BottomRight, Corner::TopRight, -1.0)
                 }
-                Kind::TopRightOnTop => (Corner::TopLeft, Corner::TopRight, 1.0),
-                Kind::BottomLeftOnBase => (Corner::BottomLeft, Corner::BottomRight, -1.0),
+                CornerEdge::TopRightOnTop => (Corner::TopLeft, Corner::TopRight, 1.0),
+                CornerEdge::BottomLeftOnBase => (Corner::BottomLeft, Corner::BottomRight, -1.0),
             };
             let (start, end) = (scales[b].corner(start), scales[b].corner(end));
             let along = end - start;
             let target = start + place * along + outward * off * quarter(along.normalize());
             let turned = |i: usize| Pose::new(0.0, 0.0, rotations[i]);
             let at = [0.0, 7.0];
-            let corner = turned(a).turn(scales[a].corner(kind.corner()));
+            let corner = turned(a).turn(scales[a].corner(corner_edge.corner()));
             let shift = turned(b).turn(target) - corner + Vec2::new(at[b] - at[a], 0.0);
             let mut poses = [turned(0), turned(1)];
             poses[a] = Pose::new(shift.x, shift.y, rotations[a]);
-            let gap = pair.gap(kind, &poses[0], &poses[1]);
+            let gap = pair.gap(corner_edge, &poses[0], &poses[1]);
             assert_relative_eq!(gap.foot, place, epsilon = 1e-11);
             assert_relative_eq!(gap.value, off, epsilon = 1e-12);
         }
@@ -374,7 +391,7 @@ mod tests {
     #[test]
     fn kinds_have_names_that_say_what_meets_what() {
         assert_eq!(
-            Kind::ALL.map(Kind::name),
+            CornerEdge::ALL.map(CornerEdge::name),
             [
                 "TR on left edge",
                 "TL on right edge",
@@ -391,8 +408,12 @@ mod tests {
         let scale = Parallelogram::new(0.5, 60.0).unwrap();
         let pair = Pair::new(scale, 1.2);
         let rest = Pose::new(0.0, 0.0, 0.0);
-        for kind in [Kind::TopRightOnLeftEdge, Kind::BottomLeftOnRightEdge] {
-            assert_relative_eq!(pair.distance(kind, &rest, &rest), 0.1, max_relative = 1e-14);
+        for corner_edge in [CornerEdge::TopRightOnLeftEdge, CornerEdge::BottomLeftOnRightEdge] {
+            assert_relative_eq!(
+                pair.distance(corner_edge, &rest, &rest),
+                0.1,
+                max_relative = 1e-14
+            );
         }
     }
 
@@ -405,7 +426,7 @@ mod tests {
         let left = Pose::new(0.0, 0.0, -phi);
         let rest = Pose::new(0.0, 0.0, 0.0);
         let expected = gap - (phi.sin() + a * (phi.cos() - 1.0));
-        let ours = pair.distance(Kind::TopRightOnLeftEdge, &left, &rest);
+        let ours = pair.distance(CornerEdge::TopRightOnLeftEdge, &left, &rest);
         assert_relative_eq!(ours, expected, max_relative = 1e-14);
     }
 }

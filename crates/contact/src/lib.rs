@@ -12,20 +12,22 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Pose`], [`Pair`] | where a scale stands; two neighbours, alike or not, at a pitch |
-//! | [`Kind`], [`Gap`] | which corner meets which edge; how far, with gradient and Hessian |
+//! | [`Pose`], [`Pair`] | displacement and rotation of a scale; two neighbours, alike or not, at a pitch |
+//! | [`CornerEdge`], [`Gap`] | which corner meets which edge; their distance, with gradient and Hessian |
 //! | [`Law`], [`ContactLaw`], [`Approach`] | the power law, and its form for one design |
-//! | [`Level`], [`Joint`], [`JointResponse`] | what may touch at the tops or at the bases of a pair, corners and flush edges included; what it adds to a system |
-//! | [`overlaps`], [`overlaps_of`], [`overlap_polygon`] | scales that overlap, for the audit of final states and for drawings |
+//! | [`Level`], [`Corners`] | the two corners that may meet at the tops or at the bases of a pair |
+//! | [`CornerContact`], [`Force`], [`Transition`] | the state of their contact (open, on an edge, corner on corner, flush), and how it changes |
+//! | [`CornerResponse`], [`Equation`] | what a contact adds to a system: forces, conditions, derivatives |
+//! | [`overlaps`], [`overlap_polygon`], [`Overlap`] | scales that overlap, for the audit of final states and for drawings |
 //!
 //! ```
-//! use contact::{ContactLaw, Kind, Law, Pair, Pose};
+//! use contact::{ContactLaw, CornerEdge, Law, Pair, Pose};
 //! use geometry::Parallelogram;
 //!
 //! // Two upright blocks, 0.1 apart; the left one leans over by 0.05 radians.
 //! let pair = Pair::new(Parallelogram::new(0.5, 0.0)?, 1.1);
 //! let (left, right) = (Pose::new(0.0, 0.0, -0.05), Pose::new(0.0, 0.0, 0.0));
-//! let gap = pair.gap(Kind::TopRightOnLeftEdge, &left, &right);
+//! let gap = pair.gap(CornerEdge::TopRightOnLeftEdge, &left, &right);
 //! assert!((gap.value - (0.1 - 0.05_f64.sin() + 0.5 * (1.0 - 0.05_f64.cos()))).abs() < 1e-15);
 //!
 //! let law = ContactLaw::new(Law::PRINTED, 1.0, 1.0, 7000.0)?;
@@ -34,12 +36,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod corner_contact;
+mod corners;
 mod gap;
-mod joint;
 mod law;
 mod overlap;
+mod response;
+#[cfg(test)]
+mod tests;
 
-pub use gap::{Gap, Kind, Pair, Pose};
-pub use joint::{COUPLED, FORCES, Joint, JointResponse, Level};
+pub use corner_contact::{CornerContact, FORCES, Force, Transition};
+pub use corners::{Corners, Level};
+pub use gap::{CornerEdge, Gap, Pair, Pose};
 pub use law::{Approach, ContactLaw, InvalidLaw, Law};
-pub use overlap::{Overlap, overlap_polygon, overlaps, overlaps_of};
+pub use overlap::{Overlap, overlap_polygon, overlaps};
+pub use response::{COORDINATES, CornerResponse, Equation};

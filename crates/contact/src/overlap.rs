@@ -22,17 +22,9 @@ pub struct Overlap {
     pub depth: f64,
 }
 
-/// Every pair of scales of a row, neighbours or not, that overlap in the given poses.
-pub fn overlaps(scale: &Parallelogram, pitch: f64, poses: &[Pose]) -> Vec<Overlap> {
-    overlaps_of(|i| (*scale, i as f64 * pitch), poses)
-}
-
-/// The same where each scale has a shape, and a place of its node at rest, of its own: those of
-/// scale `i` are `standing(i)`.
-pub fn overlaps_of(
-    standing: impl Fn(usize) -> (Parallelogram, f64),
-    poses: &[Pose],
-) -> Vec<Overlap> {
+/// Every pair of scales of a row, neighbours or not, that overlap in the given poses. The shape of scale `i` and the
+/// place of its node at rest are `standing(i)`.
+pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]) -> Vec<Overlap> {
     let extents: Vec<Extents> = poses
         .iter()
         .enumerate()
@@ -125,7 +117,7 @@ fn apart(a: (f64, f64), b: (f64, f64)) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{corners, extent, overlap_polygon, overlaps, overlaps_of};
+    use super::{corners, extent, overlap_polygon, overlaps};
     use crate::gap::{Pose, quarter};
     use approx::assert_relative_eq;
     use geometry::{Parallelogram, Vec2};
@@ -136,7 +128,7 @@ mod tests {
         let scale = Parallelogram::new(0.5, 0.0).unwrap();
         let poses =
             [Pose::new(0.0, 0.0, 0.0), Pose::new(-0.25, 0.02, 0.0), Pose::new(0.0, 0.0, 0.0)];
-        let found = overlaps(&scale, 1.1, &poses);
+        let found = overlaps(|i| (scale, 1.1 * i as f64), &poses);
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].left, found[0].right), (0, 1));
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
@@ -147,7 +139,7 @@ mod tests {
         let scale = Parallelogram::new(0.1, 45.0).unwrap();
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses = [Pose::new(0.55, 0.0, 0.0), rest, rest];
-        let found = overlaps(&scale, 0.3, &poses);
+        let found = overlaps(|i| (scale, 0.3 * i as f64), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 2)]);
     }
 
@@ -156,7 +148,7 @@ mod tests {
         let scale = Parallelogram::new(0.1, 0.0).unwrap();
         // The two between stand far to the right.
         let poses = [0.0, 0.9, 0.9, -0.85].map(|x| Pose::new(x, 0.0, 0.0));
-        let found = overlaps(&scale, 0.3, &poses);
+        let found = overlaps(|i| (scale, 0.3 * i as f64), &poses);
         assert_eq!(found.iter().map(|o| (o.left, o.right)).collect::<Vec<_>>(), [(0, 3)]);
         assert_relative_eq!(found[0].depth, 0.15, epsilon = 1e-9);
     }
@@ -184,7 +176,7 @@ mod tests {
             let poses: [_; 3] =
                 std::array::from_fn(|i| Pose::new(q[3 * i], q[3 * i + 1], q[3 * i + 2]));
             let standing = |i: usize| (scales[i], 1.5 * i as f64);
-            let found = overlaps_of(standing, &poses);
+            let found = overlaps(standing, &poses);
             let placed: [_; 3] =
                 std::array::from_fn(|i| corners(&scales[i], &poses[i], 1.5 * i as f64));
             for (left, right) in [(0, 1), (0, 2), (1, 2)] {

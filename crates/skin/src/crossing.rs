@@ -16,64 +16,54 @@ pub(crate) struct Crossing<Q> {
     pub(crate) value: f64,
 }
 
-/// Follows `path` and shows `found` the equilibrium of each crossing, with its place in the list and the
-/// system as it is there. Ends when all are found, or with the path.
+/// Follows `path` until every crossing is found or the path ends, and returns the equilibrium of each.
 pub(crate) fn follow<S, Q>(
     path: &mut Path<S>,
     crossings: &[Crossing<Q>],
-    mut found: impl FnMut(usize, &S, &State),
-) where
-    S: System + Clone,
-    Q: Fn(&S, &State) -> f64,
+) -> Vec<Option<State<S::Mode>>>
+where
+    S: System,
+    Q: Fn(&S, &State<S::Mode>) -> f64,
 {
-    let mut open: Vec<usize> = (0..crossings.len()).collect();
-    let start = path.point().state.clone();
-    take(&mut open, |k| {
-        let at_rest = crossings[k].is_at(path.system(), &start);
-        at_rest.then(|| found(k, path.system(), &start)).is_some()
-    });
-    while !open.is_empty() {
-        // The contacts of a system change at the end of a step: what lies within it is solved for
-        // with the system at its beginning.
-        let mut before = path.clone();
-        let from = before.point().clone();
-        let Some(to) = path.next() else { return };
-        take(&mut open, |k| match crossings[k].between(&mut before, &from, &to) {
-            Some(state) => {
-                found(k, before.system(), &state);
-                true
-            }
-            None => false,
-        });
+    let start = &path.point().state;
+    let at_start =
+        |crossing: &Crossing<Q>| crossing.is_at(path.system(), start).then(|| start.clone());
+    let mut found: Vec<_> = crossings.iter().map(at_start).collect();
+    while found.contains(&None) {
+        let from = path.point().clone();
+        let Some(to) = path.next() else { break };
+        for (crossing, found) in crossings.iter().zip(&mut found).filter(|(_, f)| f.is_none()) {
+            *found = crossing.between(path, &from, &to);
+        }
     }
-}
-
-/// Removes the entries that `is_done`.
-fn take(open: &mut Vec<usize>, mut is_done: impl FnMut(usize) -> bool) {
-    open.retain(|&k| !is_done(k));
+    found
 }
 
 impl<Q> Crossing<Q> {
-    fn off<S>(&self, system: &S, state: &State) -> f64
+    fn off<S: System>(&self, system: &S, state: &State<S::Mode>) -> f64
     where
-        Q: Fn(&S, &State) -> f64,
+        Q: Fn(&S, &State<S::Mode>) -> f64,
     {
         (self.quantity)(system, state) - self.value
     }
 
-    fn is_at<S>(&self, system: &S, state: &State) -> bool
+    fn is_at<S: System>(&self, system: &S, state: &State<S::Mode>) -> bool
     where
-        Q: Fn(&S, &State) -> f64,
+        Q: Fn(&S, &State<S::Mode>) -> f64,
     {
         self.off(system, state).abs() <= CLOSE * (1.0 + self.value.abs())
     }
 
     /// The equilibrium between two neighbouring points at which the quantity has its value: by
     /// the secant through the ends of a bracket, with the Illinois rule.
-    fn between<S>(&self, path: &mut Path<S>, from: &Point, to: &Point) -> Option<State>
+    fn between<S: System>(
+        &self,
+        path: &mut Path<S>,
+        from: &Point<S::Mode>,
+        to: &Point<S::Mode>,
+    ) -> Option<State<S::Mode>>
     where
-        S: System + Clone,
-        Q: Fn(&S, &State) -> f64,
+        Q: Fn(&S, &State<S::Mode>) -> f64,
     {
         let mut low = (0.0, self.off(path.system(), &from.state));
         let mut high = (1.0, self.off(path.system(), &to.state));

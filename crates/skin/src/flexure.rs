@@ -16,12 +16,12 @@ use contact::{ContactLaw, Law};
 use frame::{Frame, Step};
 use geometry::Row;
 use membrane::{GapMembrane, Section, Span};
-use solver::{Path, Settings, State, Stop};
+use solver::{Path, Settings, Stop};
 use strip::Strip;
 
 use crate::arrangement::Arrangement;
-use crate::joints::Joints;
-use crate::{Change, Design, InvalidDesign, Sample};
+use crate::contacts::{Contacts, State};
+use crate::{ContactChange, Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
 use record::Record;
@@ -116,7 +116,7 @@ impl Flexure {
     /// in the last of those that close. 0 in a perfect strip, `None` without contact.
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
-        let closings = self.events.iter().filter(|event| event.change == Change::Closed);
+        let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
         let first = closings.filter(|event| closed.insert(event.gap));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;
@@ -234,17 +234,17 @@ impl SetUp {
         while let Some(point) = path.next() {
             // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
             // other and nothing else moves: the path stands still in all that measures it.
-            flush = alike && Joints::flush(&point.state);
+            flush = alike && Contacts::flush(&point.state);
             if flush {
                 break;
             }
             record.visit(&mut path, &point);
         }
-        let (joints, end) = (&path.system().joints, &path.point().state);
+        let (contacts, end) = (&path.system().contacts, &path.point().state);
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = match stop.unwrap_or(Stop::Reached) {
-            Stop::Reached if joints.neighbours_interpenetrate(&end.z) => Status::Interpenetration,
-            Stop::Reached if joints.off_edge(end) => Status::OffEdge,
+            Stop::Reached if contacts.neighbours_interpenetrate(end) => Status::Interpenetration,
+            Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
             Stop::Reached => Status::Complete,
             stop => Status::Stopped(stop),
         };

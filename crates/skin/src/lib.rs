@@ -42,15 +42,15 @@
 //! ```
 
 mod arrangement;
+mod contacts;
 mod crossing;
 mod design;
 pub mod flexure;
 mod imperfection;
 mod invalid;
-mod joints;
 pub mod puncture;
 
+pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, InvalidImperfection, Sample};
 pub use invalid::InvalidDesign;
-pub use joints::{Change, Contact};

@@ -9,12 +9,12 @@ mod tests;
 
 use contact::{ContactLaw, Law};
 use geometry::Row;
-use solver::{Path, Settings, State, Stop};
+use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
 
 use crate::arrangement::Arrangement;
-use crate::joints::Joints;
+use crate::contacts::{Contacts, State};
 use crate::{Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
@@ -284,10 +284,10 @@ impl<'a> Problem<'a> {
             }
         }
         let stop = path.stop().unwrap_or(Stop::Reached);
-        let (joints, end) = (&path.system().joints, &path.point().state);
+        let (contacts, end) = (&path.system().contacts, &path.point().state);
         let status = match stop {
-            Stop::Reached if joints.interpenetrate(&end.z) => Status::Interpenetration,
-            Stop::Reached if joints.off_edge(end) => Status::OffEdge,
+            Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
+            Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
             Stop::Reached => Status::Complete,
             stop => Status::Stopped(stop),
         };
@@ -298,7 +298,7 @@ impl<'a> Problem<'a> {
 fn reached_ends(chain: &Chain, state: &State) -> Reached {
     let last = chain.layout.scales() - 1;
     let moved = |scale| chain.displacement(&state.z, scale).iter().any(|u| u.abs() > STILL);
-    let touching: Vec<bool> = Joints::touching(state).collect();
+    let touching: Vec<bool> = Contacts::touching(state).collect();
     Reached {
         left: moved(0) || touching.first() == Some(&true),
         right: moved(last) || touching.last() == Some(&true),

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use contact::Law;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, RowLength};
-use skin::{Base, Change, Design, Imperfection, Sample};
+use skin::{Base, ContactChange, Design, Imperfection, Sample};
 use solver::Settings;
 use substrate::calibrate;
 
@@ -161,7 +161,7 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
     }
     assert!(by_slants > 0.2 * first, "{by_slants} {first}");
     let strip = bent(&sample(0.05, 0.4, 1, 1));
-    let closed = strip.events.iter().filter(|event| event.change == Change::Closed);
+    let closed = strip.events.iter().filter(|event| event.change == ContactChange::Closed);
     let mut closed: Vec<_> = closed.map(|event| event.point.curvature).collect();
     closed.dedup();
     assert!(closed.len() >= strip.gaps, "{} of {}", closed.len(), strip.gaps);

@@ -1,11 +1,8 @@
 //! Events on the path: constraints that change sides, and extrema of the load.
 
-use std::sync::Arc;
-
-use crate::newton::{ActiveSet, Condition, FLOOR, NewtonFailure, guard_slope};
-use crate::path::{Candidate, Path, Point, interpolated};
-use crate::stop::Stop;
-use crate::system::{State, System};
+use crate::newton::{FLOOR, NewtonFailure, guard_slope};
+use crate::path::{Candidate, Path, Point};
+use crate::system::System;
 
 /// An event may lie this far before the point reached: constraints that change sides together are
 /// found one after the other, and each only to round-off.
@@ -13,10 +10,6 @@ const BACKWARD: f64 = 1e-9;
 
 /// Guards as close to zero as this at an event may change sides with the one that was located.
 const TOGETHER: f64 = 1e-10;
-
-/// Events at least this far apart happen one after the other: where edges are nearly parallel forces
-/// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
-const APART: f64 = 1e-10;
 
 /// The place of a load extremum is known to this part of its bracket, after at most so many rounds.
 const CLOSE: f64 = 1e-9;
@@ -53,10 +46,10 @@ impl<S: System> Path<S> {
     /// The first event between the point reached and `candidate`, or `candidate` where there is none.
     pub(crate) fn first_event(
         &mut self,
-        from: &Point,
-        candidate: Candidate,
-    ) -> Result<Candidate, NewtonFailure> {
-        let guards = self.newton.guards(&*self.system, &candidate.state);
+        from: &Point<S::Mode>,
+        candidate: Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let guards = self.newton.guards(&self.system, &candidate.state);
         if let Some(constraint) = self.first_violated(&guards) {
             return self.event(from, candidate, constraint);
         }
@@ -64,7 +57,7 @@ impl<S: System> Path<S> {
             let condition = self.condition(from);
             let distance = condition.of(&candidate.state.z) - condition.value;
             let inside = self.trial(from, fraction * distance)?;
-            let guards = self.newton.guards(&*self.system, &inside.state);
+            let guards = self.newton.guards(&self.system, &inside.state);
             if let Some(constraint) = self.first_violated(&guards) {
                 return self.event(from, inside, constraint);
             }
@@ -88,7 +81,12 @@ impl<S: System> Path<S> {
 
     /// Where, on the way from the point reached to `candidate`, a guard seems to fall below zero and to rise
     /// again: two events within a step, of which its ends show nothing.
-    fn dips(&mut self, from: &Point, candidate: &Candidate, after: &[f64]) -> Vec<f64> {
+    fn dips(
+        &mut self,
+        from: &Point<S::Mode>,
+        candidate: &Candidate<S::Mode>,
+        after: &[f64],
+    ) -> Vec<f64> {
         let condition = self.condition(from);
         let distance = condition.of(&candidate.state.z) - condition.value;
         let span = distance / condition.of(&from.leaving);
@@ -97,7 +95,7 @@ impl<S: System> Path<S> {
         let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
         let arriving = distance / condition.of(&candidate.direction);
         let dips = falling.into_iter().filter_map(|c| {
-            let slope = guard_slope(&*self.system, &candidate.state, c, &candidate.direction);
+            let slope = guard_slope(&self.system, &candidate.state, c, &candidate.direction);
             let ends = [self.guards[c], after[c]];
             dip(ends, [self.slopes[c] * span, slope * arriving])
         });
@@ -107,10 +105,10 @@ impl<S: System> Path<S> {
     /// The first event between the point reached and `beyond`, where `constraint` is violated.
     fn event(
         &mut self,
-        from: &Point,
-        mut beyond: Candidate,
+        from: &Point<S::Mode>,
+        mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
-    ) -> Result<Candidate, NewtonFailure> {
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         if from.event.as_ref().is_some_and(|event| event.changes(constraint)) {
             // It has just changed sides, and the path leaves in the direction in which it stays
             // valid: a step that ends otherwise was too long.
@@ -119,7 +117,7 @@ impl<S: System> Path<S> {
         // Each round finds an event before the last one, so as many rounds as constraints do.
         for _ in 0..=self.guards.len() {
             let located = self.locate(from, &beyond, constraint)?;
-            let guards = self.newton.guards(&*self.system, &located.state);
+            let guards = self.newton.guards(&self.system, &located.state);
             match self.first_violated(&guards) {
                 Some(earlier) if earlier != constraint => constraint = earlier,
                 _ => return Ok(self.changed(located, constraint, &guards)),
@@ -132,21 +130,16 @@ impl<S: System> Path<S> {
     /// The place between the point reached and `beyond` where the guard of a constraint vanishes.
     fn locate(
         &mut self,
-        from: &Point,
-        beyond: &Candidate,
+        from: &Point<S::Mode>,
+        beyond: &Candidate<S::Mode>,
         constraint: usize,
-    ) -> Result<Candidate, NewtonFailure> {
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let condition = self.condition(from);
         let before = self.guards[constraint].max(0.0);
-        let after = self.newton.guards(&*self.system, &beyond.state)[constraint];
-        let mut state = interpolated(&from.state, &beyond.state, before / (before - after));
-        let direction = self.newton.locate(
-            &*self.system,
-            &mut state,
-            &condition,
-            constraint,
-            &self.settings,
-        )?;
+        let after = self.newton.guards(&self.system, &beyond.state)[constraint];
+        let mut state = from.state.interpolated(&beyond.state, before / (before - after));
+        let direction =
+            self.newton.locate(&self.system, &mut state, &condition, constraint, &self.settings)?;
         let span = condition.of(&beyond.state.z) - condition.value;
         let reached = condition.of(&state.z) - condition.value;
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
@@ -156,10 +149,15 @@ impl<S: System> Path<S> {
     }
 
     /// The candidate as an event: one constraint changes sides, others may do so with it.
-    fn changed(&self, located: Candidate, constraint: usize, guards: &[f64]) -> Candidate {
+    fn changed(
+        &self,
+        located: Candidate<S::Mode>,
+        constraint: usize,
+        guards: &[f64],
+    ) -> Candidate<S::Mode> {
         let Candidate { state, direction, .. } = located;
         let closing = |c: usize| {
-            guards[c].abs() <= TOGETHER && guard_slope(&*self.system, &state, c, &direction) < 0.0
+            guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
         let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
         let changes = std::iter::once(constraint)
@@ -170,7 +168,7 @@ impl<S: System> Path<S> {
     }
 
     /// Whether the load has an extremum between the point and the candidate.
-    pub(crate) fn turns(&self, from: &Point, candidate: &Candidate) -> bool {
+    pub(crate) fn turns(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
         from.event != Some(Event::LoadExtremum)
             && from.leaving[load] * candidate.direction[load] < 0.0
@@ -180,9 +178,9 @@ impl<S: System> Path<S> {
     /// (Dowell & Jarratt 1971, doi 10.1007/BF01934364).
     pub(crate) fn extremum(
         &mut self,
-        from: &Point,
-        beyond: &Candidate,
-    ) -> Result<Candidate, NewtonFailure> {
+        from: &Point<S::Mode>,
+        beyond: &Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
         let condition = self.condition(from);
         let (mut low, mut high) = (0.0, condition.of(&beyond.state.z) - condition.value);
@@ -204,154 +202,6 @@ impl<S: System> Path<S> {
             (high, f_high) = (distance, f);
         }
         Err(NewtonFailure::TooManyIterations)
-    }
-
-    /// Lets constraints change sides, and returns the direction in which the path goes on. `changes` is
-    /// left with what has changed.
-    pub(crate) fn turn(
-        &mut self,
-        state: &mut State,
-        arriving: &[f64],
-        changes: &mut Vec<Change>,
-    ) -> Result<Vec<f64>, Stop> {
-        match self.turn_together(state, arriving, changes) {
-            Some(leaving) => Ok(leaving),
-            None => self.turn_in_turn(state, arriving, changes),
-        }
-    }
-
-    /// All constraints change sides at once, as they do by symmetry. `None`, and nothing has changed, if the path
-    /// does not go on in a direction in which they all stay valid.
-    fn turn_together(
-        &mut self,
-        state: &mut State,
-        arriving: &[f64],
-        changes: &[Change],
-    ) -> Option<Vec<f64>> {
-        if changes.len() == 1 {
-            return None;
-        }
-        let system = Arc::clone(&self.system);
-        let mut trial = state.clone();
-        let valid: Vec<usize> =
-            changes.iter().map(|&change| self.change(&mut trial, change)).collect();
-        let leaving = self.leave(&mut trial, arriving, valid[0]).ok();
-        let leaving =
-            leaving.filter(|leaving| self.most_violated(&trial, leaving, &valid).is_none());
-        if leaving.is_some() {
-            *state = trial;
-        } else {
-            self.system = system;
-        }
-        leaving
-    }
-
-    /// The first of `changes` happens for certain. The others are about to, but may not be once the path
-    /// has turned, and one that has may have to change back: while the direction violates one of
-    /// them, it changes sides and the path turns to where it stays valid. This is the path
-    /// through events that follow each other at no distance.
-    fn turn_in_turn(
-        &mut self,
-        state: &mut State,
-        arriving: &[f64],
-        changes: &mut Vec<Change>,
-    ) -> Result<Vec<f64>, Stop> {
-        let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
-        let mut next = changes[0];
-        changes.clear();
-        for _ in 0..self.most_changes() {
-            let valid = self.change(state, next);
-            if !meeting.contains(&valid) {
-                meeting.push(valid);
-            }
-            note(changes, next);
-            let leaving = self.leave(state, arriving, valid)?;
-            let Some(constraint) = self.most_violated(state, &leaving, &meeting) else {
-                return Ok(leaving);
-            };
-            next = Change { constraint, activated: !state.active[constraint] };
-        }
-        Err(Stop::Cycling)
-    }
-
-    /// The constraint that a direction violates fastest, of those that it violates at no distance.
-    fn most_violated(
-        &mut self,
-        state: &State,
-        direction: &[f64],
-        constraints: &[usize],
-    ) -> Option<usize> {
-        let guards = self.newton.guards(&*self.system, state);
-        let slopes =
-            constraints.iter().map(|&c| (c, guard_slope(&*self.system, state, c, direction)));
-        slopes
-            .filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(c, _)| c)
-    }
-
-    /// Lets a constraint change sides; returns the one that has to stay valid.
-    fn change(&mut self, state: &mut State, Change { constraint, activated }: Change) -> usize {
-        state.active[constraint] = activated;
-        state.z[self.system.constraints()[constraint]] = 0.0;
-        Arc::make_mut(&mut self.system).exchange(state, constraint)
-    }
-
-    /// Direction in which the path goes on where a constraint has changed sides: the one in which
-    /// the constraint stays valid. Restores equilibrium first, which an exchange may have disturbed.
-    fn leave(
-        &mut self,
-        state: &mut State,
-        arriving: &[f64],
-        constraint: usize,
-    ) -> Result<Vec<f64>, Stop> {
-        for condition in self.measures(state, arriving) {
-            let mut trial = state.clone();
-            let Ok(direction) = self.newton.solve(
-                &*self.system,
-                &mut trial,
-                &condition,
-                &self.settings,
-                ActiveSet::Held,
-            ) else {
-                continue;
-            };
-            let mut direction = self.normalised(direction);
-            let slope = guard_slope(&*self.system, &trial, constraint, &direction);
-            if slope < 0.0 {
-                for x in &mut direction {
-                    *x = -*x;
-                }
-            }
-            if slope != 0.0 && direction.iter().all(|x| x.is_finite()) {
-                *state = trial;
-                return Ok(direction);
-            }
-        }
-        Err(Stop::Singular)
-    }
-
-    /// Ways to measure distance, the likeliest to increase along the path first.
-    fn measures(&self, state: &State, direction: &[f64]) -> Vec<Condition> {
-        let controls = self.system.controls();
-        let arc =
-            controls.iter().map(|c| (c.index, direction[c.index] / c.scale.powi(2))).collect();
-        let single = controls.iter().map(|c| vec![(c.index, 1.0 / c.scale)]);
-        let rows = std::iter::once(arc).chain(single);
-        rows.map(|row| Condition::through(row, &state.z)).collect()
-    }
-
-    /// More constraints than this do not change sides at one place.
-    fn most_changes(&self) -> usize {
-        2 * self.guards.len() + 8
-    }
-}
-
-/// Adds a change to those made, or takes it off them if it undoes one.
-fn note(changes: &mut Vec<Change>, change: Change) {
-    match changes.iter().position(|made| made.constraint == change.constraint) {
-        Some(undone) => drop(changes.remove(undone)),
-        None => changes.push(change),
     }
 }
 

@@ -20,20 +20,24 @@
 //! use solver::{BandMatrix, Control, Path, Residual, Settings, State, Stop, System};
 //!
 //! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
-//! #[derive(Clone)]
 //! struct SnapThrough([Control; 1]);
 //!
 //! impl System for SnapThrough {
+//!     type Mode = ();
+//!
 //!     fn size(&self) -> usize { 2 }
 //!     fn half_bandwidth(&self) -> usize { 1 }
 //!     fn load(&self) -> usize { 1 }
 //!     fn controls(&self) -> &[Control] { &self.0 }
-//!     fn residual(&self, z: &[f64], _: &[bool], residual: &mut Residual) {
+//!     fn mode_at_rest(&self) {}
+//!     fn residual(&self, state: &State, residual: &mut Residual) {
+//!         let z = &state.z;
 //!         residual.clear(&[1.0, 1.0]);
 //!         residual.add(0, z[0] * (1.0 - z[0] * z[0]));
 //!         residual.add(0, -z[1]);
 //!     }
-//!     fn tangent(&self, z: &[f64], _: &[bool], matrix: &mut BandMatrix) {
+//!     fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+//!         let z = &state.z;
 //!         matrix.add(0, 0, 1.0 - 3.0 * z[0] * z[0]);
 //!         matrix.add(0, 1, -1.0);
 //!     }
@@ -50,18 +54,21 @@
 //! assert!(loads.last().is_some_and(|load| load.abs() < 1e-12));
 //! ```
 
+mod check;
 mod event;
 mod linear;
 mod newton;
 mod path;
 mod peak;
+mod rate_problem;
 mod step;
 mod stop;
 mod system;
 
+pub use check::{WrongDerivative, check_tangent};
 pub use event::{Change, Event};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
-pub use newton::{ActiveSet, Condition, Newton, NewtonFailure};
+pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::Peak;
 pub use step::Settings;

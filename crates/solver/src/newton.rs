@@ -47,16 +47,6 @@ pub enum NewtonFailure {
     TooManyIterations,
 }
 
-/// What happens to the active set during the iteration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ActiveSet {
-    /// It stays as it is: the equations are smooth, the signs are for the caller to check.
-    Held,
-    /// It follows the iterates: the semismooth Newton method, also known as the primal–dual
-    /// active-set strategy (Hintermüller, Ito & Kunisch 2002, doi 10.1137/S1052623401383558).
-    Updated,
-}
-
 /// Storage for the solves of one system, kept from one to the next.
 #[derive(Clone, Debug)]
 pub struct Newton {
@@ -86,26 +76,25 @@ impl Newton {
     }
 
     /// Moves `state` to the equilibrium that satisfies `condition`, and returns the direction of
-    /// the path there: `∂z/∂value`.
+    /// the path there: `∂z/∂value`. The active set and the mode stay as they are, so that the equations are smooth; the
+    /// signs of (N1) are for the caller to check.
     ///
     /// # Errors
     /// If the iteration does not converge; `state` is then some iterate.
     pub fn solve<S: System>(
         &mut self,
         system: &S,
-        state: &mut State,
+        state: &mut State<S::Mode>,
         condition: &Condition,
         settings: &Settings,
-        active_set: ActiveSet,
     ) -> Result<Vec<f64>, NewtonFailure> {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
-            let changed = active_set == ActiveSet::Updated && self.update(system, state);
             let norm = self.evaluate(system, state, condition)?;
             self.factorise(system, state, condition)?;
             self.lu.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
-            if norm <= settings.tolerance && !changed {
+            if norm <= settings.tolerance {
                 return Ok(self.direction(system));
             }
         }
@@ -121,7 +110,7 @@ impl Newton {
     pub fn locate<S: System>(
         &mut self,
         system: &S,
-        state: &mut State,
+        state: &mut State<S::Mode>,
         condition: &Condition,
         constraint: usize,
         settings: &Settings,
@@ -156,7 +145,7 @@ impl Newton {
     pub fn tangent<S: System>(
         &mut self,
         system: &S,
-        state: &State,
+        state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<Vec<f64>, NewtonFailure> {
         self.factorise(system, state, condition)?;
@@ -169,8 +158,8 @@ impl Newton {
     }
 
     /// How far each constraint is from changing sides: `z_c` if active, `r_c` if not.
-    pub fn guards<S: System>(&mut self, system: &S, state: &State) -> Vec<f64> {
-        system.residual(&state.z, &state.active, &mut self.residual);
+    pub fn guards<S: System>(&mut self, system: &S, state: &State<S::Mode>) -> Vec<f64> {
+        system.residual(state, &mut self.residual);
         (0..state.active.len()).map(|c| self.guard(system, state, c)).collect()
     }
 
@@ -178,13 +167,11 @@ impl Newton {
     pub(crate) fn guard_slopes<S: System>(
         &mut self,
         system: &S,
-        state: &State,
+        state: &State<S::Mode>,
         direction: &[f64],
         guards: &[f64],
     ) -> Vec<f64> {
-        self.step.copy_from_slice(&state.z);
-        add(&mut self.step, DIFFERENCE, direction);
-        system.residual(&self.step, &state.active, &mut self.residual);
+        system.residual(&state.moved(DIFFERENCE, direction), &mut self.residual);
         let indices = system.constraints().iter().zip(&state.active);
         let slopes = indices.zip(guards).map(|((&index, &active), guard)| {
             if active {
@@ -196,33 +183,19 @@ impl Newton {
         slopes.collect()
     }
 
-    fn guard<S: System>(&self, system: &S, state: &State, constraint: usize) -> f64 {
+    fn guard<S: System>(&self, system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
         let index = system.constraints()[constraint];
         if state.active[constraint] { state.z[index] } else { self.residual.value[index] }
-    }
-
-    /// Activates violated constraints and releases those with negative unknowns; tells whether any changed.
-    fn update<S: System>(&mut self, system: &S, state: &mut State) -> bool {
-        let guards = self.guards(system, state);
-        let mut changed = false;
-        for (c, &guard) in guards.iter().enumerate() {
-            if guard < -FLOOR {
-                state.active[c] = !state.active[c];
-                state.z[system.constraints()[c]] = 0.0;
-                changed = true;
-            }
-        }
-        changed
     }
 
     /// Evaluates the equations; leaves minus their values in `step` and returns their norm.
     fn evaluate<S: System>(
         &mut self,
         system: &S,
-        state: &State,
+        state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<f64, NewtonFailure> {
-        system.residual(&state.z, &state.active, &mut self.residual);
+        system.residual(state, &mut self.residual);
         let load = system.load();
         self.residual.value[load] = condition.of(&state.z) - condition.value;
         self.residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
@@ -247,11 +220,11 @@ impl Newton {
     fn factorise<S: System>(
         &mut self,
         system: &S,
-        state: &State,
+        state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<(), SingularMatrix> {
         self.matrix.clear();
-        system.tangent(&state.z, &state.active, &mut self.matrix);
+        system.tangent(state, &mut self.matrix);
         self.matrix.clear_row(system.load());
         for &(index, coefficient) in &condition.row {
             self.matrix.add(system.load(), index, coefficient);
@@ -273,7 +246,7 @@ impl Newton {
 /// Derivative of a guard along a direction.
 pub(crate) fn guard_slope<S: System>(
     system: &S,
-    state: &State,
+    state: &State<S::Mode>,
     constraint: usize,
     direction: &[f64],
 ) -> f64 {
@@ -285,13 +258,16 @@ pub(crate) fn guard_slope<S: System>(
 }
 
 /// Unknowns of the inactive constraints.
-fn inactive<'a, S: System>(system: &'a S, state: &'a State) -> impl Iterator<Item = usize> + 'a {
+fn inactive<'a, S: System>(
+    system: &'a S,
+    state: &'a State<S::Mode>,
+) -> impl Iterator<Item = usize> + 'a {
     let constraints = system.constraints().iter().zip(&state.active);
     constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
 }
 
 /// Sets the unknowns of inactive constraints to zero, where the iteration keeps them.
-fn rest<S: System>(system: &S, state: &mut State) {
+fn rest<S: System>(system: &S, state: &mut State<S::Mode>) {
     for (&index, active) in system.constraints().iter().zip(&state.active) {
         if !active {
             state.z[index] = 0.0;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::event::Event;
-use crate::newton::{ActiveSet, Condition, FLOOR, Newton, NewtonFailure};
+use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::step::Settings;
 use crate::stop::Stop;
 use crate::system::{Control, State, System};
@@ -21,9 +21,9 @@ const SHORT: f64 = 1e-9;
 
 /// An equilibrium of the path.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
-    /// The equilibrium. Where a constraint changes sides, the active set is the one with which the path goes on.
-    pub state: State,
+pub struct Point<M = ()> {
+    /// The equilibrium. Where a constraint changes sides, active set and mode are those with which the path goes on.
+    pub state: State<M>,
     /// Direction in which the path arrives, of unit length in the controls.
     pub arriving: Vec<f64>,
     /// Direction in which it goes on; another one where a constraint changes sides.
@@ -51,11 +51,11 @@ pub struct Point {
 ///
 /// The iterator ends where the path does; [`Path::stop`] then tells why.
 #[derive(Clone, Debug)]
-pub struct Path<S> {
-    pub(crate) system: Arc<S>,
+pub struct Path<S: System> {
+    pub(crate) system: S,
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
-    pub(crate) point: Arc<Point>,
+    pub(crate) point: Arc<Point<S::Mode>>,
     /// Guards at `point`, with its active set, and how fast they change as the path leaves.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
@@ -65,21 +65,21 @@ pub struct Path<S> {
 }
 
 /// A candidate for the next point.
-pub(crate) struct Candidate {
-    pub(crate) state: State,
+pub(crate) struct Candidate<M> {
+    pub(crate) state: State<M>,
     pub(crate) direction: Vec<f64>,
     pub(crate) event: Option<Event>,
 }
 
 impl<S: System> Path<S> {
     /// A path from the equilibrium `start` in the direction of its driver.
-    pub fn new(system: S, start: State, settings: Settings) -> Self {
+    pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
             Point { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
         let mut path = Self {
             newton: Newton::new(&system),
-            system: Arc::new(system),
+            system,
             settings,
             point: Arc::new(point.clone()),
             guards: Vec::new(),
@@ -93,7 +93,7 @@ impl<S: System> Path<S> {
     }
 
     /// The point that the path has reached.
-    pub fn point(&self) -> &Point {
+    pub fn point(&self) -> &Point<S::Mode> {
         &self.point
     }
 
@@ -113,21 +113,24 @@ impl<S: System> Path<S> {
     }
 
     /// The equilibrium at a fraction of the way between two neighbouring points, with the active set
-    /// between them. `None` where Newton's method does not get there.
-    ///
-    /// The system must be as it was on the way between them: [`System::exchange`] may change it at events.
-    pub fn between(&mut self, from: &Point, to: &Point, fraction: f64) -> Option<Point> {
+    /// and the mode between them. `None` where Newton's method does not get there.
+    pub fn between(
+        &mut self,
+        from: &Point<S::Mode>,
+        to: &Point<S::Mode>,
+        fraction: f64,
+    ) -> Option<Point<S::Mode>> {
         self.between_from(from, to, fraction, from)
     }
 
     /// The same, reached from `near`, a point between the two.
     pub(crate) fn between_from(
         &mut self,
-        from: &Point,
-        to: &Point,
+        from: &Point<S::Mode>,
+        to: &Point<S::Mode>,
         fraction: f64,
-        near: &Point,
-    ) -> Option<Point> {
+        near: &Point<S::Mode>,
+    ) -> Option<Point<S::Mode>> {
         let mut condition = self.condition(from);
         let distance = fraction * (condition.of(&to.state.z) - condition.value);
         condition.value += distance;
@@ -139,15 +142,10 @@ impl<S: System> Path<S> {
         Some(Point { state, arriving, leaving, event: None })
     }
 
-    /// This path with its system as it was at another point.
-    pub(crate) fn with_system(&self, system: Arc<S>) -> Self {
-        Self { system, ..self.clone() }
-    }
-
-    fn start(&mut self, mut point: Point) {
+    fn start(&mut self, mut point: Point<S::Mode>) {
         let driver = self.driver();
         let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 0.0 };
-        match self.newton.tangent(&*self.system, &point.state, &condition) {
+        match self.newton.tangent(&self.system, &point.state, &condition) {
             Ok(direction) => {
                 point.leaving = self.normalised(direction);
                 point.arriving.clone_from(&point.leaving);
@@ -158,10 +156,10 @@ impl<S: System> Path<S> {
     }
 
     /// Makes `point` the one that the path has reached.
-    fn stand(&mut self, point: Point) {
-        self.guards = self.newton.guards(&*self.system, &point.state);
+    fn stand(&mut self, point: Point<S::Mode>) {
+        self.guards = self.newton.guards(&self.system, &point.state);
         let Point { state, leaving, .. } = &point;
-        self.slopes = self.newton.guard_slopes(&*self.system, state, leaving, &self.guards);
+        self.slopes = self.newton.guard_slopes(&self.system, state, leaving, &self.guards);
         self.point = Arc::new(point);
     }
 
@@ -185,7 +183,7 @@ impl<S: System> Path<S> {
     }
 
     /// How distance from `point` is measured; it increases along the path.
-    pub(crate) fn condition(&self, point: &Point) -> Condition {
+    pub(crate) fn condition(&self, point: &Point<S::Mode>) -> Condition {
         let driver = self.driver();
         let drive = self.progress(&point.leaving);
         let row = if drive.abs() >= DRIVES {
@@ -200,9 +198,9 @@ impl<S: System> Path<S> {
     /// The equilibrium at a distance from a point, with the active set with which it is left.
     pub(crate) fn trial(
         &mut self,
-        from: &Point,
+        from: &Point<S::Mode>,
         distance: f64,
-    ) -> Result<Candidate, NewtonFailure> {
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut condition = self.condition(from);
         condition.value += distance;
         let candidate = self.trial_at(from, &condition)?;
@@ -215,32 +213,26 @@ impl<S: System> Path<S> {
     /// The equilibrium that satisfies `condition`, reached along the direction of the path at `near`.
     fn trial_at(
         &mut self,
-        near: &Point,
+        near: &Point<S::Mode>,
         condition: &Condition,
-    ) -> Result<Candidate, NewtonFailure> {
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let distance = condition.value - condition.of(&near.state.z);
         let factor = distance / condition.of(&near.leaving);
-        self.correct(shifted(&near.state, factor, &near.leaving), condition)
+        self.correct(near.state.moved(factor, &near.leaving), condition)
     }
 
     fn correct(
         &mut self,
-        mut state: State,
+        mut state: State<S::Mode>,
         condition: &Condition,
-    ) -> Result<Candidate, NewtonFailure> {
-        let direction = self.newton.solve(
-            &*self.system,
-            &mut state,
-            condition,
-            &self.settings,
-            ActiveSet::Held,
-        )?;
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let direction = self.newton.solve(&self.system, &mut state, condition, &self.settings)?;
         Ok(Candidate { state, direction: self.normalised(direction), event: None })
     }
 
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
     /// in which the path left.
-    fn turns_sharply(&self, from: &Point, candidate: &Candidate) -> bool {
+    fn turns_sharply(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;
@@ -254,7 +246,7 @@ impl<S: System> Path<S> {
     }
 
     /// The next point of the path, or why there is none.
-    fn advance(&mut self) -> Result<Point, Stop> {
+    fn advance(&mut self) -> Result<Point<S::Mode>, Stop> {
         loop {
             let distance = self.distance();
             let before = self.newton.history.len();
@@ -289,7 +281,7 @@ impl<S: System> Path<S> {
     }
 
     /// A step of the given distance, cut short at the first event within it.
-    fn attempt(&mut self, distance: f64) -> Result<Candidate, NewtonFailure> {
+    fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
         let mut candidate = self.trial(&from, distance)?;
         if self.progress(&candidate.state.z) > 1.0 {
@@ -303,18 +295,22 @@ impl<S: System> Path<S> {
     }
 
     /// The point between two where the driver is at its target.
-    fn target(&mut self, from: &Point, beyond: &Candidate) -> Result<Candidate, NewtonFailure> {
+    fn target(
+        &mut self,
+        from: &Point<S::Mode>,
+        beyond: &Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
-        let state = interpolated(&from.state, &beyond.state, (1.0 - start) / (end - start));
+        let state = from.state.interpolated(&beyond.state, (1.0 - start) / (end - start));
         let driver = self.driver();
         let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 1.0 };
         self.correct(state, &condition)
     }
 
-    fn accept(&mut self, candidate: Candidate) -> Result<Point, Stop> {
+    fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
         let Candidate { mut state, direction: arriving, mut event } = candidate;
         let leaving = match &mut event {
-            Some(Event::Changed(changes)) => self.turn(&mut state, &arriving, changes)?,
+            Some(Event::Changed(changes)) => self.resolve_event(&mut state, &arriving, changes)?,
             _ => arriving.clone(),
         };
         if event.is_none() && self.at_target(&state) {
@@ -323,15 +319,15 @@ impl<S: System> Path<S> {
         Ok(Point { state, arriving, leaving, event })
     }
 
-    fn at_target(&self, state: &State) -> bool {
+    fn at_target(&self, state: &State<S::Mode>) -> bool {
         (self.progress(&state.z) - 1.0).abs() <= FLOOR
     }
 }
 
 impl<S: System> Iterator for Path<S> {
-    type Item = Point;
+    type Item = Point<S::Mode>;
 
-    fn next(&mut self) -> Option<Point> {
+    fn next(&mut self) -> Option<Point<S::Mode>> {
         if self.stop.is_some() {
             return None;
         }
@@ -354,14 +350,4 @@ impl<S: System> Iterator for Path<S> {
             }
         }
     }
-}
-
-fn shifted(state: &State, factor: f64, direction: &[f64]) -> State {
-    let z = state.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
-    State { z, active: state.active.clone() }
-}
-
-pub(crate) fn interpolated(from: &State, to: &State, fraction: f64) -> State {
-    let z = from.z.iter().zip(&to.z).map(|(a, b)| a + fraction * (b - a)).collect();
-    State { z, active: from.active.clone() }
 }

@@ -5,15 +5,20 @@ use std::sync::Arc;
 use crate::path::{Path, Point};
 use crate::system::{State, System};
 
-/// A search ends where the best three values agree to this part, or where the place is known to `CLOSE` of
-/// the first bracket, or after so many evaluations.
+/// A search ends where the three highest values agree to this part.
 const FLAT: f64 = 1e-10;
+
+/// A search ends where the place of the maximum is known to this part of the first bracket: near a maximum the value
+/// is then off by the square of it.
 const CLOSE: f64 = 1e-5;
+
+/// A search ends after this many evaluations. Brent's method rarely needs half as many.
 const EVALUATIONS: usize = 40;
 
-/// How far from the larger end of a segment a search begins; and how many times, each a tenth as far, where
-/// the segment begins at a kink.
+/// How far from the larger end of a segment a search begins, as a part of the segment.
 const NEAR: f64 = 0.05;
+
+/// How many times a search begins, each time a tenth as far from the end as before, if the segment begins at a kink.
 const CLOSER: usize = 4;
 
 /// The smaller part of the golden section.
@@ -23,91 +28,94 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 ///
 /// At a kink the direction has two values, and the function is evaluated with both.
 #[derive(Clone, Debug)]
-pub struct Peak<S> {
-    best: Option<f64>,
-    /// The best point and its neighbours, as far as there are any.
-    around: Vec<Visited<S>>,
-    /// Whether the one after the best is among them.
-    complete: bool,
-    /// The last point, unless it stands in `around`.
-    last: Option<Visited<S>>,
+pub struct Peak<M = ()> {
+    best: Option<Best<M>>,
+    last: Option<Arc<Point<M>>>,
 }
 
-/// A point, and the system with which the path goes on from there: it changes at events.
+/// The point with the largest value so far, and its neighbours.
 #[derive(Clone, Debug)]
-struct Visited<S> {
-    point: Arc<Point>,
-    system: Arc<S>,
+struct Best<M> {
+    value: f64,
+    before: Option<Arc<Point<M>>>,
+    point: Arc<Point<M>>,
+    after: Option<Arc<Point<M>>>,
 }
 
-impl<S> Default for Peak<S> {
+impl<M> Default for Peak<M> {
     fn default() -> Self {
-        Self { best: None, around: Vec::new(), complete: false, last: None }
+        Self { best: None, last: None }
     }
 }
 
-impl<S: System> Peak<S> {
+impl<M> Peak<M> {
     /// Takes the point that `path` has come to into account.
-    pub fn visit(&mut self, path: &Path<S>, f: impl Fn(&S, &State, &[f64]) -> f64) {
-        let here = Visited { point: Arc::clone(&path.point), system: Arc::clone(&path.system) };
-        let at = |direction: &[f64]| f(&here.system, &here.point.state, direction);
-        let value = at(&here.point.arriving).max(at(&here.point.leaving));
-        if self.best.is_none_or(|best| value > best) {
-            self.best = Some(value);
-            let before = self.last.take().or_else(|| self.around.pop());
-            self.around.clear();
-            self.around.extend(before.into_iter().chain([here]));
-            self.complete = false;
-        } else if self.complete {
-            self.last = Some(here);
-        } else {
-            self.around.push(here);
-            self.complete = true;
+    pub fn visit<S>(&mut self, path: &Path<S>, f: impl Fn(&S, &State<M>, &[f64]) -> f64)
+    where
+        S: System<Mode = M>,
+    {
+        let here = Arc::clone(&path.point);
+        let at = |direction: &[f64]| f(&path.system, &here.state, direction);
+        let value = at(&here.arriving).max(at(&here.leaving));
+        if self.best.as_ref().is_none_or(|best| value > best.value) {
+            let (before, point) = (self.last.take(), Arc::clone(&here));
+            self.best = Some(Best { value, before, point, after: None });
+        } else if let Some(best) = &mut self.best {
+            best.after.get_or_insert_with(|| Arc::clone(&here));
         }
+        self.last = Some(here);
     }
 
-    /// The largest value at the points visited.
-    pub fn sampled(&self) -> Option<f64> {
-        self.best
-    }
-
-    /// The largest value on the path, that is, between the points next to the best one too. Steps
-    /// must be small enough for the highest maximum to show at a point beside it.
-    pub fn refined(&self, path: &Path<S>, f: impl Fn(&S, &State, &[f64]) -> f64) -> Option<f64> {
-        let inside = self.around.windows(2).filter_map(|ends| {
-            let mut path = path.with_system(Arc::clone(&ends[0].system));
-            segment_maximum(&mut path, &ends[0].point, &ends[1].point, &f)
-        });
-        inside.chain(self.best).reduce(f64::max)
+    /// The largest value on the path, the segments next to the best of the points visited included. `None` if none was
+    /// visited. Steps must be small enough for the highest maximum to show at a point beside it.
+    pub fn refined<S>(
+        &self,
+        path: &mut Path<S>,
+        f: impl Fn(&S, &State<M>, &[f64]) -> f64,
+    ) -> Option<f64>
+    where
+        S: System<Mode = M>,
+    {
+        let Best { value, before, point, after } = self.best.as_ref()?;
+        let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
+        let inside = segments.into_iter().flatten();
+        let maxima = inside.filter_map(|(from, to)| segment_maximum(path, from, to, &f));
+        Some(maxima.fold(*value, f64::max))
     }
 }
 
-/// The maximum inside a segment, where there is one.
+/// A place on a segment of the path, as a part of the segment, and the value there.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    place: f64,
+    value: f64,
+}
+
+/// The maximum inside a segment, if there is one.
 fn segment_maximum<S: System>(
     path: &mut Path<S>,
-    from: &Point,
-    to: &Point,
-    f: &impl Fn(&S, &State, &[f64]) -> f64,
+    from: &Point<S::Mode>,
+    to: &Point<S::Mode>,
+    f: &impl Fn(&S, &State<S::Mode>, &[f64]) -> f64,
 ) -> Option<f64> {
-    let system = Arc::clone(&path.system);
-    let f = |point: &Point, direction: &[f64]| f(&system, &point.state, direction);
-    let ends = [(0.0, f(from, &from.leaving)), (1.0, f(to, &to.arriving))];
+    let start = Sample { place: 0.0, value: f(&path.system, &from.state, &from.leaving) };
+    let end = Sample { place: 1.0, value: f(&path.system, &to.state, &to.arriving) };
     let mut nearest = from.clone();
     let mut highest = f64::NEG_INFINITY;
-    let mut at = |x: f64| {
-        let point = path.between_from(from, to, x, &nearest)?;
-        let value = f(&point, &point.arriving);
+    let mut at = |place: f64| {
+        let point = path.between_from(from, to, place, &nearest)?;
+        let value = f(&path.system, &point.state, &point.arriving);
         if value >= highest {
             (highest, nearest) = (value, point);
         }
-        Some((x, value))
+        Some(Sample { place, value })
     };
-    let mut search = bracket(&mut at, ends, from.event.is_some())?;
+    let mut search = bracket(&mut at, [start, end], from.event.is_some())?;
     for _ in 0..EVALUATIONS {
-        let Some(x) = search.next_place() else { break };
-        search.take(at(x)?);
+        let Some(place) = search.next_place() else { break };
+        search.take(at(place)?);
     }
-    Some(search.best.1)
+    Some(search.x.value)
 }
 
 /// A bracket of the maximum, where the function rises from the larger end.
@@ -115,95 +123,95 @@ fn segment_maximum<S: System>(
 /// A force that has just begun to act may raise the function within a small part of the segment, so
 /// behind a kink the search goes on towards the start.
 fn bracket(
-    at: &mut impl FnMut(f64) -> Option<(f64, f64)>,
-    [start, end]: [(f64, f64); 2],
+    at: &mut impl FnMut(f64) -> Option<Sample>,
+    [start, end]: [Sample; 2],
     kink: bool,
-) -> Option<Search> {
-    if start.1 <= end.1 {
+) -> Option<Brent> {
+    if start.value <= end.value {
         let inside = at(1.0 - NEAR)?;
-        return (inside.1 > end.1).then(|| Search::new([start, end], inside));
+        return (inside.value > end.value).then(|| Brent::new([start, end], inside));
     }
-    let (mut beyond, mut x) = (end, NEAR);
+    let (mut beyond, mut place) = (end, NEAR);
     for _ in 0..if kink { CLOSER } else { 1 } {
-        let inside = at(x)?;
-        if inside.1 > start.1 {
-            return Some(Search::new([start, beyond], inside));
+        let inside = at(place)?;
+        if inside.value > start.value {
+            return Some(Brent::new([start, beyond], inside));
         }
-        (beyond, x) = (inside, 0.1 * x);
+        (beyond, place) = (inside, 0.1 * place);
     }
     None
 }
 
-/// The search for a maximum by parabolas and golden sections (Brent 1973, isbn 978-0-486-41998-5, ch. 5).
-struct Search {
-    /// Bracket of the maximum.
-    bracket: [f64; 2],
-    /// The three highest places so far, with their values.
-    best: (f64, f64),
-    second: (f64, f64),
-    third: (f64, f64),
-    /// The last step and the one before.
-    steps: [f64; 2],
-    /// Places closer than this are the same.
-    close: f64,
+/// The search for a maximum by parabolas and golden sections, in the letters of Brent 1973, *Algorithms for Minimization
+/// without Derivatives*, ch. 5 (isbn 978-0-486-41998-5).
+struct Brent {
+    /// The maximum lies between `a` and `b`.
+    a: f64,
+    b: f64,
+    /// The highest, the second and the third highest sample.
+    x: Sample,
+    w: Sample,
+    v: Sample,
+    /// The last step, and the one before it.
+    d: f64,
+    e: f64,
+    /// Places closer than this count as the same.
+    tolerance: f64,
 }
 
-impl Search {
-    fn new(ends: [(f64, f64); 2], inside: (f64, f64)) -> Self {
-        let [low, high] = ends;
-        let (second, third) = if low.1 > high.1 { (low, high) } else { (high, low) };
-        let length = high.0 - low.0;
+impl Brent {
+    fn new([low, high]: [Sample; 2], x: Sample) -> Self {
+        let (w, v) = if low.value > high.value { (low, high) } else { (high, low) };
+        let length = high.place - low.place;
         Self {
-            bracket: [low.0, high.0],
-            best: inside,
-            second,
-            third,
-            steps: [length; 2],
-            close: CLOSE * length,
+            a: low.place,
+            b: high.place,
+            x,
+            w,
+            v,
+            d: length,
+            e: length,
+            tolerance: CLOSE * length,
         }
     }
 
-    /// The next place to look at; `None` where the bracket is narrow enough.
+    /// The next place to look at; `None` if the bracket is narrow enough.
     fn next_place(&mut self) -> Option<f64> {
-        let [low, high] = self.bracket;
-        let (x, middle) = (self.best.0, 0.5 * (low + high));
-        let narrow = (x - middle).abs() <= 2.0 * self.close - 0.5 * (high - low);
-        if narrow || self.best.1 - self.third.1 <= FLAT * self.best.1.abs() {
+        let (x, middle) = (self.x.place, 0.5 * (self.a + self.b));
+        let narrow = (x - middle).abs() <= 2.0 * self.tolerance - 0.5 * (self.b - self.a);
+        if narrow || self.x.value - self.v.value <= FLAT * self.x.value.abs() {
             return None;
         }
-        let step = self.vertex().unwrap_or_else(|| self.golden());
-        self.steps = [step, self.steps[0]];
-        Some(x + step.abs().max(self.close).copysign(step))
+        if let Some(step) = self.vertex() {
+            (self.d, self.e) = (step, self.d);
+        } else {
+            let larger = if x < middle { self.b - x } else { self.a - x };
+            (self.d, self.e) = (GOLDEN * larger, larger);
+        }
+        Some(x + self.d.abs().max(self.tolerance).copysign(self.d))
     }
 
-    /// Step to the vertex of the parabola through the three places, where that converges.
+    /// Step to the vertex of the parabola through the three samples, where that converges.
     fn vertex(&self) -> Option<f64> {
-        let [(x, f), (w, g), (v, h)] = [self.best, self.second, self.third];
-        let (r, q) = ((x - w) * (f - h), (x - v) * (f - g));
+        let [(x, fx), (w, fw), (v, fv)] =
+            [self.x, self.w, self.v].map(|sample| (sample.place, sample.value));
+        let (r, q) = ((x - w) * (fx - fv), (x - v) * (fx - fw));
         let step = -0.5 * ((x - v) * q - (x - w) * r) / (q - r);
-        let [low, high] = self.bracket;
-        let inside = low + self.close < x + step && x + step < high - self.close;
-        (inside && step.abs() < 0.5 * self.steps[1].abs()).then_some(step)
+        let inside = self.a + self.tolerance < x + step && x + step < self.b - self.tolerance;
+        (inside && step.abs() < 0.5 * self.e.abs()).then_some(step)
     }
 
-    /// Step into the larger part of the bracket.
-    fn golden(&mut self) -> f64 {
-        let [low, high] = self.bracket;
-        let x = self.best.0;
-        let larger = if x < 0.5 * (low + high) { high - x } else { low - x };
-        self.steps[0] = larger;
-        GOLDEN * larger
-    }
-
-    fn take(&mut self, new: (f64, f64)) {
-        let (outer, inner) = if new.1 >= self.best.1 { (self.best, new) } else { (new, self.best) };
-        self.bracket[usize::from(outer.0 > inner.0)] = outer.0;
-        if new.1 >= self.best.1 {
-            (self.best, self.second, self.third) = (new, self.best, self.second);
-        } else if new.1 >= self.second.1 {
-            (self.second, self.third) = (new, self.second);
-        } else if new.1 >= self.third.1 {
-            self.third = new;
+    /// Takes a new sample `u` into account.
+    fn take(&mut self, u: Sample) {
+        let (inner, outer) = if u.value >= self.x.value { (u, self.x) } else { (self.x, u) };
+        let end = if outer.place > inner.place { &mut self.b } else { &mut self.a };
+        *end = outer.place;
+        if u.value >= self.x.value {
+            (self.x, self.w, self.v) = (u, self.x, self.w);
+        } else if u.value >= self.w.value {
+            (self.w, self.v) = (u, self.w);
+        } else if u.value >= self.v.value {
+            self.v = u;
         }
     }
 }

@@ -15,7 +15,7 @@ pub enum Stop {
     Singular,
     /// The limit on the number of equilibria was hit.
     TooManyPoints,
-    /// Contacts open and close at one point without the path moving on.
+    /// Constraints change sides again and again at one point, without the path moving on.
     Cycling,
     /// A residual is no longer a finite number.
     NotFinite,
@@ -28,7 +28,7 @@ impl fmt::Display for Stop {
             Self::NoConvergence => "no convergence",
             Self::Singular => "singular tangent",
             Self::TooManyPoints => "too many points",
-            Self::Cycling => "cycling contacts",
+            Self::Cycling => "cycling constraints",
             Self::NotFinite => "not finite",
         })
     }

@@ -1,5 +1,8 @@
-//! What the solver is told of a problem.
+//! The problem interface: equations, tangent, constraints, and the states of a system.
 
+use std::fmt::Debug;
+
+use crate::event::Change;
 use crate::linear::BandMatrix;
 
 /// Largest change of an unknown over which a slope is a difference.
@@ -12,11 +15,17 @@ const DIFFERENCE: f64 = 1e-6;
 /// *constraint* is an unknown `z_c ≥ 0` that is complementary to its equation,
 ///
 /// ```text
-/// 0 ≤ z_c  ⟂  r_c(z) ≥ 0 :    r_c = 0 where it is active,  z_c = 0 where it is not.
+/// 0 ≤ z_c  ⟂  r_c(z) ≥ 0 :    r_c = 0 where it is active,  z_c = 0 where it is not.          (N1)
 /// ```
 ///
 /// Unknowns are numbered so that the tangent `∂r/∂z` is a band matrix, the column of the load included.
-pub trait System: Clone {
+///
+/// Where a constraint changes sides the equations may take another form, such as those of a contact that passes a
+/// corner. Which form holds is the *mode*. It is a part of the [`State`]; the system itself never changes.
+pub trait System {
+    /// Which of several forms the equations have; `()` for a system whose equations have one form.
+    type Mode: Clone + Debug + PartialEq;
+
     /// Number of unknowns, the load included.
     fn size(&self) -> usize;
 
@@ -26,7 +35,7 @@ pub trait System: Clone {
     /// Index of the load among the unknowns, and of the row without an equation.
     fn load(&self) -> usize;
 
-    /// The coordinates that measure progress along the path; the first drives it. All lie within a
+    /// The coordinates that measure progress along the path; the first is the control parameter. All lie within a
     /// half-bandwidth of the load.
     fn controls(&self) -> &[Control];
 
@@ -35,16 +44,18 @@ pub trait System: Clone {
         &[]
     }
 
-    /// Evaluates the equations. A constraint's equation is evaluated whether active or not; the
-    /// flags tell which unknowns are known to vanish.
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual);
+    /// The mode of the state of rest.
+    fn mode_at_rest(&self) -> Self::Mode;
+
+    /// Evaluates the equations. The equation of a constraint is evaluated whether the constraint is active or not.
+    fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix. Rows and columns of inactive constraints may be left out.
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix);
+    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut BandMatrix);
 
     /// Derivative of the equation of a constraint (its number) along `direction`; by differences
     /// unless the system knows better.
-    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+    fn slope(&self, state: &State<Self::Mode>, constraint: usize, direction: &[f64]) -> f64 {
         let largest = direction.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         if largest == 0.0 {
             return 0.0;
@@ -52,17 +63,18 @@ pub trait System: Clone {
         let (step, index) = (DIFFERENCE / largest, self.constraints()[constraint]);
         let mut residual = Residual::new(self.size());
         let mut at = |step: f64| {
-            let z: Vec<f64> = state.z.iter().zip(direction).map(|(z, d)| z + step * d).collect();
-            self.residual(&z, &state.active, &mut residual);
+            self.residual(&state.moved(step, direction), &mut residual);
             residual.value[index]
         };
         (at(step) - at(-step)) / (2.0 * step)
     }
 
-    /// Called where a constraint (its number) has just changed sides: the place to give unknowns other
-    /// parts. Returns the constraint that has to stay valid as the path goes on.
-    fn exchange(&mut self, _state: &mut State, constraint: usize) -> usize {
-        constraint
+    /// Completes the change of a constraint that has just changed sides in `state`: its flag is the new one and its
+    /// unknown is zero. A system with modes gives the state the mode that follows, and unknowns and flags the parts that
+    /// they have in it. Returns the constraint whose condition has to hold as the path goes on, or `None` if the
+    /// constraint cannot change sides in this mode.
+    fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
+        Some(change.constraint)
     }
 }
 
@@ -71,11 +83,11 @@ pub trait System: Clone {
 pub struct Control {
     /// Index among the unknowns.
     pub index: usize,
-    /// Its scale: the path is measured in `z / scale`. A negative scale turns the direction round.
+    /// Scale of the coordinate: the path is measured in `z / scale`. A negative scale turns the direction round.
     pub scale: f64,
 }
 
-/// The equations at a point, and what they are to be compared with.
+/// The values of the equations at a state, and the sizes that they are compared with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
     /// Value of each equation.
@@ -86,7 +98,7 @@ pub struct Residual {
 }
 
 impl Residual {
-    /// All zero, with sizes 1.
+    /// Values of zero and sizes of 1, of `size` equations.
     pub fn new(size: usize) -> Self {
         Self { value: vec![0.0; size], size: vec![1.0; size] }
     }
@@ -104,19 +116,39 @@ impl Residual {
     }
 }
 
-/// A state: the unknowns and which constraints are active.
+/// A state of a system: the unknowns, which constraints are active, and the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct State {
+pub struct State<M = ()> {
     /// The unknowns.
     pub z: Vec<f64>,
     /// A flag for each constraint.
     pub active: Vec<bool>,
+    /// Which form the equations have.
+    pub mode: M,
 }
 
-impl State {
-    /// Every unknown zero, no constraint active.
-    pub fn at_rest(system: &impl System) -> Self {
-        Self { z: vec![0.0; system.size()], active: vec![false; system.constraints().len()] }
+impl<M> State<M> {
+    /// The state of rest: every unknown zero, no constraint active.
+    pub fn at_rest(system: &impl System<Mode = M>) -> Self {
+        Self {
+            z: vec![0.0; system.size()],
+            active: vec![false; system.constraints().len()],
+            mode: system.mode_at_rest(),
+        }
+    }
+}
+
+impl<M: Clone> State<M> {
+    /// The state whose unknowns differ by `factor` times `direction`.
+    pub(crate) fn moved(&self, factor: f64, direction: &[f64]) -> Self {
+        let z = self.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
+        Self { z, active: self.active.clone(), mode: self.mode.clone() }
+    }
+
+    /// The state whose unknowns lie between those of this one and `to`.
+    pub(crate) fn interpolated(&self, to: &Self, fraction: f64) -> Self {
+        let z = self.z.iter().zip(&to.z).map(|(a, b)| a + fraction * (b - a)).collect();
+        Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }
 }
 
@@ -126,10 +158,11 @@ mod tests {
     use approx::assert_relative_eq;
 
     /// A constraint whose equation is `u³`.
-    #[derive(Clone)]
     struct Cube;
 
     impl System for Cube {
+        type Mode = ();
+
         fn size(&self) -> usize {
             3
         }
@@ -150,17 +183,19 @@ mod tests {
             &[1]
         }
 
-        fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+        fn mode_at_rest(&self) {}
+
+        fn residual(&self, state: &State, residual: &mut Residual) {
             residual.clear(&[1.0; 3]);
-            residual.add(1, z[0].powi(3));
+            residual.add(1, state.z[0].powi(3));
         }
 
-        fn tangent(&self, _z: &[f64], _active: &[bool], _matrix: &mut BandMatrix) {}
+        fn tangent(&self, _state: &State, _matrix: &mut BandMatrix) {}
     }
 
     #[test]
     fn a_slope_by_differences_is_as_exact_along_any_length() {
-        let state = State { z: vec![2.0, 0.0, 0.0], active: vec![false] };
+        let state = State { z: vec![2.0, 0.0, 0.0], active: vec![false], mode: () };
         for length in [1e-6, 1.0, 1e6] {
             let slope = Cube.slope(&state, 0, &[-length, 0.0, 0.5 * length]);
             assert_relative_eq!(slope, -12.0 * length, max_relative = 1e-8);

@@ -1,14 +1,14 @@
 //! What is written down while a strip is bent.
 
-use contact::Kind;
-use solver::{Path, Peak, Point, State};
+use contact::{CornerContact, CornerEdge};
+use solver::{Path, Peak};
 
 use super::frame::Step;
 use super::strip::Strip;
 use super::{Flexure, Measures, Status};
-use crate::Change;
+use crate::ContactChange;
 use crate::arrangement::Arrangement;
-use crate::joints::Joints;
+use crate::contacts::{Contacts, Point, State};
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,9 +39,9 @@ pub struct Event {
     /// Gap, from 0; `None` where every gap does the same.
     pub gap: Option<usize>,
     /// Which corner meets which edge.
-    pub kind: Kind,
+    pub corner_edge: CornerEdge,
     /// What the contact does.
-    pub change: Change,
+    pub change: ContactChange,
 }
 
 /// One Newton iteration.
@@ -69,7 +69,9 @@ pub(crate) struct Record {
     events: Vec<Event>,
     history: Vec<Iteration>,
     steps: Vec<Vec<Step>>,
-    stiffness: Peak<Strip>,
+    stiffness: Peak<Vec<CornerContact>>,
+    /// Contacts of the last point.
+    before: Vec<CornerContact>,
 }
 
 impl Record {
@@ -89,6 +91,7 @@ impl Record {
             history: Vec::new(),
             steps: Vec::new(),
             stiffness: Peak::default(),
+            before: path.point().state.mode.clone(),
         };
         record.add(path);
         record
@@ -104,12 +107,19 @@ impl Record {
         if let Some(solver::Event::Changed(changes)) = &point.event {
             let strip = path.system();
             self.events.extend(changes.iter().filter_map(|change| {
-                let gap = Joints::left_of(change.constraint);
+                let gap = Contacts::left_of(change.constraint);
                 let gap = (strip.gaps() == self.gaps).then_some(gap);
-                let kind = strip.joints.kind(change.constraint)?;
-                Some(Event { point: here, gap, kind, change: Change::of(&point.state, *change) })
+                let corner_edge = Contacts::corner_edge(&point.state.mode, change.constraint)
+                    .or_else(|| Contacts::corner_edge(&self.before, change.constraint))?;
+                Some(Event {
+                    point: here,
+                    gap,
+                    corner_edge,
+                    change: ContactChange::of(&point.state, *change),
+                })
             }));
         }
+        self.before.clone_from(&point.state.mode);
     }
 
     fn add(&mut self, path: &Path<Strip>) -> PathPoint {
@@ -117,7 +127,7 @@ impl Record {
         let here = self.point(strip, &point.state, &point.leaving);
         self.path.push(here);
         self.steps.push(strip.steps(&point.state.z));
-        self.stiffness.visit(path, |strip, _, direction| strip.stiffness(direction));
+        self.stiffness.visit(path, |strip: &Strip, _, direction| strip.stiffness(direction));
         here
     }
 
@@ -145,7 +155,7 @@ impl Record {
             bending_energy,
             axial_energy,
             contact_energy,
-            contacts: repeats * Joints::closed(state),
+            contacts: repeats * Contacts::closed(state),
         }
     }
 
@@ -159,10 +169,10 @@ impl Record {
     }
 
     fn measures(&self, path: &mut Path<Strip>) -> Measures {
-        let strip = path.system();
         let stiffest =
-            self.stiffness.refined(path, |strip, _, direction| strip.stiffness(direction));
-        let first = self.events.iter().find(|event| event.change == Change::Closed);
+            self.stiffness.refined(path, |strip: &Strip, _, direction| strip.stiffness(direction));
+        let strip = path.system();
+        let first = self.events.iter().find(|event| event.change == ContactChange::Closed);
         let end = self.path.last();
         let share = end.map(|end| {
             end.axial_energy / (end.bending_energy + end.axial_energy + end.contact_energy)

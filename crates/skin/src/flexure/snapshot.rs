@@ -1,13 +1,13 @@
 //! A strip of membrane with scales as it stands at chosen curvatures.
 
-use solver::{Path, State};
+use solver::Path;
 
 use super::frame::Frame;
 use super::strip::Strip;
 use super::{Parameters, SetUp};
 use crate::arrangement::Arrangement;
+use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
-use crate::joints::Contact;
 use crate::{Design, InvalidDesign};
 
 /// Points of the membrane's axis that are kept of each element.
@@ -49,13 +49,11 @@ pub fn snapshots(
         value: 2.0 * degrees.to_radians() / look.repeats as f64,
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
-    let mut snapshots = vec![None; crossings.len()];
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, parameters.solver);
-    follow(&mut path, &crossings, |k, strip, state| {
-        snapshots[k] = Some(look.at(strip, state));
-    });
-    Ok(snapshots)
+    let states = follow(&mut path, &crossings);
+    let snapshot = |state: Option<State>| Some(look.at(path.system(), &state?));
+    Ok(states.into_iter().map(snapshot).collect())
 }
 
 /// What turns a state of the solved gaps into a snapshot of the whole strip.
@@ -76,7 +74,7 @@ impl Look {
         let axis = |(i, frame): (usize, &Frame)| {
             axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
         };
-        let contacts = strip.joints.contacts(state);
+        let contacts = strip.contacts.closed_contacts(state);
         let copies = (0..self.repeats).flat_map(|copy| {
             let left = move |contact: &Contact| copy * solved + contact.left;
             contacts.iter().map(move |contact| (left(contact), contact))

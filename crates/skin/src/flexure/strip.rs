@@ -1,14 +1,14 @@
 //! A strip of membrane with scales, bent by a moment, as a mixed complementarity system.
 
-use contact::ContactLaw;
+use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
 use membrane::{Ends, GapMembrane, Response};
 use nalgebra::DVector;
-use solver::{BandMatrix, Control, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, System};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
-use crate::joints::{Entry, Joints, PAIR_FORCES};
+use crate::contacts::{Contacts, PAIR_FORCES, Part, State};
 
 /// Where the unknowns of a strip of `n` gaps of `m` elements stand. The first scale is held.
 ///
@@ -69,7 +69,7 @@ pub(crate) struct Strip {
     layout: Layout,
     /// The membrane of each gap, or one for all where they are alike.
     membranes: Vec<GapMembrane>,
-    pub(crate) joints: Joints,
+    pub(crate) contacts: Contacts,
     controls: [Control; 3],
     units: Vec<f64>,
 }
@@ -103,7 +103,7 @@ impl Strip {
         Self {
             layout,
             membranes,
-            joints: Joints::relative(row, law, scales, forces),
+            contacts: Contacts::relative(row, law, scales, forces),
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
         }
@@ -131,13 +131,13 @@ impl Strip {
 
     /// Displacement and rotation of the right scale of each gap, seen from the left one.
     pub(crate) fn steps(&self, z: &[f64]) -> Vec<Step> {
-        let poses = (1..=self.layout.gaps).map(|scale| self.joints.pose(z, scale));
+        let poses = (1..=self.layout.gaps).map(|scale| self.contacts.pose(z, scale));
         poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
     }
 
     /// Bending and axial energy of the membrane and energy of the contacts, over `E_m t³`.
     pub(crate) fn energies(&self, state: &State) -> [f64; 3] {
-        let mut energies = [0.0, 0.0, self.joints.energy(&state.z)];
+        let mut energies = [0.0, 0.0, self.contacts.energy(state)];
         for (gap, element) in self.all_elements() {
             let response = self.response(&state.z, gap, element);
             energies[0] += response.bending_energy;
@@ -176,8 +176,7 @@ impl Strip {
     /// Displacements of the ends of an element.
     fn ends(&self, z: &[f64], gap: usize, element: usize) -> Ends {
         let mut ends = Ends::zeros();
-        for Entry { unknown, coordinate, sign } in self.entries(gap, element).into_iter().flatten()
-        {
+        for Part { unknown, coordinate, sign } in self.parts(gap, element).into_iter().flatten() {
             ends[coordinate] += sign * z[unknown];
         }
         ends
@@ -185,19 +184,21 @@ impl Strip {
 
     /// What the six displacements of an element are made of: unknowns of its nodes and, where it
     /// ends at the right scale, the rotation of the left one.
-    fn entries(&self, gap: usize, element: usize) -> [Option<Entry>; 7] {
+    fn parts(&self, gap: usize, element: usize) -> [Option<Part>; 7] {
         let layout = self.layout;
         let [first, second] = [element, element + 1].map(|node| layout.node(gap, node));
         let frame = layout.rotation(gap).filter(|_| element + 1 == layout.elements);
         std::array::from_fn(|k| match k {
-            0..3 => Some(Entry::new(first? + k, k)),
-            3..6 => Some(Entry::new(second? + k - 3, k)),
-            _ => Some(Entry::new(frame?, 5).opposite()),
+            0..3 => Some(Part::new(first? + k, k)),
+            3..6 => Some(Part::new(second? + k - 3, k)),
+            _ => Some(Part::new(frame?, 5).opposite()),
         })
     }
 }
 
 impl System for Strip {
+    type Mode = Vec<CornerContact>;
+
     fn size(&self) -> usize {
         self.layout.size()
     }
@@ -216,27 +217,32 @@ impl System for Strip {
     }
 
     fn constraints(&self) -> &[usize] {
-        self.joints.forces()
+        self.contacts.forces()
     }
 
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) -> Vec<CornerContact> {
+        self.contacts.open()
+    }
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
+        let z = &state.z;
         residual.clear(&self.units);
         for (gap, element) in self.all_elements() {
             let force = self.response(z, gap, element).force;
-            for Entry { unknown, coordinate, sign } in
-                self.entries(gap, element).into_iter().flatten()
+            for Part { unknown, coordinate, sign } in self.parts(gap, element).into_iter().flatten()
             {
                 residual.add(unknown, sign * force[coordinate]);
             }
         }
         residual.add(self.controls[0].index, -z[self.layout.moment()]);
-        self.joints.add_residual(z, active, residual);
+        self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        let z = &state.z;
         for (gap, element) in self.all_elements() {
             let tangent = self.response(z, gap, element).tangent;
-            let entries = self.entries(gap, element);
+            let entries = self.parts(gap, element);
             for row in entries.iter().flatten() {
                 for column in entries.iter().flatten() {
                     let value = tangent[(row.coordinate, column.coordinate)];
@@ -245,14 +251,14 @@ impl System for Strip {
             }
         }
         matrix.add(self.controls[0].index, self.layout.moment(), -1.0);
-        self.joints.add_tangent(z, active, matrix);
+        self.contacts.add_tangent(state, matrix);
     }
 
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
-        self.joints.slope(state, constraint, direction)
+        self.contacts.slope(state, constraint, direction)
     }
 
-    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
-        self.joints.exchange(state, constraint)
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        self.contacts.transition(state, change)
     }
 }

@@ -1,17 +1,18 @@
 //! What only the assembled system shows: the balance of energy along a path.
 
 use contact::Law;
-use solver::{Path, Point, Settings, State};
+use solver::{Path, Settings};
 
 use super::strip::Strip;
 use super::{Method, Parameters, SetUp};
+use crate::contacts::{Point, State};
 use crate::{Base, Design};
 
 /// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
-fn work(before: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
-    let inner = [0.25, 0.5, 0.75].map(|x| before.between(from, to, x).unwrap().state);
+fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
+    let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
-    let strip = before.system();
+    let strip = path.system();
     let moments = states.iter().zip([7.0, 32.0, 12.0, 32.0, 7.0]);
     let mean = moments.map(|(state, weight)| weight * strip.moment(&state.z)).sum::<f64>() / 90.0;
     mean * (strip.rotation(&to.state.z) - strip.rotation(&from.state.z))
@@ -25,11 +26,10 @@ fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
     let mut path = Path::new(strip, rest, parameters.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
     loop {
-        let mut before = path.clone();
-        let from = before.point().clone();
+        let from = path.point().clone();
         let Some(to) = path.next() else { break };
-        done += work(&mut before, &from, &to);
-        energies = before.system().energies(&to.state);
+        done += work(&mut path, &from, &to);
+        energies = path.system().energies(&to.state);
         off = off.max((done - energies.iter().sum::<f64>()).abs());
     }
     let whole = energies.iter().sum::<f64>();

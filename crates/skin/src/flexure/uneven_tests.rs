@@ -7,7 +7,7 @@ use solver::Settings;
 
 use super::{Flexure, Method, Parameters, SetUp, Status};
 use crate::arrangement::Arrangement;
-use crate::{Base, Change, Design};
+use crate::{Base, ContactChange, Design};
 
 const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
 
@@ -46,7 +46,7 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
 fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
     let flexure = bent(&GAPS, &[0.0; 7]);
     let closed: Vec<_> =
-        flexure.events.iter().filter(|event| event.change == Change::Closed).collect();
+        flexure.events.iter().filter(|event| event.change == ContactChange::Closed).collect();
     assert_eq!(closed.len(), GAPS.len());
     for event in closed {
         let (gap, elements) = (GAPS[event.gap.unwrap()], 2.0);

@@ -1,12 +1,12 @@
 //! What is written down along the path.
 
-use contact::Kind;
-use solver::{Path, Peak, Point, State};
+use contact::{CornerContact, CornerEdge};
+use solver::{Path, Peak};
 
 use super::system::Chain;
 use super::{Measures, Puncture, Status};
-use crate::Change;
-use crate::joints::Joints;
+use crate::ContactChange;
+use crate::contacts::{Contacts, Point, State};
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,9 +34,9 @@ pub struct Event {
     /// Left scale of the pair; 0 is the punctured one, positive to the right.
     pub left_scale: i64,
     /// Which corner meets which edge.
-    pub kind: Kind,
+    pub corner_edge: CornerEdge,
     /// What the contact does.
-    pub change: Change,
+    pub change: ContactChange,
 }
 
 /// One scale at the end of the path.
@@ -72,8 +72,10 @@ pub(crate) struct Record {
     path: Vec<PathPoint>,
     events: Vec<Event>,
     history: Vec<Iteration>,
-    stiffness: Peak<Chain>,
+    stiffness: Peak<Vec<CornerContact>>,
     initial_stiffness: f64,
+    /// Contacts of the last point.
+    before: Vec<CornerContact>,
 }
 
 impl Record {
@@ -87,6 +89,7 @@ impl Record {
             history: Vec::new(),
             stiffness: Peak::default(),
             initial_stiffness: stiffness(chain, &start.state, &start.leaving),
+            before: start.state.mode.clone(),
         };
         record.path.push(record.point(chain, &start.state));
         record.stiffness.visit(path, stiffness);
@@ -105,16 +108,18 @@ impl Record {
         }));
         if let Some(solver::Event::Changed(changes)) = &point.event {
             self.events.extend(changes.iter().filter_map(|change| {
-                let left_scale = chain.layout.number(Joints::left_of(change.constraint));
-                let kind = chain.joints.kind(change.constraint)?;
+                let left_scale = chain.layout.number(Contacts::left_of(change.constraint));
+                let corner_edge = Contacts::corner_edge(&point.state.mode, change.constraint)
+                    .or_else(|| Contacts::corner_edge(&self.before, change.constraint))?;
                 Some(Event {
                     point: here,
                     left_scale,
-                    kind,
-                    change: Change::of(&point.state, *change),
+                    corner_edge,
+                    change: ContactChange::of(&point.state, *change),
                 })
             }));
         }
+        self.before.clone_from(&point.state.mode);
     }
 
     fn point(&self, chain: &Chain, state: &State) -> PathPoint {
@@ -124,7 +129,7 @@ impl Record {
             displacement: chain.depth(z),
             force: z[chain.layout.load()] / self.length,
             tilt_deg: -chain.displacement(z, chain.layout.left)[2].to_degrees(),
-            contacts: Joints::closed(state),
+            contacts: Contacts::closed(state),
             substrate_energy,
             contact_energy,
         }
@@ -152,7 +157,7 @@ impl Record {
         let z = &path.point().state.z;
         let end = self.point(chain, &path.point().state);
         let nodes = (0..chain.layout.scales()).map(|i| -chain.displacement(z, i)[1]);
-        let first_contact = self.events.iter().find(|event| event.change == Change::Closed);
+        let first_contact = self.events.iter().find(|event| event.change == ContactChange::Closed);
         Measures {
             critical_force: Some(end.force),
             peak_force: self.path.iter().map(|point| point.force).reduce(f64::max),
@@ -164,7 +169,7 @@ impl Record {
             first_contact_displacement: first_contact.map(|event| event.point.displacement),
             contacts: Some(end.contacts),
             engaged_scales: Some(engaged(
-                &Joints::touching(&path.point().state).collect::<Vec<_>>(),
+                &Contacts::touching(&path.point().state).collect::<Vec<_>>(),
             )),
             scales: chain.layout.scales(),
             initial_stiffness: Some(modulus * self.initial_stiffness),

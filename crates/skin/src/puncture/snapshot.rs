@@ -1,14 +1,14 @@
 //! A row of scales as it stands at chosen places of its path.
 
 use contact::ContactLaw;
-use solver::{Path, State};
+use solver::Path;
 
 use super::system::{Chain, Layout};
 use super::{InvalidDesign, Parameters, PathPoint, Puncture, RowStiffness, ScaleState, Status};
 use crate::Design;
 use crate::arrangement::Arrangement;
+use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
-use crate::joints::Contact;
 
 /// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
@@ -112,13 +112,11 @@ fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<O
         Crossing { quantity, value }
     };
     let crossings: Vec<_> = at.iter().map(crossing).collect();
-    let mut snapshots = vec![None; at.len()];
     let rest = State::at_rest(&chain);
     let mut path = Path::new(chain, rest, parameters.solver);
-    follow(&mut path, &crossings, |k, chain, state| {
-        snapshots[k] = Some(snapshot(chain, state, length));
-    });
-    snapshots
+    let states = follow(&mut path, &crossings);
+    let snapshot = |state: Option<State>| Some(snapshot(path.system(), &state?, length));
+    states.into_iter().map(snapshot).collect()
 }
 
 fn force(chain: &Chain, state: &State, length: f64) -> f64 {
@@ -135,6 +133,6 @@ fn snapshot(chain: &Chain, state: &State, length: f64) -> Snapshot {
         force: force(chain, state, length),
         tilt_deg: tilt_deg(chain, state),
         scales: super::record::scales(chain, state),
-        contacts: chain.joints.contacts(state),
+        contacts: chain.contacts.closed_contacts(state),
     }
 }

@@ -1,12 +1,12 @@
 //! A row of scales on springs under a dead load, as a mixed complementarity system.
 
-use contact::ContactLaw;
+use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{BandMatrix, Control, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, System};
 use substrate::{Neighbour, RowStiffness};
 
 use crate::arrangement::Arrangement;
-use crate::joints::{Joints, PAIR_FORCES};
+use crate::contacts::{Contacts, PAIR_FORCES, State};
 
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
@@ -70,7 +70,7 @@ impl Layout {
 #[derive(Clone, Debug)]
 pub(crate) struct Chain {
     pub(crate) layout: Layout,
-    pub(crate) joints: Joints,
+    pub(crate) contacts: Contacts,
     half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     direct: [f64; 3],
@@ -112,7 +112,7 @@ impl Chain {
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         Self {
             layout,
-            joints: Joints::new(arrangement, law, scales, forces),
+            contacts: Contacts::new(arrangement, law, scales, forces),
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
@@ -131,14 +131,14 @@ impl Chain {
 
     /// Depth of the loaded point below its place at rest.
     pub(crate) fn depth(&self, z: &[f64]) -> f64 {
-        let pose = self.joints.pose(z, self.layout.left);
+        let pose = self.contacts.pose(z, self.layout.left);
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
     /// Derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         let at = self.layout.scale(self.layout.left);
-        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
@@ -201,7 +201,7 @@ impl Chain {
                 -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
             })
             .sum();
-        (springs, self.joints.energy(&state.z))
+        (springs, self.contacts.energy(state))
     }
 
     fn add_springs(&self, z: &[f64], residual: &mut Residual) {
@@ -211,13 +211,15 @@ impl Chain {
     fn add_load(&self, z: &[f64], residual: &mut Residual) {
         let at = self.layout.scale(self.layout.left);
         let load = z[self.layout.load()];
-        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
         residual.add(at + 1, load);
         residual.add(at + 2, load * arm.x);
     }
 }
 
 impl System for Chain {
+    type Mode = Vec<CornerContact>;
+
     fn size(&self) -> usize {
         self.layout.size()
     }
@@ -236,31 +238,36 @@ impl System for Chain {
     }
 
     fn constraints(&self) -> &[usize] {
-        self.joints.forces()
+        self.contacts.forces()
     }
 
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) -> Vec<CornerContact> {
+        self.contacts.open()
+    }
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
         residual.clear(&self.units);
-        self.add_springs(z, residual);
-        self.add_load(z, residual);
-        self.joints.add_residual(z, active, residual);
+        self.add_springs(&state.z, residual);
+        self.add_load(&state.z, residual);
+        self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        let z = &state.z;
         self.for_springs(|row, column, value| matrix.add(row, column, value));
         let at = self.layout.scale(self.layout.left);
-        let arm = self.joints.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
         matrix.add(at + 1, self.layout.load(), 1.0);
         matrix.add(at + 2, self.layout.load(), arm.x);
         matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
-        self.joints.add_tangent(z, active, matrix);
+        self.contacts.add_tangent(state, matrix);
     }
 
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
-        self.joints.slope(state, constraint, direction)
+        self.contacts.slope(state, constraint, direction)
     }
 
-    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
-        self.joints.exchange(state, constraint)
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        self.contacts.transition(state, change)
     }
 }

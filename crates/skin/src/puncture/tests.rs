@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 
 use approx::assert_relative_eq;
-use contact::{ContactLaw, FORCES, Law};
-use solver::{BandMatrix, Path, Point, Residual, Settings, State, System};
+use contact::{ContactLaw, CornerContact, FORCES, Law};
+use solver::{BandMatrix, Path, Residual, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
 use super::{Parameters, Problem, Rows, Status};
 use crate::arrangement::Arrangement;
+use crate::contacts::{Point, State};
 use crate::{Base, Design};
 
 /// A steep row in which contacts open, close, slide to corners and change their parts.
@@ -65,58 +66,22 @@ fn path_on(
     Path::new(chain, rest, Settings::default())
 }
 
-/// Shows every segment of a path, and the path as it was at its beginning.
+/// Shows every segment of a path.
 fn for_segments(mut path: Path<Chain>, mut show: impl FnMut(&mut Path<Chain>, &Point, &Point)) {
     loop {
-        let mut before = path.clone();
-        let from = before.point().clone();
+        let from = path.point().clone();
         let Some(to) = path.next() else { return };
-        show(&mut before, &from, &to);
+        show(&mut path, &from, &to);
     }
 }
 
-fn residual(chain: &Chain, z: &[f64], active: &[bool]) -> Vec<f64> {
-    let mut residual = Residual::new(chain.size());
-    chain.residual(z, active, &mut residual);
-    residual.value
-}
-
-/// Rows that the solver uses: all but the one of the load and those of forces known to vanish.
-fn rows(chain: &Chain, active: &[bool]) -> Vec<usize> {
-    let unused: Vec<usize> = chain
-        .constraints()
-        .iter()
-        .zip(active)
-        .filter(|(_, active)| !**active)
-        .map(|(&index, _)| index)
-        .chain([chain.load()])
-        .collect();
-    (0..chain.size()).filter(|row| !unused.contains(row)).collect()
-}
-
-/// Compares every column of the tangent that the solver uses with central differences, each row by its
-/// largest entry.
-fn check_tangent(chain: &Chain, state: &State) {
-    let State { z, active } = state;
-    let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
-    chain.tangent(z, active, &mut tangent);
-    for column in rows(chain, active).into_iter().chain([chain.load()]) {
-        // The law is steep where a force is small; what moves has a scale of 1.
-        let is_force = chain.constraints().contains(&column);
-        let step = 1e-5 * z[column].abs().max(if is_force { 0.0 } else { 0.01 });
-        let at = |shift: f64| {
-            let mut z = z.clone();
-            z[column] += shift;
-            residual(chain, &z, active)
-        };
-        let (low, high) = (at(-step), at(step));
-        for &row in &rows(chain, active) {
-            let difference = (high[row] - low[row]) / (2.0 * step);
-            let inside = tangent.columns(row).contains(&column);
-            let ours = if inside { tangent.get(row, column) } else { 0.0 };
-            let size = tangent.columns(row).map(|c| tangent.get(row, c).abs()).fold(0.0, f64::max);
-            assert_relative_eq!(ours, difference, epsilon = 1e-6 * size, max_relative = 1e-6);
-        }
+/// Of an open contact, of one on an edge, at a corner, flush.
+fn name(contact: CornerContact) -> &'static str {
+    match contact {
+        CornerContact::Open => "open",
+        CornerContact::Edge(_) => "edge",
+        CornerContact::Corner(_) => "corner",
+        CornerContact::Flush(_) => "flush",
     }
 }
 
@@ -126,34 +91,47 @@ fn the_tangent_agrees_with_finite_differences_in_every_state_of_contact() {
     for constants in [Law::PRINTED, Law::EXCHANGED] {
         for design in [LIVELY, FOLDING, SLIDING] {
             // Half-way between the points: at events forces vanish, where the law has a kink.
-            for_segments(path(&design, law(&design, constants, HARD), 1.0), |before, from, to| {
-                let state = before.between(from, to, 0.5).unwrap().state;
-                seen.extend(state.active.chunks(FORCES).map(<[bool]>::to_vec));
-                check_tangent(before.system(), &state);
+            for_segments(path(&design, law(&design, constants, HARD), 1.0), |path, from, to| {
+                let state = path.between(from, to, 0.5).unwrap().state;
+                seen.extend(state.mode.iter().copied().map(name));
+                check_tangent(path.system(), &state, 1e-6).unwrap();
             });
         }
     }
-    // Open, on an edge, at a corner; flush, on an edge and beside it.
-    let states = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 0, 1]];
-    assert_eq!(seen, states.map(|state| state.map(|acts| acts == 1).to_vec()).into());
+    assert_eq!(seen, ["open", "edge", "corner", "flush"].into());
+}
+
+/// The flags of a state say which forces act, and the mode says so too.
+#[test]
+fn flags_and_modes_of_contacts_agree() {
+    for design in [LIVELY, FOLDING, SLIDING] {
+        for point in path(&design, law(&design, Law::EXCHANGED, HARD), 1.0) {
+            for (contact, acting) in point.state.mode.iter().zip(point.state.active.chunks(FORCES))
+            {
+                assert_eq!(contact.acting(), acting);
+            }
+        }
+    }
 }
 
 #[test]
 fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
     let mut compared = [0; FORCES];
-    for_segments(path(&FOLDING, law(&FOLDING, Law::EXCHANGED, HARD), 1.0), |before, from, to| {
-        let state = before.between(from, to, 0.5).unwrap().state;
-        let chain = before.system();
+    for_segments(path(&FOLDING, law(&FOLDING, Law::EXCHANGED, HARD), 1.0), |path, from, to| {
+        let state = path.between(from, to, 0.5).unwrap().state;
+        let chain = path.system();
         let at = |shift: f64| {
             let along = state.z.iter().zip(&from.leaving);
-            let z: Vec<f64> = along.map(|(z, d)| z + shift * d).collect();
-            residual(chain, &z, &state.active)
+            let z = along.map(|(z, d)| z + shift * d).collect();
+            let mut residual = Residual::new(chain.size());
+            chain.residual(&State { z, ..state.clone() }, &mut residual);
+            residual.value
         };
         let (low, high) = (at(-1e-7), at(1e-7));
         for (constraint, &index) in chain.constraints().iter().enumerate() {
-            // What is far is so by a constant.
-            if !state.active[constraint] && low[index] < 1.0 {
-                let difference = (high[index] - low[index]) / 2e-7;
+            let difference = (high[index] - low[index]) / 2e-7;
+            // Where a force cannot act next its condition is constant.
+            if !state.active[constraint] && difference != 0.0 {
                 let slope = chain.slope(&state, constraint, &from.leaving);
                 assert_relative_eq!(slope, difference, epsilon = 1e-6, max_relative = 1e-6);
                 compared[constraint % FORCES] += 1;
@@ -164,10 +142,10 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
 }
 
 /// `∫ F du` between two points: the rule of Boole on five equilibria, `u'` by their polynomial.
-fn work(before: &mut Path<Chain>, from: &Point, to: &Point) -> f64 {
-    let inner = [0.25, 0.5, 0.75].map(|x| before.between(from, to, x).unwrap().state);
+fn work(path: &mut Path<Chain>, from: &Point, to: &Point) -> f64 {
+    let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
-    let chain = before.system();
+    let chain = path.system();
     let u = states.map(|state| chain.depth(&state.z));
     let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
     let slopes = [
@@ -194,9 +172,9 @@ struct Balance {
 
 fn balance(path: Path<Chain>) -> Balance {
     let mut balance = Balance::default();
-    for_segments(path, |before, from, to| {
-        balance.work += work(before, from, to);
-        (balance.springs, balance.contacts) = before.system().energies(&to.state);
+    for_segments(path, |path, from, to| {
+        balance.work += work(path, from, to);
+        (balance.springs, balance.contacts) = path.system().energies(&to.state);
         let off = (balance.work - balance.springs - balance.contacts).abs();
         balance.off = balance.off.max(off);
     });
@@ -220,20 +198,17 @@ fn the_work_of_the_load_is_stored() {
 fn the_tangent_of_a_coupled_row_is_symmetric_but_for_load_and_contact_and_agrees_with_differences()
 {
     let mut points = 0;
-    for_segments(
-        coupled_path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0),
-        |before, from, to| {
-            let state = before.between(from, to, 0.5).unwrap().state;
-            check_tangent(before.system(), &state);
-            points += 1;
-        },
-    );
+    for_segments(coupled_path(&LIVELY, law(&LIVELY, Law::PRINTED, HARD), 1.0), |path, from, to| {
+        let state = path.between(from, to, 0.5).unwrap().state;
+        check_tangent(path.system(), &state, 1e-6).unwrap();
+        points += 1;
+    });
     assert!(points > 10);
     // At rest there is nothing but the substrate.
     let path = coupled_path(&BLOCKS, law(&BLOCKS, Law::PRINTED, HARD), 1.0);
     let (chain, state) = (path.system(), &path.point().state);
     let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
-    chain.tangent(&state.z, &state.active, &mut tangent);
+    chain.tangent(state, &mut tangent);
     let mut coupled = 0;
     for row in (0..chain.size()).filter(|&row| row != chain.load()) {
         for column in tangent.columns(row).filter(|&column| column != chain.load()) {

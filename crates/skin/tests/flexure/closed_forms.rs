@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use skin::flexure::{Flexure, Parameters, solve};
-use skin::{Base, Change};
+use skin::{Base, ContactChange};
 
 use crate::samples::{design, forty};
 
@@ -38,7 +38,7 @@ fn upright_blocks_meet_at_a_moment_of_one() {
     for (gap, length) in [(0.1, 1.0), (0.1, 0.2), (0.3, 0.5), (0.5, 1.0)] {
         let flexure = blocks(gap, length, 128);
         let first = flexure.events[0];
-        assert_eq!(first.change, Change::Closed);
+        assert_eq!(first.change, ContactChange::Closed);
         assert_relative_eq!(first.point.moment, 1.0, max_relative = 1e-6);
         let curvature = flexure.measures.first_contact_curvature.unwrap();
         assert_relative_eq!(curvature, gap / (gap + length), max_relative = 1e-6);

@@ -5,7 +5,7 @@
 //! the tilt alone, and the first contact is where one gap closes.
 
 use approx::assert_relative_eq;
-use contact::{Kind, Pair, Pose};
+use contact::{CornerEdge, Pair, Pose};
 use skin::{Base, Design};
 use substrate::{Calibrations, Springs};
 
@@ -44,7 +44,7 @@ fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let (left, right) = (Pose::new(0.0, y, -psi), Pose::new(0.0, y_next, -psi * next / middle));
     let pair = Pair::new(scale, design.row().unwrap().pitch());
     let depth = -y + arm[0] * psi.sin() + arm[1] * (1.0 - psi.cos());
-    [depth, pair.distance(Kind::TopRightOnLeftEdge, &left, &right)]
+    [depth, pair.distance(CornerEdge::TopRightOnLeftEdge, &left, &right)]
 }
 
 fn first_contact(design: &Design, springs: &Springs) -> f64 {
@@ -73,7 +73,7 @@ fn happens_where_the_linear_chain_closes_the_gap() {
         let ours = crate::complete(&puncture).first_contact_displacement.unwrap();
         assert_relative_eq!(ours, exact, max_relative = 1e-9);
         assert_relative_eq!(ours, rounded, epsilon = 5e-5);
-        assert_eq!(puncture.events[0].kind, Kind::TopRightOnLeftEdge);
+        assert_eq!(puncture.events[0].corner_edge, CornerEdge::TopRightOnLeftEdge);
         assert_eq!(puncture.events[0].left_scale, 0);
     }
 }

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::Change;
+use skin::ContactChange;
 use skin::puncture::{Event, Parameters, Puncture, Status};
 use solver::{Settings, Stop};
 use substrate::Calibrations;
@@ -62,12 +62,12 @@ fn reactions_add_up_to_the_load() {
 fn closed_by(events: &[Event]) -> HashMap<(i64, bool), HashSet<&'static str>> {
     let mut closed = HashMap::new();
     for event in events {
-        let kind = event.kind.name();
+        let kind = event.corner_edge.name();
         let joint = (event.left_scale, kind.starts_with('T'));
         let kinds: &mut HashSet<_> = closed.entry(joint).or_default();
         match event.change {
-            Change::Closed => assert!(kinds.insert(kind), "closed twice: {event:?}"),
-            Change::Opened => assert!(kinds.remove(kind), "opened while open: {event:?}"),
+            ContactChange::Closed => assert!(kinds.insert(kind), "closed twice: {event:?}"),
+            ContactChange::Opened => assert!(kinds.remove(kind), "opened while open: {event:?}"),
             _ => {
                 assert!(!kinds.is_empty(), "turned while open: {event:?}");
                 *kinds = [kind].into();
@@ -86,7 +86,7 @@ fn events_account_for_the_contacts_and_the_scales_engaged() {
         assert_eq!(measures.contacts, Some(closed.values().map(HashSet::len).sum()));
         let engaged: HashSet<i64> = closed.keys().flat_map(|&(left, _)| [left, left + 1]).collect();
         assert_eq!(measures.engaged_scales, Some(engaged.len()));
-        let first = puncture.events.iter().find(|event| event.change == Change::Closed);
+        let first = puncture.events.iter().find(|event| event.change == ContactChange::Closed);
         assert_eq!(measures.first_contact_displacement, first.map(|e| e.point.displacement));
         assert!(puncture.events.iter().all(|event| puncture.path.contains(&event.point)));
     }

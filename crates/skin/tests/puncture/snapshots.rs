@@ -1,7 +1,7 @@
 //! A row at chosen places of its path.
 
 use approx::assert_relative_eq;
-use contact::Kind;
+use contact::CornerEdge;
 use skin::Design;
 use skin::puncture::{At, Parameters, Snapshot, Snapshots, snapshots};
 use substrate::Calibrations;
@@ -73,11 +73,11 @@ fn a_contact_stands_at_the_corner_that_touches() {
     let design = folding();
     let Snapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
     let row = design.row().unwrap();
-    assert!(contacts.iter().any(|contact| contact.kind == Kind::BottomLeftOnBase));
+    assert!(contacts.iter().any(|contact| contact.corner_edge == CornerEdge::BottomLeftOnBase));
     for contact in contacts {
-        let of = contact.left + usize::from(!contact.kind.corner_is_left());
+        let of = contact.left + usize::from(!contact.corner_edge.corner_is_left());
         let (sin, cos) = scales[of].rotation_deg.to_radians().sin_cos();
-        let arm = row.scale().corner(contact.kind.corner());
+        let arm = row.scale().corner(contact.corner_edge.corner());
         let [x, y] = scales[of].displacement;
         let place = of as f64 * row.pitch() + x + cos * arm.x - sin * arm.y;
         assert_relative_eq!(contact.point[0], place, epsilon = 1e-9);

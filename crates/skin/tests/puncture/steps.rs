@@ -27,7 +27,7 @@ fn steps_ten_times_smaller_give_the_same_measures() {
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);
             let story = |puncture: &skin::puncture::Puncture| {
                 let events = puncture.events.iter();
-                events.map(|e| (e.left_scale, e.kind.name(), e.change)).collect::<Vec<_>>()
+                events.map(|e| (e.left_scale, e.corner_edge.name(), e.change)).collect::<Vec<_>>()
             };
             assert_eq!(story(&ours), story(&theirs), "{design:?}");
         }

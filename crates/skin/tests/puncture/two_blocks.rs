@@ -1,7 +1,7 @@
 //! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve where they touch.
 
 use skin::puncture::{Parameters, PathPoint, Puncture};
-use skin::{Base, Change};
+use skin::{Base, ContactChange};
 use solver::Settings;
 
 use crate::samples::{blocks, design, on_row, solve};
@@ -26,7 +26,7 @@ fn kink(puncture: &Puncture) -> f64 {
 fn the_stiffness_jumps_up_where_they_touch() {
     let puncture = solve(&blocks(), &finely(2));
     crate::complete(&puncture);
-    assert_eq!(puncture.events[0].change, Change::Closed);
+    assert_eq!(puncture.events[0].change, ContactChange::Closed);
     let kink = kink(&puncture);
     println!("two blocks, L/t = 1, d/t = 0.1: stiffness after over before contact {kink:.3}");
     assert!(kink > 1.5, "{kink}");

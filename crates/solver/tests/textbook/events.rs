@@ -53,7 +53,7 @@ fn a_bump_within_one_step_is_not_missed() {
 #[test]
 fn a_bump_within_a_later_step_is_not_missed() {
     for (start, step) in [(0.4, 1.0), (0.9, 0.7), (0.7, 0.6)] {
-        let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false] };
+        let rest = State { z: vec![start, 0.0, 0.5 * start], active: vec![false], mode: () };
         let mut path = Path::new(bump(), rest, steps(step));
         let points: Vec<_> = path.by_ref().collect();
         assert_eq!(path.stop(), Some(Stop::Reached));
@@ -73,7 +73,7 @@ fn a_thin_wall_within_one_step_is_not_missed() {
     let wall: fn(f64) -> [f64; 2] = |u| [(u - 0.7).powi(2) - 1e-4, 2.0 * (u - 0.7)];
     for system in [Walls::new(vec![wall]), Walls::measured_by_the_load(vec![wall])] {
         for start in [0.0, 0.1, 0.35] {
-            let rest = State { z: vec![start, 0.0, start], active: vec![false] };
+            let rest = State { z: vec![start, 0.0, start], active: vec![false], mode: () };
             let points: Vec<_> = Path::new(system.clone(), rest, steps(2.0)).collect();
             let places =
                 changes(&points).iter().map(|(point, _)| point.state.z[0]).collect::<Vec<_>>();
@@ -128,7 +128,7 @@ fn of_two_walls_at_one_place_the_shielded_one_stays_open() {
 /// Units are arbitrary: the path goes through the same points, of which there are as many.
 #[test]
 fn a_path_does_not_depend_on_the_units_of_its_unknowns() {
-    fn compare<S: System>(system: S, factors: Vec<f64>, settings: Settings) {
+    fn compare<S: System + Clone>(system: S, factors: Vec<f64>, settings: Settings) {
         let (ours, stop) = follow(system.clone(), settings);
         let scaled = Scaled::new(system, factors);
         let (theirs, same) = follow(scaled.clone(), settings);

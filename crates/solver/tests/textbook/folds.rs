@@ -61,7 +61,7 @@ fn a_snap_back_does_not_depend_on_the_steps() {
 /// Followed from its lowest point, with arc length where `x` turns, until it has come round.
 #[test]
 fn a_circle_is_followed_all_the_way_round() {
-    let start = State { z: vec![0.0, -1.0], active: Vec::new() };
+    let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let mut path = Path::new(circle(), start, Settings::default());
     let (mut turned, mut before) = (0.0, path.point().clone());
     loop {
@@ -87,7 +87,7 @@ fn a_circle_is_followed_all_the_way_round() {
 /// The path leaves each point within 45° of the direction in which it left the one before.
 #[test]
 fn steps_that_turn_too_sharply_are_cut() {
-    let start = State { z: vec![0.0, -1.0], active: Vec::new() };
+    let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let points: Vec<_> = Path::new(circle(), start, steps(1.0)).take(100).collect();
     let turns = points.windows(2).map(|pair| {
         let cross = |a: &[f64], b: &[f64]| a[0] * b[1] - a[1] * b[0];
@@ -103,7 +103,7 @@ fn steps_that_turn_too_sharply_are_cut() {
 
 #[test]
 fn the_load_of_a_circle_turns_at_the_top_and_at_the_bottom() {
-    let start = State { z: vec![0.6, -0.8], active: Vec::new() };
+    let start = State { z: vec![0.6, -0.8], active: Vec::new(), mode: () };
     let path = Path::new(circle(), start, Settings::default());
     let points: Vec<_> = path.take(300).collect();
     let extrema = extrema(&points);

@@ -19,7 +19,7 @@ fn steps(largest: f64) -> Settings {
 }
 
 /// All points of a path from rest, and why it ended.
-fn follow(system: impl System, settings: Settings) -> (Vec<Point>, Stop) {
+fn follow<S: System>(system: S, settings: Settings) -> (Vec<Point<S::Mode>>, Stop) {
     let rest = State::at_rest(&system);
     let mut path = Path::new(system, rest, settings);
     let points = path.by_ref().collect();

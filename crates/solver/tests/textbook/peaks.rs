@@ -1,7 +1,7 @@
 //! Largest slopes of a path.
 
 use approx::assert_relative_eq;
-use solver::{Path, Peak, State, System};
+use solver::{Path, Peak, Point, State, System};
 
 use crate::problems::{arch, kink, step, two_laws};
 use crate::steps;
@@ -13,16 +13,24 @@ fn steepest<S: System>(system: S, largest_step: f64) -> [f64; 2] {
 }
 
 /// The largest value of a function of state and direction on a path from rest, at its points and between them.
-fn largest<S: System>(system: S, largest_step: f64, f: impl Fn(&State, &[f64]) -> f64) -> [f64; 2] {
-    let f = |_: &S, state: &State, direction: &[f64]| f(state, direction);
+fn largest<S: System>(
+    system: S,
+    largest_step: f64,
+    f: impl Fn(&State<S::Mode>, &[f64]) -> f64,
+) -> [f64; 2] {
+    let of_path = |_: &S, state: &State<S::Mode>, direction: &[f64]| f(state, direction);
     let rest = State::at_rest(&system);
     let mut path = Path::new(system, rest, steps(largest_step));
-    let mut peak = Peak::default();
-    peak.visit(&path, f);
-    while path.next().is_some() {
-        peak.visit(&path, f);
+    let (mut peak, mut sampled) = (Peak::default(), f64::NEG_INFINITY);
+    loop {
+        peak.visit(&path, of_path);
+        let Point { state, arriving, leaving, .. } = path.point();
+        sampled = sampled.max(f(state, arriving)).max(f(state, leaving));
+        if path.next().is_none() {
+            break;
+        }
     }
-    [peak.sampled().unwrap(), peak.refined(&path, f).unwrap()]
+    [sampled, peak.refined(&mut path, of_path).unwrap()]
 }
 
 #[test]
@@ -75,7 +83,7 @@ fn a_maximum_very_close_behind_a_kink_is_found() {
 }
 
 #[test]
-fn a_peak_before_an_exchange_is_one_of_the_system_before() {
+fn a_peak_before_a_change_of_mode_is_one_of_the_mode_before() {
     for largest_step in [0.047, 0.031] {
         let [_, refined] = steepest(two_laws(), largest_step);
         assert_relative_eq!(refined, 3.0, max_relative = 1e-8);

@@ -1,6 +1,6 @@
 //! Problems with known answers.
 
-use solver::{BandMatrix, Control, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, State, System};
 
 /// A system without constraints of a few unknowns, given by functions: equations (one fewer than unknowns; the
 /// load is the last unknown), and their derivatives.
@@ -12,6 +12,8 @@ pub struct Smooth<const N: usize> {
 }
 
 impl<const N: usize> System for Smooth<N> {
+    type Mode = ();
+
     fn size(&self) -> usize {
         N
     }
@@ -28,14 +30,16 @@ impl<const N: usize> System for Smooth<N> {
         &self.controls
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&[1.0; N]);
         for (row, value) in (self.equations)(z).into_iter().enumerate() {
             residual.add(row, value);
         }
     }
 
-    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
         for (row, values) in (self.derivatives)(z).into_iter().enumerate() {
             for (column, value) in values.into_iter().enumerate() {
                 matrix.add(row, column, value);
@@ -139,6 +143,8 @@ impl Bratu {
 }
 
 impl System for Bratu {
+    type Mode = ();
+
     fn size(&self) -> usize {
         self.intervals
     }
@@ -155,7 +161,9 @@ impl System for Bratu {
         &self.controls
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&vec![1.0; self.size()]);
         let (load, inside) = (self.load(), self.intervals - 1);
         for i in 0..inside {
@@ -169,7 +177,7 @@ impl System for Bratu {
         }
     }
 
-    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
         let (load, inside) = (self.load(), self.intervals - 1);
         for i in 0..inside {
             let source = self.h().powi(2) * z[i].exp();
@@ -265,6 +273,8 @@ impl StringOverFloor {
 }
 
 impl System for StringOverFloor {
+    type Mode = ();
+
     fn size(&self) -> usize {
         2 * self.nodes() + 1
     }
@@ -285,7 +295,9 @@ impl System for StringOverFloor {
         &self.constraints
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&vec![1.0; self.size()]);
         for i in 0..self.nodes() {
             let share = self.share(i);
@@ -302,7 +314,7 @@ impl System for StringOverFloor {
         }
     }
 
-    fn tangent(&self, _z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, _state: &State, matrix: &mut BandMatrix) {
         for i in 0..self.nodes() {
             let share = self.share(i);
             matrix.add(2 * i, 2 * i, 2.0 * share / self.h());
@@ -331,6 +343,8 @@ pub struct OneConstraint {
 }
 
 impl System for OneConstraint {
+    type Mode = ();
+
     fn size(&self) -> usize {
         3
     }
@@ -351,14 +365,16 @@ impl System for OneConstraint {
         &[1]
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&[1.0; 3]);
         residual.add(0, (self.load)(z[0], z[1])[0]);
         residual.add(0, -z[2]);
         residual.add(1, (self.condition)(z[0], z[1])[0]);
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, active, .. }: &State, matrix: &mut BandMatrix) {
         let [_, by_u, by_c] = (self.load)(z[0], z[1]);
         for (column, value) in [by_u, by_c, -1.0].into_iter().enumerate() {
             matrix.add(0, column, value);
@@ -407,13 +423,19 @@ pub fn kink<const DECAY: u32>() -> OneConstraint {
 }
 
 /// `p = u + 0.2 (tanh 10 (u − 0.2) + tanh 2)` up to `u = 0.5`, and `p = u` but for a constant from there on:
-/// the law is exchanged where the constraint becomes active. The first is steepest at `u = 0.2`, with
+/// another law holds once the constraint has become active. The first is steepest at `u = 0.2`, with
 /// slope 3.
 #[derive(Clone)]
 pub struct TwoLaws {
     before: OneConstraint,
     after: OneConstraint,
-    exchanged: bool,
+}
+
+/// Which of the laws holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhichLaw {
+    Before,
+    After,
 }
 
 pub fn two_laws() -> TwoLaws {
@@ -428,16 +450,21 @@ pub fn two_laws() -> TwoLaws {
         load: |u, _| [u + 0.2 * (3.0_f64.tanh() + 2.0_f64.tanh()), 1.0, 0.0],
         ..kink::<5>()
     };
-    TwoLaws { before, after, exchanged: false }
+    TwoLaws { before, after }
 }
 
 impl TwoLaws {
-    fn now(&self) -> &OneConstraint {
-        if self.exchanged { &self.after } else { &self.before }
+    fn law(&self, mode: WhichLaw) -> &OneConstraint {
+        match mode {
+            WhichLaw::Before => &self.before,
+            WhichLaw::After => &self.after,
+        }
     }
 }
 
 impl System for TwoLaws {
+    type Mode = WhichLaw;
+
     fn size(&self) -> usize {
         3
     }
@@ -458,18 +485,26 @@ impl System for TwoLaws {
         &[1]
     }
 
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
-        self.now().residual(z, active, residual);
+    fn mode_at_rest(&self) -> WhichLaw {
+        WhichLaw::Before
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
-        self.now().tangent(z, active, matrix);
+    fn residual(&self, state: &State<WhichLaw>, residual: &mut Residual) {
+        self.law(state.mode).residual(&without_mode(state), residual);
     }
 
-    fn exchange(&mut self, _state: &mut State, constraint: usize) -> usize {
-        self.exchanged = true;
-        constraint
+    fn tangent(&self, state: &State<WhichLaw>, matrix: &mut BandMatrix) {
+        self.law(state.mode).tangent(&without_mode(state), matrix);
     }
+
+    fn transition(&self, state: &mut State<WhichLaw>, change: Change) -> Option<usize> {
+        state.mode = WhichLaw::After;
+        Some(change.constraint)
+    }
+}
+
+fn without_mode<M>(state: &State<M>) -> State {
+    State { z: state.z.clone(), active: state.active.clone(), mode: () }
 }
 
 /// The kink with a constraint that refuses to become active, and is violated whichever way the path goes.
@@ -477,6 +512,8 @@ impl System for TwoLaws {
 pub struct Refusing(pub OneConstraint);
 
 impl System for Refusing {
+    type Mode = ();
+
     fn size(&self) -> usize {
         3
     }
@@ -497,21 +534,65 @@ impl System for Refusing {
         &[1]
     }
 
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
-        self.0.residual(z, active, residual);
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
+        self.0.residual(state, residual);
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
-        self.0.tangent(z, active, matrix);
+    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        self.0.tangent(state, matrix);
     }
 
     fn slope(&self, _state: &State, _constraint: usize, direction: &[f64]) -> f64 {
         -direction[0].abs()
     }
 
-    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
-        state.active[constraint] = false;
-        constraint
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        state.active[change.constraint] = false;
+        Some(change.constraint)
+    }
+}
+
+/// The kink with a constraint that cannot change sides.
+#[derive(Clone)]
+pub struct Stuck(pub OneConstraint);
+
+impl System for Stuck {
+    type Mode = ();
+
+    fn size(&self) -> usize {
+        3
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        2
+    }
+
+    fn load(&self) -> usize {
+        2
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.0.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &[1]
+    }
+
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
+        self.0.residual(state, residual);
+    }
+
+    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        self.0.tangent(state, matrix);
+    }
+
+    fn transition(&self, _state: &mut State, _change: Change) -> Option<usize> {
+        None
     }
 }
 
@@ -520,6 +601,8 @@ impl System for Refusing {
 pub struct Stiff;
 
 impl System for Stiff {
+    type Mode = ();
+
     fn size(&self) -> usize {
         2
     }
@@ -536,13 +619,15 @@ impl System for Stiff {
         &[Control { index: 0, scale: 1.0 }]
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&[1.0; 2]);
         residual.add(0, 1e15 * z[0].sin());
         residual.add(0, -1e15 * z[1]);
     }
 
-    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
         matrix.add(0, 0, 1e15 * z[0].cos());
         matrix.add(0, 1, -1e15);
     }

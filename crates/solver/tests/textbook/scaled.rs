@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use solver::{BandMatrix, Control, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, State, System};
 
 /// A system whose unknowns are measured in other units: each is `factors` times the one of the `system`, and so
 /// are the scales of its controls. Its path is the same.
@@ -21,6 +21,10 @@ impl<S: System> Scaled<S> {
         Self { system, factors, controls }
     }
 
+    fn unscaled_state(&self, state: &State<S::Mode>) -> State<S::Mode> {
+        State { z: self.unscaled(&state.z), ..state.clone() }
+    }
+
     /// The unknowns in the units of the system.
     pub fn unscaled<'a>(&self, z: impl Into<Cow<'a, [f64]>>) -> Vec<f64> {
         z.into().iter().zip(&self.factors).map(|(z, factor)| z / factor).collect()
@@ -28,6 +32,8 @@ impl<S: System> Scaled<S> {
 }
 
 impl<S: System> System for Scaled<S> {
+    type Mode = S::Mode;
+
     fn size(&self) -> usize {
         self.system.size()
     }
@@ -48,13 +54,17 @@ impl<S: System> System for Scaled<S> {
         self.system.constraints()
     }
 
-    fn residual(&self, z: &[f64], active: &[bool], residual: &mut Residual) {
-        self.system.residual(&self.unscaled(z), active, residual);
+    fn mode_at_rest(&self) -> S::Mode {
+        self.system.mode_at_rest()
     }
 
-    fn tangent(&self, z: &[f64], active: &[bool], matrix: &mut BandMatrix) {
+    fn residual(&self, state: &State<S::Mode>, residual: &mut Residual) {
+        self.system.residual(&self.unscaled_state(state), residual);
+    }
+
+    fn tangent(&self, state: &State<S::Mode>, matrix: &mut BandMatrix) {
         let mut inner = BandMatrix::new(self.size(), self.half_bandwidth());
-        self.system.tangent(&self.unscaled(z), active, &mut inner);
+        self.system.tangent(&self.unscaled_state(state), &mut inner);
         for row in 0..self.size() {
             for column in inner.columns(row) {
                 matrix.add(row, column, inner.get(row, column) / self.factors[column]);
@@ -62,12 +72,12 @@ impl<S: System> System for Scaled<S> {
         }
     }
 
-    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
-        let state = State { z: self.unscaled(&state.z), active: state.active.clone() };
-        self.system.slope(&state, constraint, &self.unscaled(direction))
+    fn slope(&self, state: &State<S::Mode>, constraint: usize, direction: &[f64]) -> f64 {
+        let direction = self.unscaled(direction);
+        self.system.slope(&self.unscaled_state(state), constraint, &direction)
     }
 
-    fn exchange(&mut self, state: &mut State, constraint: usize) -> usize {
-        self.system.exchange(state, constraint)
+    fn transition(&self, state: &mut State<S::Mode>, change: Change) -> Option<usize> {
+        self.system.transition(state, change)
     }
 }

@@ -1,10 +1,10 @@
 //! Every way in which a path can end.
 
 use approx::assert_relative_eq;
-use solver::{ActiveSet, Condition, Newton, NewtonFailure, Path, Settings, State, Stop};
+use solver::{Condition, Newton, NewtonFailure, Path, Settings, State, Stop};
 
 use crate::follow;
-use crate::problems::{Refusing, Stiff, arch, circle, jump, kink, parabola, root};
+use crate::problems::{Refusing, Stiff, Stuck, arch, circle, jump, kink, parabola, root};
 
 #[test]
 fn a_path_ends_at_its_target() {
@@ -28,7 +28,7 @@ fn a_driver_that_does_not_move_is_singular() {
 
 #[test]
 fn a_path_without_end_has_too_many_points() {
-    let start = State { z: vec![0.0, -1.0], active: Vec::new() };
+    let start = State { z: vec![0.0, -1.0], active: Vec::new(), mode: () };
     let settings = Settings { max_points: 50, ..Settings::default() };
     let mut path = Path::new(circle(), start, settings);
     assert_eq!(path.by_ref().count(), 50);
@@ -37,7 +37,7 @@ fn a_path_without_end_has_too_many_points() {
 
 #[test]
 fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
-    let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new() };
+    let start = State { z: vec![0.0, 0.5_f64.sqrt()], active: Vec::new(), mode: () };
     let mut path = Path::new(root(), start, Settings::default());
     let last = path.by_ref().last().unwrap();
     assert_eq!(path.stop(), Some(Stop::NotFinite));
@@ -48,6 +48,13 @@ fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
 fn a_constraint_that_never_settles_cycles() {
     let (points, stop) = follow(Refusing(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Cycling);
+    assert!(points.last().unwrap().state.z[0] < 0.5);
+}
+
+#[test]
+fn a_constraint_that_cannot_change_sides_leaves_no_direction() {
+    let (points, stop) = follow(Stuck(kink::<5>()), Settings::default());
+    assert_eq!(stop, Stop::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
@@ -67,9 +74,9 @@ fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
 fn newtons_method_says_why_it_fails() {
     let condition = |value| Condition { row: vec![(0, 1.0)], value };
     let fail = |system, value, settings: &Settings| {
-        let mut state = State { z: vec![0.0, 0.0], active: Vec::new() };
+        let mut state = State { z: vec![0.0, 0.0], active: Vec::new(), mode: () };
         let mut newton = Newton::new(&system);
-        newton.solve(&system, &mut state, &condition(value), settings, ActiveSet::Held).unwrap_err()
+        newton.solve(&system, &mut state, &condition(value), settings).unwrap_err()
     };
     let settings = Settings::default();
     assert!(matches!(fail(parabola(), 0.3, &settings), NewtonFailure::Singular(_)));
@@ -96,7 +103,7 @@ fn stops_have_names() {
             "no convergence",
             "singular tangent",
             "too many points",
-            "cycling contacts",
+            "cycling constraints",
             "not finite"
         ]
     );

@@ -1,48 +1,19 @@
 //! The tangents of the problems agree with differences of their residuals.
 
-use approx::assert_relative_eq;
-use solver::{BandMatrix, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, State, System, check_tangent};
 
 use crate::problems::{
-    Bratu, StringOverFloor, arch, arch_on_spring, bump, circle, corner, kink, parabola, root, step,
+    Bratu, OneConstraint, StringOverFloor, arch, arch_on_spring, bump, circle, corner, kink,
+    parabola, root, step,
 };
 
-fn check(system: &impl System, z: &[f64]) {
-    let active = vec![true; system.constraints().len()];
-    let mut matrix = BandMatrix::new(system.size(), system.half_bandwidth());
-    system.tangent(z, &active, &mut matrix);
-    let h = 1e-6;
-    for column in 0..system.size() {
-        let at = |step: f64| {
-            let mut z = z.to_vec();
-            z[column] += step;
-            let mut residual = Residual::new(system.size());
-            system.residual(&z, &active, &mut residual);
-            residual.value
-        };
-        let (high, low) = (at(h), at(-h));
-        for row in (0..system.size()).filter(|&row| row != system.load()) {
-            let difference = (high[row] - low[row]) / (2.0 * h);
-            assert_relative_eq!(
-                matrix.get(row, column),
-                difference,
-                epsilon = 1e-8,
-                max_relative = 1e-7
-            );
-        }
-        for (number, &index) in system.constraints().iter().enumerate() {
-            let state = State { z: z.to_vec(), active: active.clone() };
-            let mut direction = vec![0.0; system.size()];
-            direction[column] = 1.0;
-            let slope = system.slope(&state, number, &direction);
-            assert_relative_eq!(
-                matrix.get(index, column),
-                slope,
-                epsilon = 1e-8,
-                max_relative = 1e-7
-            );
-        }
-    }
+/// All constraints active.
+fn state<S: System<Mode = ()>>(system: &S, z: &[f64]) -> State {
+    State { z: z.to_vec(), active: vec![true; system.constraints().len()], mode: () }
+}
+
+fn check<S: System<Mode = ()>>(system: &S, z: &[f64]) {
+    check_tangent(system, &state(system, z), 2e-9).unwrap();
 }
 
 #[test]
@@ -59,4 +30,77 @@ fn tangents_are_derivatives() {
     check(&Bratu::new(6), &[0.1, 0.2, 0.3, 0.4, 0.5, 1.5]);
     let string = StringOverFloor::halved(6, 1.0);
     check(&string, &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+}
+
+/// A bead on a bump whose tangent or slope is off in one place.
+struct Wrong {
+    right: OneConstraint,
+    entry: Option<(usize, usize)>,
+    slope: f64,
+}
+
+impl System for Wrong {
+    type Mode = ();
+
+    fn size(&self) -> usize {
+        self.right.size()
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        self.right.half_bandwidth()
+    }
+
+    fn load(&self) -> usize {
+        self.right.load()
+    }
+
+    fn controls(&self) -> &[Control] {
+        self.right.controls()
+    }
+
+    fn constraints(&self) -> &[usize] {
+        self.right.constraints()
+    }
+
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, state: &State, residual: &mut Residual) {
+        self.right.residual(state, residual);
+    }
+
+    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        self.right.tangent(state, matrix);
+        if let Some((row, column)) = self.entry {
+            matrix.add(row, column, 1e-6);
+        }
+    }
+
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        self.right.slope(state, constraint, direction) + self.slope
+    }
+
+    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        self.right.transition(state, change)
+    }
+}
+
+#[test]
+fn a_derivative_that_is_off_is_named() {
+    let found = |entry, slope, active| {
+        let wrong = Wrong { right: bump(), entry, slope };
+        let state = State { active: vec![active], ..state(&wrong, &[1.3, 0.4, 0.2]) };
+        check_tangent(&wrong, &state, 1e-8).err().map(|wrong| (wrong.row, wrong.column))
+    };
+    assert_eq!(found(None, 0.0, true), None);
+    for row in 0..2 {
+        for column in 0..3 {
+            assert_eq!(found(Some((row, column)), 0.0, true), Some((row, column)));
+        }
+    }
+    assert_eq!(found(None, 1e-6, true), Some((1, 0)));
+    // Of a constraint that is not active the slope counts, and neither row nor column of the tangent.
+    assert_eq!(found(None, 1e-6, false), Some((1, 0)));
+    for entry in [(1, 0), (1, 2), (0, 1)] {
+        assert_eq!(found(Some(entry), 0.0, false), None);
+    }
 }

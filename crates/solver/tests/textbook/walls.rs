@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use solver::{BandMatrix, Control, Residual, System};
+use solver::{BandMatrix, Control, Residual, State, System};
 
 /// A coordinate `u` under a load `p`, against walls that give way: `p = u + Σ c_k` with
 /// `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, where `s_k` is twice the force on a wall that shields this one. Unknowns
@@ -41,6 +41,8 @@ impl Walls {
 }
 
 impl System for Walls {
+    type Mode = ();
+
     fn size(&self) -> usize {
         self.gaps.len() + 2
     }
@@ -61,7 +63,9 @@ impl System for Walls {
         &self.constraints
     }
 
-    fn residual(&self, z: &[f64], _active: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&vec![1.0; self.size()]);
         residual.add(0, z[0]);
         residual.add(0, -z[self.load()]);
@@ -75,7 +79,7 @@ impl System for Walls {
         }
     }
 
-    fn tangent(&self, z: &[f64], _active: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
         self.tangents.fetch_add(1, Ordering::Relaxed);
         matrix.add(0, 0, 1.0);
         matrix.add(0, self.load(), -1.0);

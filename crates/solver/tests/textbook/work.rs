@@ -69,7 +69,7 @@ fn paths_with_constraints() {
 fn evaluations<S: System>(system: S, largest_step: f64) -> usize {
     let load = system.load();
     let count = std::cell::Cell::new(0);
-    let slope = |_: &S, _: &State, direction: &[f64]| {
+    let slope = |_: &S, _: &State<S::Mode>, direction: &[f64]| {
         count.set(count.get() + 1);
         direction[load] / direction[0]
     };
@@ -80,7 +80,7 @@ fn evaluations<S: System>(system: S, largest_step: f64) -> usize {
         peak.visit(&path, slope);
     }
     count.set(0);
-    peak.refined(&path, slope).unwrap();
+    peak.refined(&mut path, slope).unwrap();
     count.get()
 }
 

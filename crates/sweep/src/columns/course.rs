@@ -27,7 +27,7 @@ pub static EVENTS: &[Column<Event>] = &[
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
         e.left_scale.into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.kind.name().into()),
+    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
     Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
 ];
 
@@ -90,7 +90,7 @@ pub static FLEXURE_EVENTS: &[Column<flexure::Event>] = &[
     Column::new("gap", "-", "gap, 0 is the first; empty if every gap does the same", |e| {
         e.gap.into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.kind.name().into()),
+    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
     Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
 ];
 

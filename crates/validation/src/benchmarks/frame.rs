@@ -93,6 +93,8 @@ impl Frame {
 }
 
 impl System for Frame {
+    type Mode = ();
+
     fn size(&self) -> usize {
         3 * self.nodes.len() + 1
     }
@@ -109,7 +111,9 @@ impl System for Frame {
         &self.controls
     }
 
-    fn residual(&self, z: &[f64], _: &[bool], residual: &mut Residual) {
+    fn mode_at_rest(&self) {}
+
+    fn residual(&self, State { z, .. }: &State, residual: &mut Residual) {
         residual.clear(&self.units);
         for (i, beam) in self.beams.iter().enumerate() {
             let (ends, unknowns) = self.ends(z, i);
@@ -127,7 +131,7 @@ impl System for Frame {
         residual.add(self.unknown(self.loaded, 1), z[self.load()]);
     }
 
-    fn tangent(&self, z: &[f64], _: &[bool], matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
         for (i, beam) in self.beams.iter().enumerate() {
             let (ends, unknowns) = self.ends(z, i);
             let tangent = beam.response(&ends).tangent;

@@ -1,0 +1,294 @@
+//! What the contact of two corners adds to a system: forces on both scales, and conditions.
+
+use geometry::Vec2;
+
+use crate::corner_contact::{CornerContact, FORCES, Force};
+use crate::corners::Corners;
+use crate::gap::{CornerEdge, Gap, Pair, Pose, quarter};
+use crate::law::ContactLaw;
+
+/// Coordinates of a pair: `(x, y, φ)` of the left and of the right scale.
+pub const COORDINATES: usize = 6;
+
+/// Where the rotations of the two scales stand among the coordinates.
+const ROTATIONS: [usize; 2] = [2, 5];
+
+/// The value of an equation and its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Equation {
+    /// Its value.
+    pub value: f64,
+    /// Its derivatives with respect to the coordinates of the pair.
+    pub by_coordinate: [f64; COORDINATES],
+    /// Its derivatives with respect to the three forces, in the order of [`Force::ALL`].
+    pub by_force: [f64; FORCES],
+}
+
+/// What the contact of two corners adds to a system.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CornerResponse {
+    /// What the contact subtracts from the balance of forces in each coordinate of the pair.
+    pub balance: [Equation; COORDINATES],
+    /// The conditions (C6) and (C7) of the three forces, none negative where it holds; `None` for a force that
+    /// cannot act next in this state.
+    pub conditions: [Option<Equation>; FORCES],
+}
+
+impl CornerContact {
+    /// Forces, conditions, and their derivatives, with the values that the three `forces` have.
+    pub fn response(
+        self,
+        corners: &Corners,
+        law: &ContactLaw,
+        forces: [f64; FORCES],
+    ) -> CornerResponse {
+        match self {
+            Self::Open => CornerResponse::open(corners),
+            Self::Edge(edge) => CornerResponse::edge(edge, corners, law, forces),
+            Self::Corner(edge) => {
+                Together::new(corners, corners.together(edge)).response(law, forces)
+            }
+            Self::Flush(edge) => {
+                let mut response = CornerResponse::edge(edge, corners, law, forces);
+                if let Some(flush) = edge.flush() {
+                    response.add_force(Force::Flush, &corners.gap(flush), forces);
+                    response.conditions[Force::Flush as usize] =
+                        Some(flush_condition(corners, flush));
+                }
+                response
+            }
+        }
+    }
+
+    /// Forces on the left scale: of the two corners on each other's edge, and of the flush contact. The right scale takes
+    /// their opposites.
+    pub fn forces_on_left(self, corners: &Corners, forces: [f64; FORCES]) -> [Vec2; 2] {
+        let [own, partner, flush] = forces;
+        let along = |edge: CornerEdge| edge.normal(corners.pair, corners.poses).0;
+        match self {
+            Self::Open => [Vec2::zeros(); 2],
+            Self::Edge(edge) => [own * along(edge), Vec2::zeros()],
+            Self::Corner(edge) => {
+                let [first, second] = corners.together(edge);
+                [own * along(first) + partner * along(second), Vec2::zeros()]
+            }
+            Self::Flush(edge) => {
+                let beside = edge.flush().map_or(Vec2::zeros(), along);
+                [own * along(edge), flush * beside]
+            }
+        }
+    }
+}
+
+impl CornerResponse {
+    /// No force acts; there is a condition if a corner faces an edge.
+    fn open(corners: &Corners) -> Self {
+        let condition = corners.facing().map(|(edge, value)| Equation {
+            value,
+            by_coordinate: corners.gap(edge).gradient,
+            ..Equation::default()
+        });
+        Self { conditions: [condition, None, None], ..Self::default() }
+    }
+
+    /// A corner rests on an edge: (C6), and the condition of (C7) where a flush contact is within reach.
+    fn edge(edge: CornerEdge, corners: &Corners, law: &ContactLaw, forces: [f64; FORCES]) -> Self {
+        let gap = corners.gap(edge);
+        let approach = law.approach(forces[Force::Own as usize] + forces[Force::Flush as usize]);
+        let own = Equation {
+            value: gap.value + approach.value,
+            by_coordinate: gap.gradient,
+            by_force: [approach.slope, 0.0, approach.slope],
+        };
+        let [_, partner] = corners.together(edge);
+        let partner = Together::new(corners, [edge, partner]).short_of_the_end();
+        let flush = edge.flush().filter(|&flush| corners.is_within_far_end(flush));
+        let flush = flush.map(|flush| flush_condition(corners, flush));
+        let conditions = [Some(own), Some(partner), flush];
+        let mut response = Self { conditions, ..Self::default() };
+        response.add_force(Force::Own, &gap, forces);
+        response
+    }
+
+    /// Adds to the balance what one of the forces, which acts along a gap, does.
+    fn add_force(&mut self, which: Force, gap: &Gap, forces: [f64; FORCES]) {
+        let force = forces[which as usize];
+        for (i, row) in self.balance.iter_mut().enumerate() {
+            row.value -= force * gap.gradient[i];
+            row.by_force[which as usize] = -gap.gradient[i];
+            for (slope, hessian) in row.by_coordinate.iter_mut().zip(gap.hessian[i]) {
+                *slope -= force * hessian;
+            }
+        }
+    }
+}
+
+/// `β` of (C7).
+fn flush_condition(corners: &Corners, flush: CornerEdge) -> Equation {
+    let angle = corners.angle_to_flush(flush);
+    let mut condition = Equation { value: angle.value, ..Equation::default() };
+    let [left, right] = ROTATIONS;
+    condition.by_coordinate[left] = angle.slope;
+    condition.by_coordinate[right] = -angle.slope;
+    condition
+}
+
+impl CornerEdge {
+    /// The direction of the force on the left scale, and the coordinate (a rotation) with which it turns.
+    fn normal(self, pair: &Pair, [left, right]: [&Pose; 2]) -> (Vec2, usize) {
+        let [of_left, of_right] = pair.normals();
+        let [with_left, with_right] = ROTATIONS;
+        match self {
+            Self::TopRightOnLeftEdge | Self::BottomRightOnLeftEdge => {
+                (right.turn(of_right), with_right)
+            }
+            Self::TopLeftOnRightEdge | Self::BottomLeftOnRightEdge => {
+                (left.turn(of_left), with_left)
+            }
+            Self::TopRightOnTop => (right.turn(Vec2::y()), with_right),
+            Self::BottomLeftOnBase => (left.turn(Vec2::y()), with_left),
+        }
+    }
+}
+
+/// Two corners at or near each other, and the directions at them.
+struct Together {
+    /// `D = P − Q`.
+    apart: Vec2,
+    /// From the node of its scale to each corner, turned.
+    arms: [Vec2; 2],
+    /// `m` of the contact itself and of its partner.
+    normals: [Vec2; 2],
+    /// The rotation with which each normal turns.
+    turns: [usize; 2],
+    /// `s` of the contact itself, times `σ`.
+    beyond: Vec2,
+}
+
+impl Together {
+    fn new(corners: &Corners, [own, partner]: [CornerEdge; 2]) -> Self {
+        let Corners { level, pair, poses } = *corners;
+        let [left, right] = poses;
+        let [p, q] = level.corners();
+        let [of_left, of_right] = pair.scales();
+        let arms = [left.turn(of_left.corner(p)), right.turn(of_right.corner(q))];
+        let apart = (left.displacement - right.displacement) + (arms[0] - arms[1])
+            - Vec2::new(pair.pitch(), 0.0);
+        let [(normal, turn), (other_normal, other_turn)] =
+            [own, partner].map(|edge| edge.normal(pair, poses));
+        // A normal that points left, turned clockwise, points up its edge. The tip leaves the neighbour's side, and the
+        // neighbour's corner the side of the tip, towards its end.
+        let beyond = if own == level.tip_on_side() { -quarter(normal) } else { quarter(normal) };
+        Self { apart, arms, normals: [normal, other_normal], turns: [turn, other_turn], beyond }
+    }
+
+    /// How far a vector reaches beyond the end of the edge.
+    fn overrun(&self, v: Vec2) -> f64 {
+        v.dot(&self.beyond)
+    }
+
+    /// The second condition of (C6) while the partner's force is at rest, `v = D`.
+    fn short_of_the_end(&self) -> Equation {
+        let mut condition = Equation { value: -self.overrun(self.apart), ..Equation::default() };
+        for (i, slope) in condition.by_coordinate.iter_mut().enumerate() {
+            *slope = -self.overrun(self.apart_slope(i));
+        }
+        condition.by_coordinate[self.turns[0]] -= self.apart.dot(&quarter(self.beyond));
+        condition
+    }
+
+    /// Corner on corner: both forces act, (C5) and (C6).
+    fn response(&self, law: &ContactLaw, [own, partner, _]: [f64; FORCES]) -> CornerResponse {
+        let force = own * self.normals[0] + partner * self.normals[1];
+        let turning = std::array::from_fn(|i| self.force_slope([own, partner], i));
+        let [closed, at_end] = self.conditions(law, force, &turning);
+        let balance = self.balance(force, &turning);
+        CornerResponse { balance, conditions: [Some(closed), Some(at_end), None] }
+    }
+
+    /// The conditions (C6) under a force `f` that changes by `turning` with each coordinate.
+    fn conditions(
+        &self,
+        law: &ContactLaw,
+        f: Vec2,
+        turning: &[Vec2; COORDINATES],
+    ) -> [Equation; 2] {
+        let Secant { compliance, growth } = Secant::new(law, f);
+        let v = self.apart + compliance * f;
+        let along = |df: Vec2| compliance * df + growth * f.dot(&df) * f;
+        let slopes = |dv: Vec2| [dv.dot(&self.normals[0]), -self.overrun(dv)];
+        let [mut closed, mut at_end] =
+            slopes(v).map(|value| Equation { value, ..Equation::default() });
+        for (i, &df) in turning.iter().enumerate() {
+            let dv = along(df) + self.apart_slope(i);
+            [closed.by_coordinate[i], at_end.by_coordinate[i]] = slopes(dv);
+        }
+        for (k, &normal) in self.normals.iter().enumerate() {
+            [closed.by_force[k], at_end.by_force[k]] = slopes(along(normal));
+        }
+        closed.by_coordinate[self.turns[0]] += v.dot(&quarter(self.normals[0]));
+        at_end.by_coordinate[self.turns[0]] -= v.dot(&quarter(self.beyond));
+        [closed, at_end]
+    }
+
+    /// What a force `f` does to the balance of both scales if it changes by `turning` with each coordinate.
+    fn balance(&self, f: Vec2, turning: &[Vec2; COORDINATES]) -> [Equation; COORDINATES] {
+        let mut balance = std::array::from_fn(|row| {
+            let moved = self.apart_slope(row);
+            let [own, partner] = self.normals.map(|normal| -normal.dot(&moved));
+            Equation {
+                value: -f.dot(&moved),
+                by_coordinate: turning.map(|df| -df.dot(&moved)),
+                by_force: [own, partner, 0.0],
+            }
+        });
+        // Turning an arm turns the direction in which its corner moves.
+        let [left, right] = ROTATIONS;
+        balance[left].by_coordinate[left] += f.dot(&self.arms[0]);
+        balance[right].by_coordinate[right] -= f.dot(&self.arms[1]);
+        balance
+    }
+
+    /// `∂D` for a coordinate of the pair.
+    fn apart_slope(&self, coordinate: usize) -> Vec2 {
+        match coordinate {
+            0 => Vec2::x(),
+            1 => Vec2::y(),
+            2 => quarter(self.arms[0]),
+            3 => -Vec2::x(),
+            4 => -Vec2::y(),
+            _ => -quarter(self.arms[1]),
+        }
+    }
+
+    /// `∂f` for a coordinate of the pair: a normal turns with its scale.
+    fn force_slope(&self, forces: [f64; 2], coordinate: usize) -> Vec2 {
+        let mut slope = Vec2::zeros();
+        for ((&normal, &turn), force) in self.normals.iter().zip(&self.turns).zip(forces) {
+            if coordinate == turn {
+                slope += force * quarter(normal);
+            }
+        }
+        slope
+    }
+}
+
+/// The law along the direction of a force `f`: `δ f/|f| = h f`, and `d(h f) = h df + (h'/|f|) (f·df) f`.
+struct Secant {
+    /// `h = δ/|f|`.
+    compliance: f64,
+    /// `h'/|f|`.
+    growth: f64,
+}
+
+impl Secant {
+    fn new(law: &ContactLaw, f: Vec2) -> Self {
+        let force = f.norm();
+        if force == 0.0 {
+            return Self { compliance: law.approach(0.0).slope, growth: 0.0 };
+        }
+        let approach = law.approach(force);
+        let compliance = approach.value / force;
+        Self { compliance, growth: (approach.slope - compliance) / (force * force) }
+    }
+}

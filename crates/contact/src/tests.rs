@@ -1,0 +1,528 @@
+//! The states of the contact of two corners: their forces and conditions.
+
+mod transitions;
+
+use approx::assert_relative_eq;
+use geometry::{Parallelogram, Vec2};
+use proptest::prelude::*;
+
+use crate::corner_contact::{CornerContact, FORCES, Force};
+use crate::corners::{Corners, Level};
+use crate::gap::{CornerEdge, Pair, Pose};
+use crate::law::{ContactLaw, Law};
+use crate::response::{COORDINATES, CornerResponse, Equation};
+
+/// Half a turn of a pair makes the first of these the last, the second the last but one, and so on.
+const EDGES: [(Level, CornerEdge); 6] = [
+    (Level::Upper, CornerEdge::TopRightOnLeftEdge),
+    (Level::Upper, CornerEdge::TopLeftOnRightEdge),
+    (Level::Upper, CornerEdge::TopRightOnTop),
+    (Level::Lower, CornerEdge::BottomLeftOnBase),
+    (Level::Lower, CornerEdge::BottomRightOnLeftEdge),
+    (Level::Lower, CornerEdge::BottomLeftOnRightEdge),
+];
+
+/// Coordinates of a pair and its three forces.
+const COUPLED: usize = COORDINATES + FORCES;
+
+struct Case {
+    level: Level,
+    contact: CornerContact,
+    pair: Pair,
+    law: ContactLaw,
+}
+
+impl Case {
+    fn at(&self, z: &[f64; COUPLED]) -> CornerResponse {
+        let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
+        let acting = self.contact.acting();
+        let forces = std::array::from_fn(|k| if acting[k] { z[COORDINATES + k] } else { 0.0 });
+        let corners = Corners::new(self.level, &self.pair, [&left, &right]);
+        self.contact.response(&corners, &self.law, forces)
+    }
+}
+
+/// A state of closed contact.
+type Closed = fn(CornerEdge) -> CornerContact;
+
+fn case(edge: usize, slant: f64, law: Law, closed: Closed) -> Case {
+    let (level, edge) = EDGES[edge];
+    let pair = Pair::new(Parallelogram::new(0.4, slant).unwrap(), 1.0);
+    // A soft law, so that its part of the tangent is seen.
+    let law = ContactLaw::new(law, 0.8, 1.0, 3.0).unwrap();
+    Case { level, contact: closed(edge), pair, law }
+}
+
+/// One of the states of closed contact that are possible with an edge.
+fn closed(edge: usize, state: usize) -> Closed {
+    let states: [Closed; 3] = [CornerContact::Edge, CornerContact::Corner, CornerContact::Flush];
+    states[state % if EDGES[edge].1.flush().is_some() { 3 } else { 2 }]
+}
+
+/// The value of an equation, and its derivatives by all that is coupled.
+fn derivatives(equation: &Equation) -> [f64; COUPLED] {
+    std::array::from_fn(|i| match i {
+        0..COORDINATES => equation.by_coordinate[i],
+        _ => equation.by_force[i - COORDINATES],
+    })
+}
+
+/// The equations that count in a state: the balance, and the conditions of the forces that act.
+fn equations(response: &CornerResponse, acting: [bool; FORCES]) -> Vec<Equation> {
+    let conditions = response.conditions.iter().zip(acting).filter(|(_, acts)| *acts);
+    let conditions = conditions.map(|(condition, _)| condition.unwrap());
+    response.balance.iter().copied().chain(conditions).collect()
+}
+
+proptest! {
+    #[test]
+    fn tangents_agree_with_finite_differences(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, printed: bool, state in 0_usize..3,
+        q in prop::array::uniform6(-0.5_f64..0.5), forces in prop::array::uniform3(0.2_f64..2.0),
+    ) {
+        let law = if printed { Law::PRINTED } else { Law::EXCHANGED };
+        let case = case(edge, slant, law, closed(edge, state));
+        let acting = case.contact.acting();
+        let z = with(q, forces);
+        let ours = equations(&case.at(&z), acting);
+        let h = 1e-6;
+        for j in (0..COUPLED).filter(|&j| j < COORDINATES || acting[j - COORDINATES]) {
+            let (mut low, mut high) = (z, z);
+            low[j] -= h;
+            high[j] += h;
+            let [low, high] = [low, high].map(|z| equations(&case.at(&z), acting));
+            for (ours, (low, high)) in ours.iter().zip(low.iter().zip(&high)) {
+                let difference = (high.value - low.value) / (2.0 * h);
+                assert_relative_eq!(derivatives(ours)[j], difference, epsilon = 1e-6, max_relative = 1e-6);
+            }
+        }
+    }
+
+    /// The conditions of the end of the edge and of the flush contact are needed before their forces act.
+    #[test]
+    fn what_stops_a_contact_agrees_with_finite_differences(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.5_f64..0.5),
+    ) {
+        let case = case(edge, slant, Law::PRINTED, CornerContact::Edge);
+        let z = with(q, [0.7, 0.0, 0.0]);
+        let ours = case.at(&z);
+        prop_assert!(ours.conditions[Force::Partner as usize].is_some());
+        for (force, j) in [Force::Partner, Force::Flush].into_iter().flat_map(|f| (0..COORDINATES).map(move |j| (f, j))) {
+            let [low, high] = [-1e-6, 1e-6].map(|h| {
+                let mut z = z;
+                z[j] += h;
+                case.at(&z).conditions[force as usize]
+            });
+            // The flush contact may be out of reach.
+            if let (Some(low), Some(high)) = (low, high) {
+                let difference = (high.value - low.value) / 2e-6;
+                let ours = ours.conditions[force as usize].unwrap().by_coordinate[j];
+                assert_relative_eq!(ours, difference, epsilon = 1e-6, max_relative = 1e-6);
+            }
+        }
+    }
+
+    /// A gap opens and closes as its gradient says.
+    #[test]
+    fn the_slope_of_an_open_contact_agrees_with_finite_differences(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, q in prop::array::uniform6(-0.2_f64..0.2),
+    ) {
+        let case = case(edge, slant, Law::PRINTED, |_| CornerContact::Open);
+        let z = with(q, [0.0; FORCES]);
+        let facing = |z: &[f64; COUPLED]| {
+            let (left, right) = (Pose::new(z[0], z[1], z[2]), Pose::new(z[3], z[4], z[5]));
+            Corners::new(case.level, &case.pair, [&left, &right]).facing().map(|(edge, _)| edge)
+        };
+        for j in 0..COORDINATES {
+            let moved = [-1e-6, 1e-6].map(|h| {
+                let mut z = z;
+                z[j] += h;
+                z
+            });
+            prop_assume!(moved.iter().all(|moved| facing(moved) == facing(&z)));
+            let [low, high] = moved.map(|z| case.at(&z).conditions);
+            let ours = case.at(&z).conditions;
+            prop_assert_eq!([ours[1], ours[2]], [None; 2]);
+            prop_assert_eq!(ours[0].is_some(), facing(&z).is_some());
+            if let (Some(ours), Some(low), Some(high)) = (ours[0], low[0], high[0]) {
+                let difference = (high.value - low.value) / 2e-6;
+                assert_relative_eq!(ours.by_coordinate[j], difference, epsilon = 1e-6, max_relative = 1e-6);
+            }
+        }
+    }
+
+    /// A pair that is turned by half a turn is a pair again, its left scale the one that was right and its
+    /// upper contact the one that was lower.
+    #[test]
+    fn half_a_turn_exchanges_the_levels(
+        edge in 0_usize..6, slant in 0.0_f64..80.0, state in 0_usize..3,
+        q in prop::array::uniform6(-0.5_f64..0.5), forces in prop::array::uniform3(0.2_f64..2.0),
+    ) {
+        let closed = closed(edge, state);
+        let ours = case(edge, slant, Law::EXCHANGED, closed);
+        let there = case(5 - edge, slant, Law::EXCHANGED, closed);
+        let turned = half_turn(slant, &q);
+        let (ours, there) = (ours.at(&with(q, forces)), there.at(&with(turned, forces)));
+        for (ours, there) in ours.conditions.iter().zip(&there.conditions) {
+            prop_assert_eq!(ours.is_some(), there.is_some());
+            if let (Some(ours), Some(there)) = (ours, there) {
+                assert_relative_eq!(ours.value, there.value, epsilon = 1e-12);
+            }
+        }
+        // Forces point the other way, the scales have changed places.
+        for (k, row) in [3, 4, 0, 1].into_iter().enumerate() {
+            let column = [0, 1, 3, 4][k];
+            assert_relative_eq!(ours.balance[column].value, -there.balance[row].value, epsilon = 1e-12);
+        }
+    }
+}
+
+/// Coordinates and forces in one.
+fn with(q: [f64; COORDINATES], forces: [f64; FORCES]) -> [f64; COUPLED] {
+    std::array::from_fn(|i| if i < COORDINATES { q[i] } else { forces[i - COORDINATES] })
+}
+
+/// Displacements of a pair that is turned by half a turn. Tops become bases, so that the nodes are
+/// the midpoints of what were tops.
+fn half_turn(slant: f64, q: &[f64; 6]) -> [f64; 6] {
+    let top = Vec2::new(slant.to_radians().tan(), 1.0);
+    let node = |scale: usize| {
+        let q = &q[3 * scale..];
+        let moved = Vec2::new(q[0], q[1]) + Pose::new(0.0, 0.0, q[2]).turn(top) - top;
+        [-moved.x, -moved.y, q[2]]
+    };
+    let ([a, b, c], [d, e, f]) = (node(1), node(0));
+    [a, b, c, d, e, f]
+}
+
+/// Two blocks with relative rotation, the corner of the left exactly at the end of the right one's edge.
+#[test]
+fn edge_and_corner_agree_where_one_becomes_the_other() {
+    let (alike, leaning) = ([-0.05, 0.03], [0.05, -0.03]);
+    for (k, slant, phi) in [
+        (0, 40.0, alike),
+        (1, 40.0, alike),
+        (2, 88.0, alike),
+        (3, 88.0, leaning),
+        (4, 20.0, alike),
+        (5, 20.0, alike),
+    ] {
+        let case = |closed: Closed| case(k, slant, Law::EXCHANGED, closed);
+        let force = 0.7;
+        // Place the left scale so that D = −δ m: then the foot is at the end of the edge.
+        let edge = case(CornerContact::Edge);
+        let at = |x: f64, y: f64| [x, y, phi[0], 0.0, 0.0, phi[1], force, 0.0, 0.0];
+        let (mut x, mut y) = (0.0, 0.0);
+        for _ in 0..30 {
+            let [a, b] = [0, 1].map(|k| edge.at(&at(x, y)).conditions[k].unwrap());
+            let (s, t) = (a.by_coordinate, b.by_coordinate);
+            let determinant = s[0] * t[1] - s[1] * t[0];
+            x -= (a.value * t[1] - b.value * s[1]) / determinant;
+            y -= (b.value * s[0] - a.value * t[0]) / determinant;
+        }
+        let (edge, corner) = (edge.at(&at(x, y)), case(CornerContact::Corner).at(&at(x, y)));
+        for (edge, corner) in edge.balance.iter().zip(&corner.balance) {
+            assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
+        }
+        // The last condition is that of the flush contact, which corners do not have.
+        for k in 0..2 {
+            let [edge, corner] = [edge, corner].map(|response| response.conditions[k].unwrap());
+            assert_relative_eq!(edge.value, corner.value, epsilon = 1e-12);
+        }
+        assert_eq!(corner.conditions[2], None);
+    }
+}
+
+#[test]
+fn a_corner_short_of_the_end_of_its_edge_keeps_its_partner_at_rest() {
+    let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
+    let law = ContactLaw::new(Law::PRINTED, 0.8, 1.0, 3.0).unwrap();
+    let (left, right) = (Pose::new(0.2, -0.1, 0.0), Pose::new(0.0, 0.0, 0.0));
+    for level in [Level::Upper, Level::Lower] {
+        let corners = Corners::new(level, &pair, [&left, &right]);
+        let short = |edge: CornerEdge| {
+            let response = CornerContact::Edge(edge).response(&corners, &law, [0.1, 0.0, 0.0]);
+            response.conditions[Force::Partner as usize].unwrap().value
+        };
+        let (edge, _) = corners.facing().unwrap();
+        assert!(short(edge) > 0.0, "{level:?}");
+        assert!(short(corners.together(edge)[1]) < 0.0, "{level:?}");
+    }
+}
+
+/// The lower level of two steep scales, the right one leaning over by `turned` degrees, its bottom left corner
+/// under the base of the left one: `inside` its right end and `below`.
+fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Pose; 2]) {
+    let pair = Pair::new(Parallelogram::new(1.0, 75.0).unwrap(), 2.2);
+    // The corner is at −1 from the node of its scale, and the base of the other ends at +1.
+    let arm = Pose::new(0.0, 0.0, -turned.to_radians()).turn(Vec2::new(-1.0, 0.0));
+    let corner = Vec2::new(1.0 - inside, -below);
+    let place = corner - arm - Vec2::new(2.2, 0.0);
+    (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
+}
+
+/// The same for the top: half a turn of the pair.
+fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
+    let (pair, [left, right]) = under_the_base(turned, inside, above);
+    let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
+    let ([a, b, c], [d, e, f]) = (coordinates(&left), coordinates(&right));
+    let [a, b, c, d, e, f] = half_turn(75.0, &[a, b, c, d, e, f]);
+    (pair, [Pose::new(a, b, c), Pose::new(d, e, f)])
+}
+
+fn soft() -> ContactLaw {
+    ContactLaw::new(Law::EXCHANGED, 2.0, 1.0, 3.0).unwrap()
+}
+
+const ACROSS: [(CornerEdge, CornerEdge); 3] = [
+    (CornerEdge::BottomRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
+    (CornerEdge::BottomLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
+    (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
+];
+
+/// What half a turn makes of a lower corner and edge.
+fn across(lower: CornerEdge) -> CornerEdge {
+    ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
+}
+
+/// Something of the lower corners of [`under_the_base`], with an edge, and of what half a turn makes of them.
+fn at_both_levels<T>(
+    turned: f64,
+    inside: f64,
+    below: f64,
+    edge: CornerEdge,
+    f: impl Fn(&Corners, CornerEdge) -> T,
+) -> [T; 2] {
+    let (pair, [left, right]) = under_the_base(turned, inside, below);
+    let under = f(&Corners::new(Level::Lower, &pair, [&left, &right]), edge);
+    let (pair, [left, right]) = above_the_top(turned, inside, below);
+    [under, f(&Corners::new(Level::Upper, &pair, [&left, &right]), across(edge))]
+}
+
+/// The side of the tip leans by 75° at rest.
+#[test]
+fn what_an_open_contact_faces_depends_on_how_its_side_leans() {
+    for (turned, inside, expected) in [
+        (14.9, 0.3, Some(CornerEdge::BottomRightOnLeftEdge)),
+        (15.1, 0.3, Some(CornerEdge::BottomLeftOnBase)),
+        // Beside the base, at either end.
+        (16.0, -0.1, Some(CornerEdge::BottomLeftOnRightEdge)),
+        (16.0, -0.01, None),
+        (16.0, 2.1, None),
+    ] {
+        let any = CornerEdge::BottomLeftOnBase;
+        let facing = |corners: &Corners, _| corners.facing();
+        let [lower, upper] = at_both_levels(turned, inside, 0.1, any, facing);
+        assert_eq!(lower.map(|(edge, _)| edge), expected);
+        assert_eq!(upper.map(|(edge, _)| edge), expected.map(across));
+        if let (Some((edge, at_base)), Some((_, at_top))) = (lower, upper) {
+            assert_relative_eq!(at_base, at_top, epsilon = 1e-12);
+            match edge {
+                CornerEdge::BottomLeftOnBase => assert_relative_eq!(at_base, 0.1, epsilon = 1e-12),
+                _ => assert!((0.0..0.2).contains(&at_base)),
+            }
+        }
+    }
+}
+
+/// The angle by which a side is short of level, or beyond it, of a contact that carries.
+fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
+    let angle = |corners: &Corners, edge| {
+        let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
+        response.conditions[Force::Flush as usize].map(|condition| condition.value)
+    };
+    let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, angle);
+    assert_eq!(lower.is_some(), upper.is_some());
+    assert_relative_eq!(lower.unwrap_or(0.0), upper.unwrap_or(0.0), epsilon = 1e-12);
+    lower
+}
+
+#[test]
+fn the_flush_contact_waits_until_the_side_is_level() {
+    let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
+    for turned in [5.0, 14.0, 17.0] {
+        let short = (15.0_f64 - turned).to_radians();
+        let angle = |edge| to_level(edge, CornerContact::Edge, turned, 0.3).unwrap();
+        assert_relative_eq!(angle(on_side), short, epsilon = 1e-12);
+        assert_relative_eq!(angle(on_end), -short, epsilon = 1e-12);
+    }
+    // Corners that are together have none, and neither has a tip that rests on the neighbour's side.
+    assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
+    assert_eq!(to_level(on_end, CornerContact::Corner, 16.0, 0.3), None);
+    assert_eq!(to_level(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3), None);
+}
+
+/// The base is 2 long, the side 3.86.
+#[test]
+fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
+    let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
+    for (edge, within, beyond) in [(on_side, 1.99, 2.01), (on_end, 3.8, 3.9)] {
+        let angle = |inside| to_level(edge, CornerContact::Edge, 15.0, inside);
+        assert!(angle(within).unwrap().abs() < 1e-12);
+        assert_eq!(angle(beyond), None);
+        // The near end is where the corners meet, and another condition's.
+        assert!(angle(-0.01).unwrap().abs() < 1e-12);
+        // While it carries, its condition is there.
+        assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
+    }
+}
+
+/// Short of level the force turns from the normal of the neighbour's side to that of the tip's side, beyond it only to
+/// that of the neighbour's end.
+#[test]
+fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
+    let side = Vec2::new(75.0_f64.to_radians().cos(), -75.0_f64.to_radians().sin());
+    for (turned, expected) in
+        [(10.0_f64, 5.0_f64), (14.0, 1.0), (15.0, 0.0), (16.0, 0.0), (40.0, 0.0)]
+    {
+        let of_tip = expected.to_radians();
+        let normal = Vec2::new(-of_tip.sin(), of_tip.cos());
+        for edge in ACROSS.map(|(edge, _)| edge) {
+            let force = |corners: &Corners, edge| {
+                CornerContact::Corner(edge).forces_on_left(corners, [0.3, 0.2, 0.0])
+            };
+            let ours = at_both_levels(turned, 0.0, 0.0, edge, force);
+            let expected = match edge {
+                CornerEdge::BottomLeftOnRightEdge => 0.2 * normal - 0.3 * side,
+                _ => 0.3 * normal - 0.2 * side,
+            };
+            for [corners, flush] in ours {
+                assert_relative_eq!(corners, expected, epsilon = 1e-12);
+                assert_eq!(flush, Vec2::zeros());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_corner_is_left_as_the_side_leans() {
+    let (on_side, on_end, tip_on_side) = (
+        CornerEdge::BottomRightOnLeftEdge,
+        CornerEdge::BottomLeftOnBase,
+        CornerEdge::BottomLeftOnRightEdge,
+    );
+    for (turned, leaning) in [(14.0, on_side), (16.0, on_end)] {
+        let (pair, [left, right]) = under_the_base(turned, 0.0, 0.0);
+        let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+        let after = |edge, force| {
+            let corner = CornerContact::Corner(edge);
+            corner.transition(force, false, &corners, [0.0; FORCES]).unwrap().contact
+        };
+        for edge in [on_side, on_end] {
+            assert_eq!(after(edge, Force::Partner), CornerContact::Edge(leaning));
+            assert_eq!(after(edge, Force::Own), CornerContact::Edge(tip_on_side));
+        }
+        assert_eq!(after(tip_on_side, Force::Partner), CornerContact::Edge(tip_on_side));
+        assert_eq!(after(tip_on_side, Force::Own), CornerContact::Edge(leaning));
+    }
+}
+
+#[test]
+fn contacts_of_flush_edges_are_those_at_each_others_ends() {
+    for (level, edge) in EDGES {
+        let flush = edge.flush();
+        assert_eq!(flush.and_then(CornerEdge::flush), flush.map(|_| edge));
+        let of_level = |flush| EDGES.contains(&(level, flush));
+        assert!(flush.is_none_or(of_level));
+    }
+    let on_base = CornerEdge::BottomLeftOnBase;
+    assert_eq!(on_base.flush(), Some(CornerEdge::BottomRightOnLeftEdge));
+    assert_eq!(CornerEdge::BottomLeftOnRightEdge.flush(), None);
+    assert_eq!(CornerEdge::TopRightOnLeftEdge.flush(), None);
+}
+
+/// Where side and base lie flush, it does not matter to the approach of the two scales which of the two
+/// contacts carries how much.
+#[test]
+fn flush_contacts_share_one_approach() {
+    let law = soft();
+    let below = -law.approach(0.5).value;
+    let (pair, [left, right]) = under_the_base(15.0, 0.3, below);
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    for edge in [CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase] {
+        for share in [0.0, 0.2, 1.0] {
+            let forces = [0.5 * share, 0.0, 0.5 * (1.0 - share)];
+            let contact = CornerContact::Flush(edge);
+            let response = contact.response(&corners, &law, forces);
+            let [own, _, flush] = response.conditions.map(Option::unwrap);
+            assert_relative_eq!(own.value, 0.0, epsilon = 1e-12);
+            assert_relative_eq!(flush.value, 0.0, epsilon = 1e-12);
+            let [on_corner, on_flush] = contact.forces_on_left(&corners, forces);
+            assert_relative_eq!(on_corner + on_flush, Vec2::new(0.0, 0.5), epsilon = 1e-12);
+            assert_relative_eq!(on_flush.y, forces[2], epsilon = 1e-12);
+            assert_relative_eq!(response.balance[1].value, -0.5, epsilon = 1e-12);
+        }
+    }
+}
+
+#[test]
+fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
+    let forces = [0.3, 0.0, 0.2];
+    let (pair, [left, right]) = under_the_base(15.0, 0.3, 0.0);
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    let below = CornerContact::Flush(CornerEdge::BottomRightOnLeftEdge);
+    let [corner, tip] = below.forces_on_left(&corners, forces);
+    let (pair, [left, right]) = above_the_top(15.0, 0.3, 0.0);
+    let corners = Corners::new(Level::Upper, &pair, [&left, &right]);
+    let above = CornerContact::Flush(CornerEdge::TopLeftOnRightEdge);
+    let turned = above.forces_on_left(&corners, forces);
+    // The force on the left scale is now minus that on what was the right one, turned round.
+    assert_relative_eq!(turned[0], corner, epsilon = 1e-12);
+    assert_relative_eq!(turned[1], tip, epsilon = 1e-12);
+    assert_eq!(CornerContact::Open.forces_on_left(&corners, forces), [Vec2::zeros(); 2]);
+}
+
+/// An open contact has the gap of the corner that faces an edge, and neither forces nor other conditions.
+#[test]
+fn a_contact_without_forces_has_a_gap_alone() {
+    let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);
+    for level in [Level::Upper, Level::Lower] {
+        let corners = Corners::new(level, &pair, [&left, &right]);
+        let distance = corners.facing().map(|(edge, _)| pair.distance(edge, &left, &right));
+        let response = CornerContact::Open.response(&corners, &soft(), [0.0; FORCES]);
+        let values = response.conditions.map(|condition| condition.map(|c| c.value));
+        assert_eq!(values, [distance, None, None]);
+        assert_eq!(response.balance, [Equation::default(); COORDINATES]);
+    }
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    assert_eq!(corners.facing().unwrap().0, CornerEdge::BottomRightOnLeftEdge);
+}
+
+#[test]
+fn sides_are_parallel_where_their_directions_agree() {
+    let scales = [50.0, 30.0].map(|slant| Parallelogram::new(0.4, slant).unwrap());
+    let pair = Pair::of(scales, 1.0);
+    // The left one leans by 20° more, and turns back by as much.
+    let parallel = |left: f64, right: f64| {
+        let poses = [left, right].map(|degrees| Pose::new(0.3, 0.1, degrees.to_radians()));
+        Corners::new(Level::Upper, &pair, poses.each_ref()).are_sides_parallel()
+    };
+    assert!(parallel(20.0, 0.0) && parallel(25.0, 5.0) && parallel(0.0, -20.0));
+    assert!(parallel(20.0 + 4e-5, 0.0) && parallel(20.0 - 4e-5, 0.0));
+    assert!(!parallel(20.0 + 8e-5, 0.0) && !parallel(20.0 - 8e-5, 0.0));
+    assert!(!parallel(0.0, 0.0) && !parallel(-20.0, 0.0) && !parallel(0.0, 20.0));
+}
+
+/// What the corners of two levels face where the scales stand in these places.
+fn faced(slant: f64, pitch: f64, left: [f64; 2], right: [f64; 2]) -> [Option<CornerEdge>; 2] {
+    let pair = Pair::new(Parallelogram::new(0.5, slant).unwrap(), pitch);
+    let poses = [left, right].map(|[x, y]| Pose::new(x, y, 0.0));
+    [Level::Upper, Level::Lower]
+        .map(|level| Corners::new(level, &pair, poses.each_ref()).facing().map(|(edge, _)| edge))
+}
+
+#[test]
+fn corners_face_the_sides_of_their_neighbours() {
+    let rest = [0.0, 0.0];
+    let left_corner = [CornerEdge::TopRightOnLeftEdge, CornerEdge::BottomRightOnLeftEdge].map(Some);
+    let right_corner =
+        [CornerEdge::TopLeftOnRightEdge, CornerEdge::BottomLeftOnRightEdge].map(Some);
+    assert_eq!(faced(60.0, 1.2, rest, rest), [left_corner[0], right_corner[1]]);
+    // Where a corner has left the edge, its neighbour's faces this scale's.
+    assert_eq!(faced(0.0, 1.2, [0.0, 0.1], rest), [right_corner[0], left_corner[1]]);
+    assert_eq!(faced(0.0, 1.2, rest, [0.0, 0.1]), [left_corner[0], right_corner[1]]);
+    // Upright blocks at one height: both, and the left one's comes first.
+    assert_eq!(faced(0.0, 1.2, rest, rest), left_corner);
+    // Far below its neighbour, a corner faces no edge.
+    assert_eq!(faced(60.0, 3.0, [0.0, -0.6], rest)[0], None);
+}

@@ -1,0 +1,169 @@
+//! One test for each row of the table of transitions, and for what is not in it.
+
+use geometry::Parallelogram;
+
+use super::under_the_base;
+use crate::corner_contact::CornerContact::{Corner, Edge, Flush, Open};
+use crate::corner_contact::{CornerContact, Force, Transition};
+use crate::corners::{Corners, Level};
+use crate::gap::CornerEdge::{BottomLeftOnBase, BottomLeftOnRightEdge, BottomRightOnLeftEdge};
+use crate::gap::{CornerEdge, Pair, Pose};
+
+/// What becomes of a lower contact of [`under_the_base`], the side level but for these degrees.
+fn next(
+    contact: CornerContact,
+    (force, acts): (Force, bool),
+    short_of_level: f64,
+    forces: [f64; 3],
+) -> Option<Transition> {
+    let (pair, [left, right]) = under_the_base(15.0 - short_of_level, 0.3, 0.0);
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    contact.transition(force, acts, &corners, forces)
+}
+
+fn to(contact: CornerContact, forces: [f64; 3], valid: Force) -> Option<Transition> {
+    Some(Transition { contact, forces, valid })
+}
+
+const BEGINS: bool = true;
+const VANISHES: bool = false;
+
+#[test]
+fn an_open_contact_closes_on_the_edge_that_it_faces() {
+    for (short, edge) in [(1.0, BottomRightOnLeftEdge), (-1.0, BottomLeftOnBase)] {
+        let closed = next(Open, (Force::Own, BEGINS), short, [0.0; 3]);
+        assert_eq!(closed, to(Edge(edge), [0.0; 3], Force::Own));
+    }
+}
+
+#[test]
+fn an_edge_contact_without_force_opens() {
+    let opened = next(Edge(BottomLeftOnBase), (Force::Own, VANISHES), -1.0, [0.0; 3]);
+    assert_eq!(opened, to(Open, [0.0; 3], Force::Own));
+}
+
+#[test]
+fn an_edge_contact_stays_at_the_corner_that_it_reaches() {
+    for edge in [BottomLeftOnBase, BottomRightOnLeftEdge, BottomLeftOnRightEdge] {
+        let reached = next(Edge(edge), (Force::Partner, BEGINS), 1.0, [0.7, 0.0, 0.0]);
+        assert_eq!(reached, to(Corner(edge), [0.7, 0.0, 0.0], Force::Partner));
+    }
+}
+
+/// The scales as they stand at rest have parallel sides.
+#[test]
+fn an_edge_contact_passes_the_corner_between_parallel_sides() {
+    let pair = Pair::new(Parallelogram::new(0.4, 30.0).unwrap(), 1.0);
+    let rest = Pose::new(0.0, 0.0, 0.0);
+    let pass = |level, contact: CornerContact, forces| {
+        let corners = Corners::new(level, &pair, [&rest; 2]);
+        contact.transition(Force::Partner, BEGINS, &corners, forces)
+    };
+    let forces = [0.7, 0.0, 0.0];
+    for (level, edge, partner) in [
+        (Level::Lower, BottomRightOnLeftEdge, BottomLeftOnRightEdge),
+        (Level::Lower, BottomLeftOnRightEdge, BottomRightOnLeftEdge),
+        (Level::Upper, CornerEdge::TopRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
+        (Level::Upper, CornerEdge::TopLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
+    ] {
+        assert_eq!(pass(level, Edge(edge), forces), to(Edge(partner), forces, Force::Partner));
+    }
+    let flush = pass(Level::Lower, Flush(BottomRightOnLeftEdge), [0.7, 0.0, 0.2]);
+    assert_eq!(flush, to(Edge(BottomLeftOnRightEdge), [0.7 + 0.2, 0.0, 0.0], Force::Partner));
+}
+
+#[test]
+fn an_edge_contact_becomes_flush() {
+    for edge in [BottomLeftOnBase, BottomRightOnLeftEdge] {
+        let flush = next(Edge(edge), (Force::Flush, BEGINS), 0.0, [0.7, 0.0, 0.0]);
+        assert_eq!(flush, to(Flush(edge), [0.7, 0.0, 0.0], Force::Flush));
+    }
+}
+
+#[test]
+fn a_corner_whose_own_force_vanishes_is_left_by_the_partner() {
+    for (short, edge, partner) in [
+        (1.0, BottomRightOnLeftEdge, BottomLeftOnRightEdge),
+        (-1.0, BottomLeftOnBase, BottomLeftOnRightEdge),
+        (1.0, BottomLeftOnRightEdge, BottomRightOnLeftEdge),
+        (-1.0, BottomLeftOnRightEdge, BottomLeftOnBase),
+    ] {
+        let left = next(Corner(edge), (Force::Own, VANISHES), short, [0.0, 0.4, 0.0]);
+        assert_eq!(left, to(Edge(partner), [0.4, 0.0, 0.0], Force::Partner));
+    }
+}
+
+#[test]
+fn a_corner_whose_partners_force_vanishes_is_left_as_the_side_leans() {
+    for (short, edge, leaves) in [
+        (1.0, BottomLeftOnBase, BottomRightOnLeftEdge),
+        (-1.0, BottomRightOnLeftEdge, BottomLeftOnBase),
+        (1.0, BottomLeftOnRightEdge, BottomLeftOnRightEdge),
+    ] {
+        let left = next(Corner(edge), (Force::Partner, VANISHES), short, [0.7, 0.0, 0.0]);
+        assert_eq!(left, to(Edge(leaves), [0.7, 0.0, 0.0], Force::Partner));
+    }
+}
+
+#[test]
+fn a_flush_contact_whose_own_force_vanishes_is_left_by_the_other_end() {
+    for (edge, other) in
+        [(BottomLeftOnBase, BottomRightOnLeftEdge), (BottomRightOnLeftEdge, BottomLeftOnBase)]
+    {
+        let left = next(Flush(edge), (Force::Own, VANISHES), 0.0, [0.0, 0.0, 0.2]);
+        assert_eq!(left, to(Edge(other), [0.2, 0.0, 0.0], Force::Flush));
+    }
+}
+
+#[test]
+fn a_flush_contact_that_reaches_the_corner_joins_its_forces_there() {
+    let reached = next(Flush(BottomLeftOnBase), (Force::Partner, BEGINS), 0.0, [0.7, 0.0, 0.2]);
+    assert_eq!(reached, to(Corner(BottomLeftOnBase), [0.7 + 0.2, 0.0, 0.0], Force::Partner));
+}
+
+#[test]
+fn a_flush_contact_whose_other_force_vanishes_is_left_as_it_came() {
+    let left = next(Flush(BottomLeftOnBase), (Force::Flush, VANISHES), 0.0, [0.7, 0.0, 0.0]);
+    assert_eq!(left, to(Edge(BottomLeftOnBase), [0.7, 0.0, 0.0], Force::Flush));
+}
+
+#[test]
+fn a_force_that_has_vanished_before_changes_nothing() {
+    let edge = Edge(BottomLeftOnBase);
+    for (contact, force) in [
+        (Open, Force::Own),
+        (Open, Force::Partner),
+        (Open, Force::Flush),
+        (edge, Force::Partner),
+        (edge, Force::Flush),
+        (Corner(BottomLeftOnBase), Force::Flush),
+        (Flush(BottomLeftOnBase), Force::Partner),
+    ] {
+        let forces = [0.3, 0.0, 0.0];
+        assert_eq!(next(contact, (force, VANISHES), 1.0, forces), to(contact, forces, force));
+    }
+}
+
+#[test]
+fn forces_that_cannot_act_next_do_not() {
+    let forces = [0.3, 0.0, 0.0];
+    for (contact, force) in
+        [(Open, Force::Partner), (Open, Force::Flush), (Corner(BottomLeftOnBase), Force::Flush)]
+    {
+        assert_eq!(next(contact, (force, BEGINS), 1.0, forces), None);
+    }
+    // Nor does an open contact close of which no corner faces an edge.
+    let pair = Pair::new(Parallelogram::new(0.5, 60.0).unwrap(), 3.0);
+    let (far_below, rest) = (Pose::new(0.0, -0.6, 0.0), Pose::new(0.0, 0.0, 0.0));
+    let corners = Corners::new(Level::Upper, &pair, [&far_below, &rest]);
+    assert_eq!(Open.transition(Force::Own, BEGINS, &corners, [0.0; 3]), None);
+}
+
+#[test]
+fn each_state_says_which_forces_act_and_on_which_edge() {
+    let edge = BottomLeftOnBase;
+    assert_eq!((Open.acting(), Open.edge()), ([false, false, false], None));
+    assert_eq!((Edge(edge).acting(), Edge(edge).edge()), ([true, false, false], Some(edge)));
+    assert_eq!((Corner(edge).acting(), Corner(edge).edge()), ([true, true, false], Some(edge)));
+    assert_eq!((Flush(edge).acting(), Flush(edge).edge()), ([true, false, true], Some(edge)));
+}

@@ -1,0 +1,346 @@
+//! The contacts of a row of scales, assembled.
+
+mod audit;
+mod change;
+mod closed;
+
+pub use change::ContactChange;
+pub use closed::Contact;
+
+use contact::{
+    COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
+    Force, Level, Pair, Pose,
+};
+use solver::{BandMatrix, Change, Residual};
+
+use crate::arrangement::Arrangement;
+
+/// The levels of a pair, each with a contact of its own.
+const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
+
+/// Contact forces between neighbours.
+pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
+
+/// Value of the condition of a force that cannot act next: any number above zero, for it is neither violated nor solved
+/// for.
+const HOLDS: f64 = 1.0;
+
+/// A state of a skin: its mode is the state of every contact.
+pub(crate) type State = solver::State<Vec<CornerContact>>;
+
+/// An equilibrium of a skin on its path.
+pub(crate) type Point = solver::Point<Vec<CornerContact>>;
+
+/// The contacts between the neighbours of a row, and where their unknowns stand.
+///
+/// Contact `2 i` is the upper, `2 i + 1` the lower one of the scales `i`, `i + 1`. Their forces are the
+/// constraints of the system: number `3 j` is the contact's own force `λ`, `3 j + 1` its partner's `λ'` and
+/// `3 j + 2` that of its flush contact, `λ''`.
+#[derive(Clone, Debug)]
+pub(crate) struct Contacts {
+    arrangement: Arrangement,
+    /// Of the arrangement: each pair, or one for all.
+    pair_shapes: Vec<Pair>,
+    law: ContactLaw,
+    /// First of the three unknowns of each scale; `None` for a scale that is held.
+    scales: Vec<Option<usize>>,
+    /// Whether each scale is placed in the frame of its left neighbour.
+    relative: bool,
+    /// Unknown of each force.
+    forces: Vec<usize>,
+}
+
+impl Contacts {
+    pub(crate) fn new(
+        arrangement: Arrangement,
+        law: ContactLaw,
+        scales: Vec<Option<usize>>,
+        forces: Vec<usize>,
+    ) -> Self {
+        debug_assert_eq!(forces.len(), PAIR_FORCES * scales.len().saturating_sub(1));
+        let pair_shapes = arrangement.pairs();
+        Self { arrangement, pair_shapes, law, scales, relative: false, forces }
+    }
+
+    /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
+    /// Rotations are measured from the first scale.
+    pub(crate) fn relative(
+        arrangement: Arrangement,
+        law: ContactLaw,
+        scales: Vec<Option<usize>>,
+        forces: Vec<usize>,
+    ) -> Self {
+        Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
+    }
+
+    /// Unknowns of the forces, which are the constraints of the system.
+    pub(crate) fn forces(&self) -> &[usize] {
+        &self.forces
+    }
+
+    /// The state of rest of all contacts.
+    pub(crate) fn open(&self) -> Vec<CornerContact> {
+        vec![CornerContact::Open; self.forces.len() / FORCES]
+    }
+
+    /// The left scale of the pair that a constraint belongs to.
+    pub(crate) fn left_of(constraint: usize) -> usize {
+        constraint / PAIR_FORCES
+    }
+
+    /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
+    pub(crate) fn corner_edge(mode: &[CornerContact], constraint: usize) -> Option<CornerEdge> {
+        let edge = mode[constraint / FORCES].edge()?;
+        match Force::ALL[constraint % FORCES] {
+            Force::Own | Force::Partner => Some(edge),
+            Force::Flush => edge.flush(),
+        }
+    }
+
+    /// Pose of a scale, in the frame in which it is placed.
+    pub(crate) fn pose(&self, z: &[f64], scale: usize) -> Pose {
+        let frame = self.frame(scale).map_or(0.0, |rotation| z[rotation]);
+        match self.scales[scale] {
+            Some(at) => Pose::new(z[at], z[at + 1], z[at + 2] - frame),
+            None => Pose::new(0.0, 0.0, 0.0),
+        }
+    }
+
+    /// Poses of all scales, each in the frame in which it is placed.
+    pub(crate) fn poses(&self, z: &[f64]) -> Vec<Pose> {
+        (0..self.scales.len()).map(|scale| self.pose(z, scale)).collect()
+    }
+
+    /// Rotation of the frame in which a scale is placed; `None` if it does not turn.
+    fn frame(&self, scale: usize) -> Option<usize> {
+        let neighbour = scale.checked_sub(1).filter(|_| self.relative)?;
+        Some(self.scales[neighbour]? + 2)
+    }
+
+    /// Number of closed contacts, two where a side lies flush.
+    pub(crate) fn closed(state: &State) -> usize {
+        let counts = state.mode.iter().map(|contact| match contact {
+            CornerContact::Open => 0,
+            CornerContact::Edge(_) | CornerContact::Corner(_) => 1,
+            CornerContact::Flush(_) => 2,
+        });
+        counts.sum()
+    }
+
+    /// Whether the scales of each pair touch, along the row.
+    pub(crate) fn touching(state: &State) -> impl Iterator<Item = bool> + '_ {
+        let pairs = state.mode.chunks(LEVELS.len());
+        pairs.map(|contacts| contacts.iter().any(|contact| *contact != CornerContact::Open))
+    }
+
+    /// Whether a side and a neighbour's end lie flush anywhere.
+    pub(crate) fn flush(state: &State) -> bool {
+        state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
+    }
+
+    /// Adds what the contacts contribute to the equations.
+    pub(crate) fn add_residual(&self, state: &State, residual: &mut Residual) {
+        self.for_each(state, |contact, corners| match state.mode[contact] {
+            CornerContact::Open => self.add_gap(contact, corners, residual),
+            closed => {
+                let forces = self.forces_of(&state.z, contact);
+                let response = closed.response(corners, &self.law, forces);
+                self.add_response(contact, &response, residual);
+            }
+        });
+    }
+
+    /// Adds the gap of an open contact.
+    fn add_gap(&self, contact: usize, corners: &Corners, residual: &mut Residual) {
+        let [own, partner, flush] = self.unknowns_of(contact);
+        residual.add(own, corners.facing().map_or(HOLDS, |(_, gap)| gap));
+        residual.add(partner, HOLDS);
+        residual.add(flush, HOLDS);
+    }
+
+    fn add_response(&self, contact: usize, response: &CornerResponse, residual: &mut Residual) {
+        for Part { unknown, coordinate, sign } in self.parts(contact).into_iter().flatten() {
+            residual.add(unknown, sign * response.balance[coordinate].value);
+        }
+        for (unknown, condition) in self.unknowns_of(contact).into_iter().zip(&response.conditions)
+        {
+            residual.add(unknown, condition.map_or(HOLDS, |condition| condition.value));
+        }
+    }
+
+    /// Adds what the closed contacts contribute to the tangent.
+    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut BandMatrix) {
+        self.for_each(state, |contact, corners| {
+            let mode = state.mode[contact];
+            if mode != CornerContact::Open {
+                let forces = self.forces_of(&state.z, contact);
+                let response = mode.response(corners, &self.law, forces);
+                self.add_derivatives(contact, mode.acting(), &response, matrix);
+            }
+        });
+    }
+
+    fn add_derivatives(
+        &self,
+        contact: usize,
+        acting: [bool; FORCES],
+        response: &CornerResponse,
+        matrix: &mut BandMatrix,
+    ) {
+        let parts = self.parts(contact);
+        let unknowns = self.unknowns_of(contact);
+        let mut add_row = |row: usize, sign: f64, equation: &Equation| {
+            for part in parts.iter().flatten() {
+                let slope = part.sign * equation.by_coordinate[part.coordinate];
+                matrix.add(row, part.unknown, sign * slope);
+            }
+            for force in (0..FORCES).filter(|&force| acting[force]) {
+                matrix.add(row, unknowns[force], sign * equation.by_force[force]);
+            }
+        };
+        for part in parts.iter().flatten() {
+            add_row(part.unknown, part.sign, &response.balance[part.coordinate]);
+        }
+        for force in (0..FORCES).filter(|&force| acting[force]) {
+            if let Some(condition) = &response.conditions[force] {
+                add_row(unknowns[force], 1.0, condition);
+            }
+        }
+    }
+
+    /// Derivative of the condition of a force along a direction; zero if there is no such condition.
+    pub(crate) fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        let contact = constraint / FORCES;
+        let poses = self.pair_poses(&state.z, contact);
+        let forces = self.forces_of(&state.z, contact);
+        let corners = self.corners(contact, &poses);
+        let response = state.mode[contact].response(&corners, &self.law, forces);
+        let Some(condition) = response.conditions[constraint % FORCES] else { return 0.0 };
+        let parts = self.parts(contact).into_iter().flatten();
+        let by_parts: f64 = parts
+            .map(|part| {
+                part.sign * condition.by_coordinate[part.coordinate] * direction[part.unknown]
+            })
+            .sum();
+        let unknowns = self.unknowns_of(contact).into_iter().zip(condition.by_force);
+        by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
+    }
+
+    /// Takes the contact of a force that has changed sides to its next state. Returns the force whose condition has to
+    /// hold as the path goes on, or `None` if the contact has no such transition.
+    pub(crate) fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+        let contact = change.constraint / FORCES;
+        let force = Force::ALL[change.constraint % FORCES];
+        let poses = self.pair_poses(&state.z, contact);
+        let next = state.mode[contact].transition(
+            force,
+            change.activated,
+            &self.corners(contact, &poses),
+            self.forces_of(&state.z, contact),
+        )?;
+        state.mode[contact] = next.contact;
+        for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
+            state.z[unknown] = force;
+        }
+        let first = FORCES * contact;
+        state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
+        Some(first + next.valid as usize)
+    }
+
+    /// Shows each contact and its corners, from the left.
+    fn for_each(&self, state: &State, mut show: impl FnMut(usize, &Corners)) {
+        for (left, poses) in self.pairs(&state.z) {
+            for contact in Self::contacts_of(left) {
+                show(contact, &self.corners(contact, &poses));
+            }
+        }
+    }
+
+    /// The contacts of the pair whose left scale is `left`.
+    fn contacts_of(left: usize) -> std::ops::Range<usize> {
+        LEVELS.len() * left..LEVELS.len() * (left + 1)
+    }
+
+    /// The left scale of the pair that a contact belongs to.
+    fn left(contact: usize) -> usize {
+        contact / LEVELS.len()
+    }
+
+    /// The pair whose left scale is `left`.
+    fn pair(&self, left: usize) -> &Pair {
+        match self.pair_shapes.as_slice() {
+            [pair] => pair,
+            pairs => &pairs[left],
+        }
+    }
+
+    /// The two corners of a contact.
+    fn corners<'a>(&'a self, contact: usize, poses: &'a [Pose; 2]) -> Corners<'a> {
+        let level = LEVELS[contact % LEVELS.len()];
+        Corners::new(level, self.pair(Self::left(contact)), poses.each_ref())
+    }
+
+    /// Unknowns of the forces of a contact.
+    fn unknowns_of(&self, contact: usize) -> [usize; FORCES] {
+        std::array::from_fn(|k| self.forces[FORCES * contact + k])
+    }
+
+    /// Values of the forces of a contact.
+    fn forces_of(&self, z: &[f64], contact: usize) -> [f64; FORCES] {
+        self.unknowns_of(contact).map(|unknown| z[unknown])
+    }
+
+    /// Poses of the pair of a contact, in the frame in which the left scale is placed or, in a row of relative
+    /// poses, in the frame of the left scale.
+    fn pair_poses(&self, z: &[f64], contact: usize) -> [Pose; 2] {
+        let left = Self::left(contact);
+        [self.left_pose(z, left), self.pose(z, left + 1)]
+    }
+
+    fn left_pose(&self, z: &[f64], scale: usize) -> Pose {
+        if self.relative { Pose::new(0.0, 0.0, 0.0) } else { self.pose(z, scale) }
+    }
+
+    /// Poses of the scales `i`, `i + 1` for every pair, in order.
+    fn pairs<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, [Pose; 2])> + 'a {
+        let mut left = self.left_pose(z, 0);
+        (1..self.scales.len()).map(move |i| {
+            let right = self.pose(z, i);
+            let next = if self.relative { left } else { right };
+            (i - 1, [std::mem::replace(&mut left, next), right])
+        })
+    }
+
+    /// The unknowns that the coordinates of a contact's pair are made of. In a row of relative poses the rotation of
+    /// the right scale has a second part, that of the frame.
+    fn parts(&self, contact: usize) -> [Option<Part>; COORDINATES + 1] {
+        let pair = Self::left(contact);
+        let left = self.scales[pair].filter(|_| !self.relative);
+        let right = self.scales[pair + 1];
+        std::array::from_fn(|k| match k {
+            0..3 => Some(Part::new(left? + k, k)),
+            3..COORDINATES => Some(Part::new(right? + k - 3, k)),
+            _ => Some(Part::new(self.frame(pair + 1)?, COORDINATES - 1).opposite()),
+        })
+    }
+}
+
+/// An unknown of a system as a part of a coordinate: the coordinate is the sum of such parts.
+#[derive(Clone, Copy)]
+pub(crate) struct Part {
+    pub(crate) unknown: usize,
+    pub(crate) coordinate: usize,
+    /// 1 or −1.
+    pub(crate) sign: f64,
+}
+
+impl Part {
+    pub(crate) fn new(unknown: usize, coordinate: usize) -> Self {
+        Self { unknown, coordinate, sign: 1.0 }
+    }
+
+    /// The part that is subtracted instead of added.
+    pub(crate) fn opposite(self) -> Self {
+        Self { sign: -self.sign, ..self }
+    }
+}

@@ -1,0 +1,89 @@
+//! Energy of the contacts, and the audit of a final state.
+
+use contact::{CornerContact, Overlap, Pose, overlaps};
+use geometry::Vec2;
+
+use super::{Contacts, State};
+
+/// Overlap (over `t`) by which the audit may differ from the contact law: round-off of the
+/// collision query.
+const AUDIT_TOLERANCE: f64 = 1e-8;
+
+/// Part of an edge by which a foot may lie beyond its end: round-off of the path.
+const OFF_EDGE: f64 = 1e-6;
+
+impl Contacts {
+    /// Forces of a contact on the left scale of its pair: of its corners, and of its flush contact.
+    pub(super) fn forces_on_left(&self, state: &State, contact: usize) -> [Vec2; 2] {
+        let poses = self.pair_poses(&state.z, contact);
+        let forces = self.forces_of(&state.z, contact);
+        state.mode[contact].forces_on_left(&self.corners(contact, &poses), forces)
+    }
+
+    /// Sum of the forces of a contact, for which the law holds.
+    fn force(&self, state: &State, contact: usize) -> f64 {
+        match state.mode[contact] {
+            CornerContact::Open => 0.0,
+            _ => self.forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
+        }
+    }
+
+    /// Approach of the scales at a contact, over `t`.
+    pub(super) fn approach(&self, state: &State, contact: usize) -> f64 {
+        self.law.approach(self.force(state, contact)).value
+    }
+
+    /// Elastic energy of all contacts.
+    pub(crate) fn energy(&self, state: &State) -> f64 {
+        let energy = |contact| self.law.energy(self.force(state, contact));
+        (0..state.mode.len()).map(energy).sum()
+    }
+
+    /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
+    /// edge any more, and at the other one the model has no contact to go on with.
+    pub(crate) fn off_edge(&self, state: &State) -> bool {
+        let contacts = state.mode.iter().enumerate();
+        contacts.into_iter().any(|(contact, mode)| {
+            let edges = match *mode {
+                CornerContact::Open | CornerContact::Corner(_) => [None, None],
+                CornerContact::Edge(edge) => [Some(edge), None],
+                CornerContact::Flush(edge) => [Some(edge), edge.flush()],
+            };
+            let [left, right] = self.pair_poses(&state.z, contact);
+            let pair = self.pair(Self::left(contact));
+            let feet = edges.into_iter().flatten().map(|edge| pair.gap(edge, &left, &right).foot);
+            feet.into_iter().any(|foot| !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot))
+        })
+    }
+
+    /// Whether any two scales overlap by more than the approach of their contacts.
+    pub(crate) fn interpenetrate(&self, state: &State) -> bool {
+        let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
+        overlaps(standing, &self.poses(&state.z)).iter().any(|overlap| {
+            let neighbours = overlap.right == overlap.left + 1;
+            let allowed = if neighbours { self.pair_approach(state, overlap.left) } else { 0.0 };
+            overlap.depth > allowed + AUDIT_TOLERANCE
+        })
+    }
+
+    /// Whether any two neighbours overlap by more than the approach of their contacts. A strip that is bent to a ring
+    /// may meet its own other end.
+    pub(crate) fn neighbours_interpenetrate(&self, state: &State) -> bool {
+        self.pairs(&state.z).any(|(left, poses)| {
+            let allowed = self.pair_approach(state, left) + AUDIT_TOLERANCE;
+            self.pair_overlaps(left, &poses).iter().any(|overlap| overlap.depth > allowed)
+        })
+    }
+
+    /// Overlap of the pair whose left scale is `left`.
+    fn pair_overlaps(&self, left: usize, poses: &[Pose; 2]) -> Vec<Overlap> {
+        let pair = self.pair(left);
+        let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
+        overlaps(standing, poses)
+    }
+
+    /// The largest approach of the contacts of a pair.
+    fn pair_approach(&self, state: &State, left: usize) -> f64 {
+        Self::contacts_of(left).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,47 @@
+//! What happens to a contact at an event.
+
+use contact::{FORCES, Force};
+
+use super::State;
+
+/// What happens to a contact at an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ContactChange {
+    /// The contact closes.
+    Closed,
+    /// The contact opens.
+    Opened,
+    /// The corner reaches the end of its edge and stays at the other corner.
+    ReachedCorner,
+    /// The contact leaves the corner on the edge on which it came.
+    LeftCorner,
+    /// The contact passes the corner as its partner, the corners having changed their parts; or the contact at the other
+    /// end of flush edges carries alone.
+    HandedOver,
+}
+
+impl ContactChange {
+    /// Short name, as in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Closed => "closed",
+            Self::Opened => "opened",
+            Self::ReachedCorner => "reached corner",
+            Self::LeftCorner => "left corner",
+            Self::HandedOver => "handed over",
+        }
+    }
+
+    /// What has happened where a force has changed sides, from the state after the event.
+    pub(crate) fn of(state: &State, change: solver::Change) -> Self {
+        let acts = state.active[change.constraint];
+        match (Force::ALL[change.constraint % FORCES], change.activated) {
+            (Force::Own | Force::Flush, true) => Self::Closed,
+            (Force::Own, false) if acts => Self::HandedOver,
+            (Force::Own | Force::Flush, false) => Self::Opened,
+            (Force::Partner, true) if acts => Self::ReachedCorner,
+            (Force::Partner, true) => Self::HandedOver,
+            (Force::Partner, false) => Self::LeftCorner,
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! The closed contacts of a state, for drawings and reports.
+
+use contact::{CornerContact, CornerEdge};
+use geometry::Vec2;
+
+use super::{Contacts, State};
+
+/// A closed contact between neighbours.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The left scale of the pair, from 0 at the left end of the row.
+    pub left: usize,
+    /// Which corner meets which edge.
+    pub corner_edge: CornerEdge,
+    /// The corner that touches, deformed, from the node of the first scale at rest; over `t`.
+    pub point: [f64; 2],
+    /// Force on the left scale; the right one takes its opposite.
+    pub force: [f64; 2],
+    /// Approach `δ` of the scales, over `t`.
+    pub approach: f64,
+}
+
+impl Contacts {
+    /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
+    /// sees it.
+    pub(crate) fn closed_contacts(&self, state: &State) -> Vec<Contact> {
+        let contacts = 0..state.mode.len();
+        contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
+    }
+
+    /// The closed contacts at one level of a pair: of the corners with each other's edge, and the flush one.
+    fn closed_at(&self, state: &State, contact: usize) -> [Option<Contact>; 2] {
+        let [own, flush] = match state.mode[contact] {
+            CornerContact::Open => [None, None],
+            CornerContact::Edge(edge) | CornerContact::Corner(edge) => [Some(edge), None],
+            CornerContact::Flush(edge) => [Some(edge), edge.flush()],
+        };
+        let [on_corners, on_flush] = self.forces_on_left(state, contact);
+        let approach = self.approach(state, contact);
+        [(own, on_corners), (flush, on_flush)].map(|(corner_edge, force)| {
+            let corner_edge = corner_edge?;
+            let point = self.corner(&state.z, contact, corner_edge).into();
+            let left = Self::left(contact);
+            Some(Contact { left, corner_edge, point, force: force.into(), approach })
+        })
+    }
+
+    /// Place of the corner that touches, from the node of the first scale at rest.
+    fn corner(&self, z: &[f64], contact: usize, corner_edge: CornerEdge) -> Vec2 {
+        let of_right = usize::from(!corner_edge.corner_is_left());
+        let pose = self.pair_poses(z, contact)[of_right];
+        let left = Self::left(contact);
+        let pair = self.pair(left);
+        let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
+        let place = if self.relative {
+            of_right as f64 * pair.pitch()
+        } else {
+            self.arrangement.place(left + of_right)
+        };
+        Vec2::new(place, 0.0) + pose.displacement + arm
+    }
+}

@@ -1,0 +1,96 @@
+//! A check for whoever writes a [`System`]: are its derivatives those of its equations?
+
+use crate::linear::BandMatrix;
+use crate::system::{Residual, State, System};
+
+/// Part of an unknown by which it is moved for a difference.
+const STEP: f64 = 1e-5;
+
+/// Unknowns that are smaller than this are moved as if they were of this size. Those of constraints are not: what a
+/// force does may change over any small part of it, as in a power law.
+const SMALL: f64 = 0.01;
+
+/// A derivative that differs from the differences of the residual.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "the derivative of equation {row} with respect to unknown {column} is {derivative}, \
+     differences of the residual give {difference}"
+)]
+pub struct WrongDerivative {
+    /// Index of the equation.
+    pub row: usize,
+    /// Index of the unknown.
+    pub column: usize,
+    /// Derivative according to [`System::tangent`] or [`System::slope`].
+    pub derivative: f64,
+    /// Derivative according to central differences.
+    pub difference: f64,
+}
+
+/// Compares tangent and slopes of a system at a state with central differences of its residual.
+///
+/// Compared is what the solver uses: the tangent in rows and columns of unknowns that are not known to vanish, and the
+/// slopes of all constraints. `tolerance` is relative to the largest derivative of an equation. Where a constraint is
+/// active, its unknown must not be zero.
+///
+/// # Errors
+/// The first derivative that differs by more than the tolerance.
+pub fn check_tangent<S: System>(
+    system: &S,
+    state: &State<S::Mode>,
+    tolerance: f64,
+) -> Result<(), WrongDerivative> {
+    let mut tangent = BandMatrix::new(system.size(), system.half_bandwidth());
+    system.tangent(state, &mut tangent);
+    let columns = used(system, state);
+    let differences: Vec<Vec<f64>> =
+        columns.iter().map(|&column| difference(system, state, column)).collect();
+    let largest =
+        |row: usize| differences.iter().fold(0.0_f64, |max, column| max.max(column[row].abs()));
+    let sizes: Vec<f64> = (0..system.size()).map(largest).collect();
+    for (&column, differences) in columns.iter().zip(&differences) {
+        let compare = |row: usize, derivative: f64| {
+            let difference = differences[row];
+            let off = (derivative - difference).abs();
+            let right = off <= tolerance * sizes[row].max(derivative.abs());
+            if right {
+                Ok(())
+            } else {
+                Err(WrongDerivative { row, column, derivative, difference })
+            }
+        };
+        for &row in columns.iter().filter(|&&row| row != system.load()) {
+            let inside = tangent.columns(row).contains(&column);
+            compare(row, if inside { tangent.get(row, column) } else { 0.0 })?;
+        }
+        let mut direction = vec![0.0; system.size()];
+        direction[column] = 1.0;
+        for (constraint, &row) in system.constraints().iter().enumerate() {
+            compare(row, system.slope(state, constraint, &direction))?;
+        }
+    }
+    Ok(())
+}
+
+/// The unknowns that are not known to vanish.
+fn used<S: System>(system: &S, state: &State<S::Mode>) -> Vec<usize> {
+    let constraints = system.constraints().iter().zip(&state.active);
+    let vanish: Vec<usize> = constraints.filter(|(_, active)| !**active).map(|(&c, _)| c).collect();
+    (0..system.size()).filter(|index| vanish.binary_search(index).is_err()).collect()
+}
+
+/// Derivatives of all equations with respect to an unknown, by central differences.
+fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> Vec<f64> {
+    let is_constraint = system.constraints().binary_search(&column).is_ok();
+    let size = state.z[column].abs();
+    let step = STEP * if is_constraint { size } else { size.max(SMALL) };
+    let at = |step: f64| {
+        let mut state = state.clone();
+        state.z[column] += step;
+        let mut residual = Residual::new(system.size());
+        system.residual(&state, &mut residual);
+        residual.value
+    };
+    let (high, low) = (at(step), at(-step));
+    high.iter().zip(low).map(|(high, low)| (high - low) / (2.0 * step)).collect()
+}

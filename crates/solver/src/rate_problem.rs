@@ -1,0 +1,162 @@
+//! The rate complementarity problem: which way the path goes on where constraints change sides.
+
+use crate::event::Change;
+use crate::newton::{Condition, FLOOR, guard_slope};
+use crate::path::Path;
+use crate::stop::Stop;
+use crate::system::{State, System};
+
+/// Events at least this far apart happen one after the other: where edges are nearly parallel forces
+/// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
+const APART: f64 = 1e-10;
+
+/// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
+/// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
+/// problem of the rates,
+///
+/// ```text
+/// ∂r_i/∂z ż = 0     for every equation and every constraint that stays active,
+/// ż_c = 0           for every constraint that stays inactive,
+/// 0 ≤ ż_c  ⟂  ∂r_c/∂z ż ≥ 0     for those that meet,                                  (N6)
+/// ```
+///
+/// whose equations may besides have another mode after the event. It is solved by principal pivoting (Cottle, Pang &
+/// Stone 2009, *The Linear Complementarity Problem*, ch. 4, isbn 978-0-89871-686-3): first all constraints that are about
+/// to change sides do so at once, as they do by symmetry; if the direction then violates one of them, they do so one by one,
+/// the one that is violated fastest first.
+impl<S: System> Path<S> {
+    /// Lets constraints change sides in `state`, an equilibrium in which the path arrives along `arriving`, and returns the
+    /// direction in which it goes on. `changes` are the constraints that are about to change sides, the first of them for
+    /// certain; they are replaced by those that have.
+    ///
+    /// # Errors
+    /// [`Stop::Singular`] if there is no single direction, [`Stop::Cycling`] if no set of changes makes all valid.
+    pub(crate) fn resolve_event(
+        &mut self,
+        state: &mut State<S::Mode>,
+        arriving: &[f64],
+        changes: &mut Vec<Change>,
+    ) -> Result<Vec<f64>, Stop> {
+        if changes.len() > 1
+            && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
+        {
+            *state = next;
+            return Ok(leaving);
+        }
+        self.pivot_in_turn(state, arriving, changes)
+    }
+
+    /// State and direction after all of `changes`. `None` if the direction violates one of them.
+    fn pivot_together(
+        &mut self,
+        state: &State<S::Mode>,
+        arriving: &[f64],
+        changes: &[Change],
+    ) -> Option<(State<S::Mode>, Vec<f64>)> {
+        let mut next = state.clone();
+        let valid: Option<Vec<usize>> =
+            changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
+        let valid = valid?;
+        let leaving = self.direction(&mut next, arriving, valid[0]).ok()?;
+        self.most_violated(&next, &leaving, &valid).is_none().then_some((next, leaving))
+    }
+
+    /// Lets the first of `changes` happen and then, while the direction violates one of the constraints that meet, the one
+    /// that it violates fastest. A constraint that has changed sides may have to change back.
+    fn pivot_in_turn(
+        &mut self,
+        state: &mut State<S::Mode>,
+        arriving: &[f64],
+        changes: &mut Vec<Change>,
+    ) -> Result<Vec<f64>, Stop> {
+        let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
+        let mut next = changes[0];
+        changes.clear();
+        for _ in 0..self.most_changes() {
+            let valid = self.pivot(state, next).ok_or(Stop::Singular)?;
+            if !meeting.contains(&valid) {
+                meeting.push(valid);
+            }
+            toggle(changes, next);
+            let leaving = self.direction(state, arriving, valid)?;
+            let Some(constraint) = self.most_violated(state, &leaving, &meeting) else {
+                return Ok(leaving);
+            };
+            next = Change { constraint, activated: !state.active[constraint] };
+        }
+        Err(Stop::Cycling)
+    }
+
+    /// Lets a constraint change sides. Returns the one whose condition has to hold as the path goes on, or `None` if the
+    /// mode does not allow the change.
+    fn pivot(&self, state: &mut State<S::Mode>, change: Change) -> Option<usize> {
+        state.active[change.constraint] = change.activated;
+        state.z[self.system.constraints()[change.constraint]] = 0.0;
+        self.system.transition(state, change)
+    }
+
+    /// The direction in which a constraint that has just changed sides stays valid. A transition may have disturbed
+    /// the equilibrium; it is restored first.
+    fn direction(
+        &mut self,
+        state: &mut State<S::Mode>,
+        arriving: &[f64],
+        valid: usize,
+    ) -> Result<Vec<f64>, Stop> {
+        for condition in self.measures(state, arriving) {
+            let mut trial = state.clone();
+            let solved = self.newton.solve(&self.system, &mut trial, &condition, &self.settings);
+            let Ok(direction) = solved else { continue };
+            let mut direction = self.normalised(direction);
+            let slope = guard_slope(&self.system, &trial, valid, &direction);
+            if slope == 0.0 || !direction.iter().all(|x| x.is_finite()) {
+                continue;
+            }
+            if slope < 0.0 {
+                direction.iter_mut().for_each(|x| *x = -*x);
+            }
+            *state = trial;
+            return Ok(direction);
+        }
+        Err(Stop::Singular)
+    }
+
+    /// Ways to measure distance along the path, the likeliest to increase first.
+    fn measures(&self, state: &State<S::Mode>, direction: &[f64]) -> Vec<Condition> {
+        let controls = self.system.controls();
+        let arc =
+            controls.iter().map(|c| (c.index, direction[c.index] / c.scale.powi(2))).collect();
+        let single = controls.iter().map(|c| vec![(c.index, 1.0 / c.scale)]);
+        let rows = std::iter::once(arc).chain(single);
+        rows.map(|row| Condition::through(row, &state.z)).collect()
+    }
+
+    /// The constraint that a direction violates fastest, of those that it violates at no distance.
+    fn most_violated(
+        &mut self,
+        state: &State<S::Mode>,
+        direction: &[f64],
+        constraints: &[usize],
+    ) -> Option<usize> {
+        let guards = self.newton.guards(&self.system, state);
+        let slopes =
+            constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
+        slopes
+            .filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(c, _)| c)
+    }
+
+    /// More pivots than this do not happen at one place.
+    fn most_changes(&self) -> usize {
+        2 * self.guards.len() + 8
+    }
+}
+
+/// Adds a change to those made, or takes away the one that it undoes.
+fn toggle(changes: &mut Vec<Change>, change: Change) {
+    match changes.iter().position(|made| made.constraint == change.constraint) {
+        Some(undone) => drop(changes.remove(undone)),
+        None => changes.push(change),
+    }
+}
