@@ -4,7 +4,7 @@ use std::io::{IsTerminal as _, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sweep::News;
+use run::News;
 
 /// Shows how far a run is: rate, remaining time and failures so far.
 pub struct Progress {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sweep::Results;
+use results::Results;
 
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -6,7 +6,7 @@ mod pareto;
 mod quaternary;
 mod stiffness;
 
-use sweep::Ranking;
+use ranking::Ranking;
 
 use crate::designs::Designs;
 use crate::label::{Anchor, label, plain};

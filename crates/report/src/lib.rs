@@ -7,6 +7,7 @@
 //! | [`figures()`] | what a sweep found, from its table |
 //! | [`Page`] | all of it on one page |
 //! | [`png`] | any of them as an image |
+//! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!
 //! ```
 //! use report::drawings::Puncture;
@@ -32,6 +33,8 @@ mod chart;
 mod curves;
 mod designs;
 pub mod drawings;
+#[cfg(feature = "xlsx")]
+mod export;
 mod figures;
 mod label;
 mod page;
@@ -41,6 +44,8 @@ mod svg;
 
 pub use curves::{Solved, curves};
 pub use designs::Designs;
+#[cfg(feature = "xlsx")]
+pub use export::{ExportError, Exported, export};
 pub use figures::{Figure, figures};
 pub use page::{Fact, Page};
 pub use palette::{Mark, slant_color};

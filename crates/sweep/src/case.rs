@@ -3,7 +3,7 @@
 use skin::flexure;
 use skin::puncture;
 use skin::{Base, Design, Imperfection};
-use substrate::Coupling;
+use substrate::{Coupling, Footprint, InvalidFootprint};
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +32,14 @@ pub struct Samples {
 }
 
 impl Case {
+    /// The ratios and Poisson's ratio that the springs of the substrate depend on.
+    ///
+    /// # Errors
+    /// If the lengths of the design are too far apart for their ratios to be an `f64`.
+    pub fn footprint(&self) -> Result<Footprint, InvalidFootprint> {
+        self.design.footprint(self.puncture.poisson_ratio)
+    }
+
     /// Gives bending the contact law and the steps of the puncture.
     pub(crate) fn share(&mut self) {
         self.flexure.law = self.puncture.law;

@@ -1,16 +1,23 @@
 //! The validated sweep.
 
+mod axes;
+pub(crate) mod invalid;
+pub(crate) mod measure;
+mod reader;
+pub(crate) mod setting;
+pub(crate) mod suggestion;
+mod to_toml;
+
 use std::path::Path;
 
 use crate::grid::Grid;
-use crate::invalid::{InvalidDefinition, reason};
-use crate::measure::Measure;
-use crate::parameter::Parameter;
-use crate::parameters::PARAMETERS;
-use crate::reader::Reader;
-use crate::scalar::Scalar;
-use crate::setting::Setting;
-use crate::written::{self, Entry, Place, Table, Value};
+use crate::parameter::Scalar;
+use crate::parameter::{PARAMETERS, Parameter};
+use crate::toml_source::{self, Entry, Place, Table, Value};
+use invalid::{InvalidDefinition, reason};
+use measure::Measure;
+use reader::Reader;
+use setting::Setting;
 
 /// A sweep that can run: its name, what it measures, its designs.
 #[derive(Clone, Debug)]
@@ -38,7 +45,7 @@ impl Sweep {
     /// # Errors
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let mut table = definition_of(written::parse(text, name)?);
+        let mut table = definition_of(toml_source::parse(text, name)?);
         for setting in settings {
             setting.apply(&mut table);
         }

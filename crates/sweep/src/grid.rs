@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::decimal::DecimalRange;
 use crate::parameter::Parameter;
-use crate::scalar::Scalar;
+use crate::parameter::Scalar;
 
 /// A parameter that takes several values.
 #[derive(Clone, Debug)]

@@ -1,5 +1,8 @@
 //! A parameter of a sweep: which values are right, and where they go.
 
+mod list;
+mod scalar;
+
 use std::fmt;
 
 use skin::puncture::RowLength;
@@ -7,9 +10,10 @@ use skin::puncture::RowLength;
 use crate::case::Case;
 use crate::decimal::{Decimal, DecimalRange};
 use crate::number;
-use crate::parameters::PARAMETERS;
-use crate::scalar::Scalar;
-use crate::written::Value;
+use crate::toml_source::Value;
+
+pub use list::PARAMETERS;
+pub use scalar::Scalar;
 
 /// A scalar that a sweep definition may set, in its section or as an axis of the grid.
 #[derive(Debug)]
@@ -24,6 +28,12 @@ pub struct Parameter {
     pub meaning: &'static str,
     /// Which values are right, and where they go.
     pub(crate) kind: Kind,
+}
+
+impl PartialEq for Parameter {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
 }
 
 /// Which values are right, and where they go.

@@ -47,13 +47,13 @@ pub enum Error {
     Claims(#[from] csv::Error),
     /// A sweep cannot be run.
     #[error(transparent)]
-    Run(#[from] sweep::RunError),
+    Run(#[from] run::RunError),
     /// A definition is not right.
     #[error(transparent)]
     Definition(#[from] sweep::InvalidDefinition),
     /// Results cannot be read.
     #[error(transparent)]
-    Results(#[from] sweep::InvalidResults),
+    Results(#[from] results::InvalidResults),
     /// There is no temporary folder.
     #[error("no temporary folder: {0}")]
     Folder(#[from] std::io::Error),

@@ -1,6 +1,7 @@
 //! How far the headline results depend on what the paper leaves open.
 
-use sweep::{Ranking, Sweep, TetrahedralGrid, Weights};
+use ranking::{Ranking, TetrahedralGrid, Weights};
+use sweep::Sweep;
 
 use crate::Error;
 use crate::claims::{Value, digits, named};

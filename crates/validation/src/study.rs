@@ -4,7 +4,9 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use sweep::{Axis, Case, InvalidResults, Options, Parameter, Part, Program, Results, Start, Sweep};
+use results::{InvalidResults, Results};
+use run::{Options, Program, Start};
+use sweep::{Axis, Case, Parameter, Part, Sweep};
 
 use crate::Error;
 
@@ -52,7 +54,7 @@ impl Study {
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
         };
-        sweep::run(&sweep, Part::default(), folder.path(), Start::New, &options, &program, |_| {})?;
+        run::run(&sweep, Part::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;
         let designs = designs(&results)?;
         Ok(Self { base: *sweep.grid().base(), sweep, results, designs })

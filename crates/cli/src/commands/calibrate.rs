@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, ensure};
 use substrate::{Footprint, Springs};
-use sweep::{Setting, Sweep, footprint};
+use sweep::{Setting, Sweep};
 
 use super::DONE;
 use crate::args;
@@ -33,7 +33,8 @@ fn footprint_of(arguments: &args::Calibrate) -> anyhow::Result<Footprint> {
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
-    footprint(&sweep.grid().case(0)).context("lengths too far apart, expected comparable ones")
+    let case = sweep.grid().case(0);
+    case.footprint().context("lengths too far apart, expected comparable ones")
 }
 
 fn report(footprint: &Footprint, springs: &Springs) -> String {

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
-use sweep::columns::design_columns;
-use sweep::{Case, DesignNumber, PARAMETERS, Setting, Solved, Sweep, Workbench};
+use results::Solved;
+use results::columns::design_columns;
+use run::Workbench;
+use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
 
 use super::{DONE, INCOMPLETE, folder_of, settings};
 use crate::args;
@@ -18,8 +20,8 @@ pub fn design(arguments: &args::Design) -> anyhow::Result<u8> {
     let number = chosen.number.unwrap_or(grid.number(0));
     let solved = workbench.solve(number, &grid.case(0));
     let folder = chosen.folder(arguments);
-    let files = sweep::write_course(&folder, &solved)?;
-    sweep::write_text(&folder, "design.toml", &chosen.sweep.to_toml())?;
+    let files = results::write_course(&folder, &solved)?;
+    results::write_text(&folder, "design.toml", &chosen.sweep.to_toml())?;
     let report = chosen.report(&solved);
     print(&format!("{report}\n{}: {} design.toml\n", folder.display(), files.join(" ")))?;
     Ok(if solved.record.failed() { INCOMPLETE } else { DONE })

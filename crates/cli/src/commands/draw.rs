@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use report::drawings;
 use skin::{flexure, puncture};
 use substrate::RowStiffness;
-use sweep::{Case, DesignNumber, Sweep, footprint};
+use sweep::{Case, DesignNumber, Sweep};
 
 use super::figure_file::{Written, write_html, write_svg};
 use super::{DONE, folder_of, read};
@@ -24,7 +24,7 @@ pub fn draw(arguments: &args::Draw) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = arguments.out.clone();
     let folder = folder.unwrap_or_else(|| folder_of(&sweep, None).join("drawings"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let designs = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
     let mut files = Written::default();
     for (number, case) in designs {
@@ -157,7 +157,7 @@ impl Drawing<'_> {
 
 /// The substrate under a row.
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
-    let footprint = footprint(case);
+    let footprint = case.footprint();
     let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
     Ok(RowStiffness::of(&footprint, case.coupling)?)
 }

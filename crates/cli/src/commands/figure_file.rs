@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use sweep::WholeFile;
+use results::AtomicFile;
 
 /// Names of the files that were written.
 #[derive(Debug, Default)]
@@ -44,7 +44,7 @@ pub fn write_html(
 }
 
 fn write(folder: &Path, name: String, bytes: &[u8], files: &mut Written) -> anyhow::Result<()> {
-    let mut file = WholeFile::create(folder, &name)?;
+    let mut file = AtomicFile::create(folder, &name)?;
     let written = file.write_all(bytes);
     written.with_context(|| format!("{}: cannot be written", file.path().display()))?;
     file.finish()?;

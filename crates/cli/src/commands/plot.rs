@@ -33,7 +33,7 @@ pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
 fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(results)?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
     for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
@@ -59,7 +59,7 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
         })
         .collect();
     let folder = arguments.out.clone().unwrap_or_else(|| folder_of(&sweep, None).join("curves"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let mut files = Written::default();
     let names = numbers(&sweep, &arguments.designs);
     for figure in curves(sweep.name(), &shown) {

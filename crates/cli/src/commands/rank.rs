@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use sweep::{CRITERIA, Ranking, Results, Standing, TetrahedralGrid, Weights};
+use ranking::{CRITERIA, Ranking, Standing, TetrahedralGrid, Weights};
+use results::Results;
 
 use super::DONE;
 use crate::args;
@@ -20,7 +21,7 @@ pub fn rank(arguments: &args::Rank) -> anyhow::Result<u8> {
     let results = Results::read(&arguments.results)?;
     let ranking = Ranking::new(&results, grid)?;
     let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
-    let files = sweep::write_ranking(folder, &ranking, weights)?;
+    let files = ranking::write_ranking(folder, &ranking, weights)?;
     let report = Report { results: &results, ranking: &ranking };
     let text = report.text(weights, arguments.top);
     print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;

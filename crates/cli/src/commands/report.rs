@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use ranking::Weights;
 use rayon::prelude::*;
 use report::{Fact, Page, drawings};
+use results::columns::design_columns;
 use skin::puncture;
-use sweep::Weights;
-use sweep::columns::design_columns;
 
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
@@ -26,7 +26,7 @@ pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
     let page = page(&results)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();

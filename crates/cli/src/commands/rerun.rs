@@ -1,6 +1,7 @@
 //! `squama rerun`.
 
-use sweep::{Choice, Rerun, Setting};
+use run::{Choice, Rerun};
+use sweep::Setting;
 
 use super::run::{exit_code, options, summary};
 use super::{DONE, PROGRAM};
@@ -24,7 +25,7 @@ pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
     let interrupt = Interrupt::listen()?;
     let options = options(&arguments.work, &arguments.format, &interrupt);
     let mut progress = Progress::new(arguments.work.quiet);
-    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
+    let news = |news: run::News<'_>| progress.show(news, interrupt.stop());
     let finished = rerun.run(&options, &PROGRAM, news);
     drop(progress);
     let finished = finished?;

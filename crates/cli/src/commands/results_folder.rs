@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
 use report::{Designs, Fact};
-use sweep::written::{self, Entry, Value};
-use sweep::{InvalidRanking, InvalidResults, Ranking, Results, Sweep, TetrahedralGrid};
+use results::{InvalidResults, Results};
+use sweep::Sweep;
+use sweep::toml_source::{self, Entry, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -45,7 +47,7 @@ impl ResultsFolder {
 
 /// What stands in the table `run` of `run.toml`.
 fn facts(text: &str) -> Vec<Fact> {
-    let table = written::parse(text, "run.toml").unwrap_or_default();
+    let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };
     let fact = |entry: Entry| match entry.value {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use sweep::{Best, Finished, Options, Part, Sample, Start, Sweep};
+use run::{Best, Finished, Options, Start};
+use sweep::{Part, Sample, Sweep};
 
 use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
 use crate::args;
@@ -23,9 +24,9 @@ pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
     let interrupt = Interrupt::listen()?;
     let options = options(&arguments.work, &arguments.format, &interrupt);
     let mut progress = Progress::new(arguments.work.quiet);
-    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
+    let news = |news: run::News<'_>| progress.show(news, interrupt.stop());
     let (part, start) = (part(arguments), start(arguments));
-    let finished = sweep::run(&sweep, part, &folder, start, &options, &PROGRAM, news);
+    let finished = run::run(&sweep, part, &folder, start, &options, &PROGRAM, news);
     drop(progress);
     let finished = finished?;
     if !arguments.work.quiet {

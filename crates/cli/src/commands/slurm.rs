@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use sweep::{Sweep, make_folder, write_text};
+use results::{make_folder, write_text};
+use sweep::Sweep;
 
 use super::{DONE, folder_of, read};
 use crate::args;

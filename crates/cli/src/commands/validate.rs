@@ -23,10 +23,10 @@ pub fn validate(arguments: &args::Validate) -> anyhow::Result<u8> {
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     // What cannot be written in the end is refused in the beginning.
-    sweep::make_folder(folder)?;
+    results::make_folder(folder)?;
     let validation = Validation::run()?;
     let page = validation.page();
-    sweep::write_text(folder, &name.to_string_lossy(), &page)?;
+    results::write_text(folder, &name.to_string_lossy(), &page)?;
     print(&page)?;
     let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.holds()).collect();
     for benchmark in &outside {

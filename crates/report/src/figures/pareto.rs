@@ -1,6 +1,6 @@
 //! The Pareto front of the four criteria, two at a time.
 
-use sweep::{Ranking, Standing, Weights};
+use ranking::{Ranking, Standing, Weights};
 
 use super::{COVERAGE, sheet};
 use crate::axis::Axis;

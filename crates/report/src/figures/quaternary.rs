@@ -1,7 +1,7 @@
 //! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
 
 use geometry::{Parallelogram, Row};
-use sweep::{Ranking, Standing, Weights};
+use ranking::{Ranking, Standing, Weights};
 
 use super::sheet;
 use crate::designs::Designs;

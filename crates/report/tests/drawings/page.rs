@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use ranking::{Ranking, TetrahedralGrid};
 use report::{Designs, Page, figures};
-use sweep::{Ranking, Results, TetrahedralGrid};
+use results::Results;
 
 /// A table of 24 designs with made-up values.
 fn table() -> String {

@@ -1,6 +1,6 @@
 //! Claims about the best designs.
 
-use sweep::{Ranking, TetrahedralGrid, Weights};
+use ranking::{Ranking, TetrahedralGrid, Weights};
 
 use super::finding::{Finding, digits, named};
 use crate::study::{Design, Study};

@@ -87,7 +87,7 @@ fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
 }
 
 fn substrate(case: &Case) -> Option<RowStiffness> {
-    RowStiffness::of(&sweep::footprint(case)?, case.coupling).ok()
+    RowStiffness::of(&case.footprint().ok()?, case.coupling).ok()
 }
 
 fn punctured(case: &Case) -> Option<Puncture> {
@@ -175,7 +175,7 @@ pub(super) fn largest_force_value(study: &Study) -> Option<Finding> {
 pub(super) fn force_and_stiffness(study: &Study) -> Option<Finding> {
     let pair = |d: &Design| Some([d.max_stiffness?, d.critical_force?]);
     let pairs: Vec<_> = study.designs.iter().filter(|d| in_figures(d)).filter_map(pair).collect();
-    let rank = sweep::rank_correlation(&pairs)?;
+    let rank = ranking::rank_correlation(&pairs)?;
     Some(Finding::graded(rank > 0.8, rank > 0.5, format!("{rank:.3}")))
 }
 
