@@ -51,6 +51,6 @@ mod joints;
 pub mod puncture;
 
 pub use design::{Base, Design};
-pub use imperfection::{Imperfection, InvalidImperfection, Sample};
+pub use imperfection::{Imperfection, Sample};
 pub use invalid::InvalidDesign;
 pub use joints::{Change, Contact};

@@ -1,6 +1,7 @@
 //! The stiffness of whole rows, Eqs. (S9)–(S12).
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use substrate::{Calibrations, Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
@@ -123,12 +124,10 @@ fn both_couplings_are_shared() {
     let full = shared.row(&print, Coupling::Full).unwrap();
     assert_eq!(*full, RowStiffness::of(&print, Coupling::Full).unwrap());
     assert_eq!(full.neighbours.len(), NEIGHBOURS);
-    assert_eq!(shared.row(&print, Coupling::Full).unwrap(), full);
-    assert_eq!(shared.solved(), 1);
+    assert!(Arc::ptr_eq(&shared.row(&print, Coupling::Full).unwrap(), &full));
     let nearest = shared.row(&print, Coupling::Nearest).unwrap();
     assert_eq!(*nearest, RowStiffness::from(&calibrate(&print).unwrap()));
     assert_eq!(shared.get(&print), calibrate(&print));
-    assert_eq!((shared.solved(), shared.held()), (2, 2));
     let lost = Footprint::new(1e-17, 2.0, 0.5).unwrap();
     assert!(shared.row(&lost, Coupling::Full).is_err());
 }
