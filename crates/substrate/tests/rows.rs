@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use analytical::half_space;
 use substrate::{Calibrations, Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
 
 /// From long narrow bases close together to square ones far apart.
@@ -61,8 +62,8 @@ fn far_scales_feel_point_loads_and_couples() {
     let [_, alone, turned] = row.direct;
     for (k, neighbour) in row.neighbours.iter().enumerate() {
         let r = (k + 1) as f64 * 202.0;
-        let force = -alone * alone / (PI * r);
-        let couple = -alone * turned / (PI * r * r);
+        let force = -alone * alone * half_space::point_load(r);
+        let couple = -alone * turned * half_space::point_couple(r);
         assert!((neighbour.direct[1] / force - 1.0).abs() < 0.02, "{k} {}", neighbour.direct[1]);
         // The scale between takes a part.
         assert!((neighbour.cross / couple - 1.0).abs() < 0.03, "{k} {}", neighbour.cross);

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use analytical::elastica::rolled_up;
 use geometry::OutOfRange;
 use nalgebra::Vector3;
 
@@ -17,14 +18,9 @@ fn check(elements: usize, half_turns: u32) -> Result<(), OutOfRange> {
     assert!(energy.axial_energy < 1e-20);
 
     let poses = gap.rest() + &u;
-    let count = elements as f64;
-    let mut node = [0.0, 0.0];
-    for k in 1..=elements {
-        let chord = angle * (k as f64 - 0.5) / count;
-        node = [node[0] + chord.cos() / count, node[1] + chord.sin() / count];
-        let expected = Vector3::new(node[0], node[1], angle * k as f64 / count);
-        let error = (poses.fixed_rows::<3>(3 * k) - expected).amax();
-        assert!(error < 1e-11, "{elements} elements, {angle} rad, node {k}: {error:e}");
+    for (node, expected) in rolled_up(elements, angle).into_iter().enumerate() {
+        let error = (poses.fixed_rows::<3>(3 * (node + 1)) - Vector3::from(expected)).amax();
+        assert!(error < 1e-11, "{elements} elements, {angle} rad, node {node}: {error:e}");
     }
     for local in gap.local(&u) {
         assert!(
