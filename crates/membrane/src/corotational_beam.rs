@@ -1,9 +1,9 @@
 //! The co-rotational Euler–Bernoulli beam element.
 
-use geometry::Vec2;
+use geometry::{OutOfRange, Vec2};
 use nalgebra::{SMatrix, SVector};
 
-use crate::section::{InvalidMembrane, positive};
+use crate::section::positive;
 
 /// Poses of the two ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or the forces on them.
 pub type Ends = SVector<f64, 6>;
@@ -103,7 +103,7 @@ impl CorotationalBeam {
         length: f64,
         axial_stiffness: f64,
         bending_stiffness: f64,
-    ) -> Result<Self, InvalidMembrane> {
+    ) -> Result<Self, OutOfRange> {
         Ok(Self {
             length: positive("length of an element", length)?,
             axial_stiffness: positive("axial stiffness", axial_stiffness)?,

@@ -1,12 +1,10 @@
 //! The membrane in one gap.
 
-use geometry::Vec2;
+use geometry::{OutOfRange, Vec2};
 use nalgebra::{DMatrix, DVector};
 
 use crate::section::positive;
-use crate::{
-    CorotationalBeam, Ends, InvalidMembrane, Local, OffsetBeam, Response, RigidArm, Section,
-};
+use crate::{CorotationalBeam, Ends, Local, OffsetBeam, Response, RigidArm, Section};
 
 /// Where the membrane of a gap is held, undeformed; lengths over `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,17 +65,12 @@ impl GapMembrane {
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, the offset not finite, or there
     /// is no element.
-    pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, InvalidMembrane> {
-        if elements == 0 {
-            return Err(InvalidMembrane {
-                quantity: "number of elements per gap",
-                value: 0.0,
-                expected: "at least 1",
-            });
-        }
+    pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, OutOfRange> {
+        let count = elements as f64;
+        OutOfRange::unless(elements > 0, "number of elements per gap", count, "at least 1")?;
         check(&span)?;
         let beam = CorotationalBeam::new(
-            span.gap / elements as f64,
+            span.gap / count,
             section.axial_stiffness(),
             section.bending_stiffness(),
         )?;
@@ -209,23 +202,16 @@ fn entries(u: &DVector<f64>, k: usize) -> Ends {
     u.fixed_rows::<6>(3 * k).into_owned()
 }
 
-/// Refuses a span that no membrane can bridge.
-fn check(span: &Span) -> Result<(), InvalidMembrane> {
-    positive("gap", span.gap)?;
-    let Span { half_base, axis_offset, .. } = *span;
-    if !(half_base >= 0.0 && half_base.is_finite()) {
-        return Err(InvalidMembrane {
-            quantity: "half-width of the base",
-            value: half_base,
-            expected: "a length of at least 0",
-        });
-    }
-    if !axis_offset.is_finite() {
-        return Err(InvalidMembrane {
-            quantity: "offset of the membrane's axis",
-            value: axis_offset,
-            expected: "a finite length",
-        });
-    }
-    Ok(())
+/// Returns an error if no membrane can bridge `span`.
+fn check(span: &Span) -> Result<(), OutOfRange> {
+    let Span { half_base, gap, axis_offset } = *span;
+    positive("gap", gap)?;
+    OutOfRange::unless(
+        half_base >= 0.0 && half_base.is_finite(),
+        "half-width of the base",
+        half_base,
+        "a length of at least 0",
+    )?;
+    let axis = "offset of the membrane's axis";
+    OutOfRange::unless(axis_offset.is_finite(), axis, axis_offset, "a finite length")
 }

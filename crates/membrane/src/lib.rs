@@ -34,7 +34,7 @@
 //! let response = gap.response(&turned);
 //! assert!(response.bending_energy > 0.0 && response.axial_energy > 0.0);
 //! assert!((response.force[1] + response.force[4]).abs() < 1e-15);
-//! # Ok::<(), membrane::InvalidMembrane>(())
+//! # Ok::<(), geometry::OutOfRange>(())
 //! ```
 
 mod corotational_beam;
@@ -45,7 +45,7 @@ mod section;
 pub use corotational_beam::{CorotationalBeam, Ends, Local, Response, Stiffness};
 pub use gap::{GapMembrane, GapResponse, Span};
 pub use rigid_arm::{OffsetBeam, RigidArm};
-pub use section::{InvalidMembrane, Section};
+pub use section::Section;
 
 /// Position and rotation `(x, y, φ)` of a scale or of a node of the membrane.
 pub type Pose = nalgebra::Vector3<f64>;

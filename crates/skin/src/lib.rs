@@ -52,5 +52,5 @@ pub mod puncture;
 
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
-pub use imperfection::{Imperfection, InvalidImperfection, Sample};
+pub use imperfection::{Imperfection, Sample};
 pub use invalid::InvalidDesign;

@@ -8,7 +8,7 @@ mod system;
 mod tests;
 
 use contact::{ContactLaw, Law};
-use geometry::Row;
+use geometry::{OutOfRange, Row};
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
@@ -148,20 +148,8 @@ impl Rows<'_> {
     }
 }
 
-/// A number that no puncture can have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidPuncture {
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// What would be right.
-    pub expected: &'static str,
-}
-
 impl Parameters {
-    fn check(&self) -> Result<(), InvalidPuncture> {
+    fn check(&self) -> Result<(), OutOfRange> {
         let scales = match self.scales {
             RowLength::Auto => 1.0,
             RowLength::Scales(scales) => scales as f64,
@@ -175,9 +163,7 @@ impl Parameters {
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
         match rules.into_iter().find(|(holds, ..)| !holds) {
-            Some((_, quantity, value, expected)) => {
-                Err(InvalidPuncture { quantity, value, expected })
-            }
+            Some((_, quantity, value, expected)) => Err(OutOfRange { quantity, value, expected }),
             None => Ok(()),
         }
     }

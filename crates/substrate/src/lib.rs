@@ -40,6 +40,7 @@
 //! ```
 
 pub mod boundary_element;
+mod cache;
 mod calibrations;
 mod footprint;
 pub mod half_space;
@@ -49,6 +50,6 @@ mod springs;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
-pub use footprint::{Footprint, InvalidFootprint};
+pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};

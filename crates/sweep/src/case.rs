@@ -1,9 +1,10 @@
 //! Everything that one design of a sweep is solved with.
 
+use geometry::OutOfRange;
 use skin::flexure;
 use skin::puncture;
 use skin::{Base, Design, Imperfection};
-use substrate::{Coupling, Footprint, InvalidFootprint};
+use substrate::{Coupling, Footprint};
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +37,7 @@ impl Case {
     ///
     /// # Errors
     /// If the lengths of the design are too far apart for their ratios to be an `f64`.
-    pub fn footprint(&self) -> Result<Footprint, InvalidFootprint> {
+    pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
         self.design.footprint(self.puncture.poisson_ratio)
     }
 

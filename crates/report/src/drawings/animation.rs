@@ -1,6 +1,6 @@
 //! A path that plays: one page, every frame a solved equilibrium.
 
-use geometry::InvalidGeometry;
+use geometry::OutOfRange;
 
 use super::{CAPTION, Flexure, Frames, MARGIN, Puncture, WIDTH};
 use crate::label::{Anchor, label, plain};
@@ -15,7 +15,7 @@ impl Puncture<'_> {
     ///
     /// # Errors
     /// If the design is none.
-    pub fn animation(&self) -> Result<String, InvalidGeometry> {
+    pub fn animation(&self) -> Result<String, OutOfRange> {
         Ok(page(&self.title(), self.frames()?))
     }
 }
@@ -25,7 +25,7 @@ impl Flexure<'_> {
     ///
     /// # Errors
     /// If the design is none.
-    pub fn animation(&self) -> Result<String, InvalidGeometry> {
+    pub fn animation(&self) -> Result<String, OutOfRange> {
         Ok(page(&self.title(), self.frames()?))
     }
 }

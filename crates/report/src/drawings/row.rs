@@ -1,7 +1,7 @@
 //! A row of scales on its substrate, at rest and punctured.
 
 use contact::Pose;
-use geometry::{Corner, InvalidGeometry, Row};
+use geometry::{Corner, OutOfRange, Row};
 use skin::Design;
 use skin::puncture::{ScaleState, Snapshot};
 
@@ -44,7 +44,7 @@ impl Puncture<'_> {
     ///
     /// # Errors
     /// If the design is none.
-    pub fn svg(&self) -> Result<String, InvalidGeometry> {
+    pub fn svg(&self) -> Result<String, OutOfRange> {
         let sheet = Sheet::new(self)?;
         // The row without a load is drawn once.
         let loaded = self.states.iter().filter(|state| state.force != 0.0);
@@ -57,7 +57,7 @@ impl Puncture<'_> {
         format!("{}: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
+    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
         let sheet = Sheet::new(self)?;
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
         Ok(Frames::new(self.states.iter().map(|state| sheet.state(state, free)).collect()))
@@ -84,7 +84,7 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn new(puncture: &Puncture) -> Result<Self, InvalidGeometry> {
+    fn new(puncture: &Puncture) -> Result<Self, OutOfRange> {
         let row = puncture.design.row()?;
         let states = puncture.states;
         let (first, last) = window(&row, states);

@@ -1,7 +1,7 @@
 //! A strip of membrane with scales, bent.
 
 use contact::Pose;
-use geometry::{InvalidGeometry, Row};
+use geometry::{OutOfRange, Row};
 use skin::flexure::Snapshot;
 use skin::{Contact, Design};
 
@@ -39,7 +39,7 @@ impl Flexure<'_> {
     ///
     /// # Errors
     /// If the design is none.
-    pub fn svg(&self) -> Result<String, InvalidGeometry> {
+    pub fn svg(&self) -> Result<String, OutOfRange> {
         let row = self.design.row()?;
         let panels = self.states.iter().map(|state| self.panel(&row, state)).collect();
         Ok(stacked(&self.title(), panels))
@@ -49,7 +49,7 @@ impl Flexure<'_> {
         format!("{}, bending: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
+    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
         let row = self.design.row()?;
         Ok(Frames::new(self.states.iter().map(|state| self.panel(&row, state)).collect()))
     }
