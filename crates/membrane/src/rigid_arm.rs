@@ -4,7 +4,7 @@ use geometry::Vec2;
 use nalgebra::Matrix3;
 
 use crate::corotational_beam::{CorotationalBeam, Ends, Response, Stiffness};
-use crate::{Local, Pose};
+use crate::{Local, NodePose};
 
 /// A point rigidly attached to a body.
 ///
@@ -41,9 +41,9 @@ impl RigidArm {
     }
 
     /// Returns the pose of the attached point (M10).
-    pub fn attached(&self, body: &Pose) -> Pose {
+    pub fn attached(&self, body: &NodePose) -> NodePose {
         let lever = self.lever(body[2]);
-        Pose::new(body[0] + lever.x, body[1] + lever.y, body[2])
+        NodePose::new(body[0] + lever.x, body[1] + lever.y, body[2])
     }
 
     /// Returns the gradient of the attached pose with respect to the pose of the body (M11): row by component.

@@ -243,7 +243,7 @@ impl Equations {
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
-            let mut columns = Columns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
                 equations.fill_row(i * depth + k, mesh, x, poisson_ratio, &mut columns);
             }
@@ -258,7 +258,7 @@ impl Equations {
         mesh: &Mesh,
         x: f64,
         poisson_ratio: f64,
-        columns: &mut Columns,
+        columns: &mut CellColumns,
     ) {
         let (mut right, mut left) = (Vec::new(), Vec::new());
         for axis in mesh.across() {
@@ -276,13 +276,13 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct Columns {
+struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
 }
 
-impl Columns {
+impl CellColumns {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
     fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
