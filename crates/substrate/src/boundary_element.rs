@@ -24,7 +24,7 @@ use faer::{ColRef, Mat, Par, Spec};
 
 use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
-use crate::mesh::{Axis, Mesh};
+use crate::mesh::{GradedAxis, Mesh};
 
 /// A row of rectangles that double precision cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -179,12 +179,12 @@ impl Mesh {
     }
 
     /// Returns the axes along `x`, in the order of the unknowns: column by column, `z` fastest.
-    fn across(&self) -> impl Iterator<Item = &Axis> + Clone {
+    fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
 
     fn unknowns(&self) -> usize {
-        self.across().map(Axis::cells).sum::<usize>() * self.depth.cells()
+        self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
     /// Returns a column for each load: the displacements that it imposes.
@@ -208,14 +208,14 @@ impl Mesh {
 
     /// Returns `∬ p arm(x)` over the neighbour `k`, from 0, twice that over its half.
     fn neighbour_sum(&self, k: usize, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
-        let before = self.across().take(k + 1).map(Axis::cells).sum::<usize>();
+        let before = self.across().take(k + 1).map(GradedAxis::cells).sum::<usize>();
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
     /// Returns `∬ p arm(x)` over the meshed part of a rectangle whose first unknown is `first`.
     fn sum(
         &self,
-        axis: &Axis,
+        axis: &GradedAxis,
         first: usize,
         tractions: ColRef<'_, f64>,
         arm: impl Fn(f64) -> f64,
@@ -241,9 +241,9 @@ impl Equations {
         let mut equations =
             Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
         let depth = mesh.depth.cells();
-        let fields: Vec<f64> = mesh.across().flat_map(Axis::points).copied().collect();
+        let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
-            let mut columns = Columns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
                 equations.fill_row(i * depth + k, mesh, x, poisson_ratio, &mut columns);
             }
@@ -258,7 +258,7 @@ impl Equations {
         mesh: &Mesh,
         x: f64,
         poisson_ratio: f64,
-        columns: &mut Columns,
+        columns: &mut CellColumns,
     ) {
         let (mut right, mut left) = (Vec::new(), Vec::new());
         for axis in mesh.across() {
@@ -276,20 +276,20 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct Columns {
+struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
 }
 
-impl Columns {
+impl CellColumns {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
     fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// Appends, column by column, the influence of the cells between the `offsets`; negative where
+    /// Returns the appends, column by column, the influence of the cells between the `offsets`; negative where
     /// they descend.
     fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
         let half = self.line.len() / 2;

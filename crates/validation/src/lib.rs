@@ -15,7 +15,7 @@
 //! | [`claims()`], [`Claim`], [`CheckedClaim`] | the statements of the paper, and their verdicts |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
-//! | [`Validation`], [`Progress`] | all parts, one after the other, and the page in Markdown |
+//! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
 //! ```
 //! for benchmark in validation::benchmarks()? {
@@ -62,7 +62,7 @@ pub struct Validation {
 
 /// The part of a validation that begins now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress<'a> {
+pub struct PartProgress<'a> {
     /// The number of parts that are done.
     pub done: usize,
     /// The number of all parts.
@@ -76,13 +76,13 @@ impl Validation {
     ///
     /// # Errors
     /// If a benchmark has no result or the temporary folder cannot be written.
-    pub fn run(mut progress: impl FnMut(Progress<'_>)) -> Result<Self, ValidationError> {
+    pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
         // Benchmarks, two sweeps, claims, and a part for each setting.
         let parts = 2 + SWEEPS.len() + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
-            progress(Progress { done, parts, part });
+            progress(PartProgress { done, parts, part });
             done += 1;
         };
         begin("benchmarks");

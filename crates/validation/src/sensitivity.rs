@@ -97,12 +97,12 @@ pub(crate) fn settings() -> Result<Vec<OpenSetting>, ValidationError> {
 }
 
 /// The value of each open parameter, by its key.
-type Values = Vec<(&'static str, sweep::Scalar)>;
+type OpenValues = Vec<(&'static str, sweep::Scalar)>;
 
 /// Returns every combination of the values of the axes, the last axis fastest.
-fn combinations(axes: &[&Axis]) -> Vec<Values> {
+fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     axes.iter().fold(vec![Vec::new()], |known, axis| {
-        let longer = known.iter().flat_map(|values: &Values| {
+        let longer = known.iter().flat_map(|values: &OpenValues| {
             (0..axis.len()).map(|index| {
                 let mut longer = values.clone();
                 longer.push((axis.parameter().key, axis.value(index)));

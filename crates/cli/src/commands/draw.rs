@@ -83,7 +83,7 @@ impl Drawing<'_> {
         };
         let states = self.puncture_states(&at)?;
         let name = self.name();
-        let drawing = drawings::Puncture {
+        let drawing = drawings::PunctureDrawing {
             name: &name,
             design: &case.design,
             load_position: case.puncture.load_position,
@@ -139,7 +139,7 @@ impl Drawing<'_> {
         };
         let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
         let name = self.name();
-        let drawing = drawings::Flexure {
+        let drawing = drawings::FlexureDrawing {
             name: &name,
             design: &self.case.design,
             membrane_thickness: parameters.membrane_thickness,

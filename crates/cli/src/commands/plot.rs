@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::bail;
-use report::{Solved, curves, figures};
+use report::{SolvedDesign, curves, figures};
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
 use sweep::{Case, DesignNumber, Sweep};
@@ -51,7 +51,7 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
     let shown: Vec<_> = solved
         .iter()
         .zip(&chosen)
-        .map(|((puncture, flexure), (number, case))| Solved {
+        .map(|((puncture, flexure), (number, case))| SolvedDesign {
             number: number.to_string(),
             design: &case.design,
             puncture: Some(puncture),

@@ -29,6 +29,6 @@ fn punctured(design: &Design, modulus: f64) -> Vec<Snapshot> {
 }
 
 fn svg(design: &Design, states: &[Snapshot]) -> String {
-    let drawing = drawings::Puncture { name: "test", design, load_position: 1.0, states };
+    let drawing = drawings::PunctureDrawing { name: "test", design, load_position: 1.0, states };
     drawing.svg().expect("a drawing")
 }
