@@ -146,13 +146,13 @@ pub struct Work {
     pub quiet: bool,
 }
 
-/// How tables are written.
+/// The format of the tables.
 #[derive(Debug, Args)]
 pub struct Format {
     /// How the tables are written: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,`
     /// and a byte-order mark) [default: as they were before, or plain]
-    #[arg(long, value_name = "DIALECT")]
-    pub csv: Option<results::Dialect>,
+    #[arg(long, value_name = "FORMAT")]
+    pub csv: Option<results::CsvFormat>,
 }
 
 /// Arguments of `squama rerun`.
@@ -185,7 +185,7 @@ pub struct Rerun {
 
     /// Designs with this value in a column of designs.csv (may be repeated: all must hold)
     #[arg(long = "where", value_name = "COLUMN=VALUE", group = "which")]
-    pub conditions: Vec<run::Condition>,
+    pub conditions: Vec<run::ColumnFilter>,
 
     /// Set a key of the definition for these designs, e.g. `solver.max_step=0.01` (may be repeated)
     #[arg(long = "set", value_name = "KEY=VALUE")]

@@ -1,4 +1,4 @@
-//! Where two runs differ, and by how much.
+//! The comparison of two runs: where they differ, and by how much.
 
 mod columns;
 mod correlation;
@@ -27,7 +27,7 @@ pub struct Comparison<'r> {
     matching: Matching,
     /// Columns of both, with their places in the one and in the other.
     places: Vec<[usize; 2]>,
-    /// What differs in each column of both.
+    /// The differences in each column that both runs have.
     pub columns: Vec<ColumnDifference>,
 }
 
@@ -52,7 +52,7 @@ pub enum InvalidComparison {
     },
 }
 
-/// How the values of one column differ.
+/// The differences between the values of one column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ColumnDifference {
     /// The column.
@@ -85,13 +85,13 @@ impl ColumnDifference {
 /// The largest difference of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// How large it is.
+    /// The size of the difference.
     pub difference: f64,
     /// Number of the design in the first run.
     pub design: String,
-    /// Its value in the first run.
+    /// The value in the first run.
     pub first: f64,
-    /// Its value in the second run.
+    /// The value in the second run.
     pub second: f64,
 }
 
@@ -242,15 +242,15 @@ impl Comparison<'_> {
     /// # Errors
     /// If the folder or the disk does not take them.
     fn write(&self, folder: &Path) -> Result<[&'static str; 2], OutputError> {
-        let place = RunFolder::new(folder);
-        place.make()?;
+        let folder = RunFolder::new(folder);
+        folder.make()?;
         let [by_column, by_cell] = RunFolder::COMPARISON;
-        let dialect = self.first.dialect();
-        write_rows(folder, by_column, dialect, comparison_columns(), &self.columns)?;
+        let format = self.first.format();
+        write_rows(&folder, by_column, format, comparison_columns(), &self.columns)?;
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
-        write_rows(folder, by_cell, dialect, &columns, self.differences())?;
-        place.sync();
+        write_rows(&folder, by_cell, format, &columns, self.differences())?;
+        folder.sync();
         Ok(RunFolder::COMPARISON)
     }
 }

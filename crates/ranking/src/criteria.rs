@@ -11,7 +11,7 @@ use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 /// A criterion: a column of the tables, and which of its values are good.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Criterion {
-    /// Its name in words.
+    /// The name of the criterion in words.
     pub name: &'static str,
     /// The column that it is made from.
     pub column: &'static str,
@@ -54,7 +54,7 @@ pub enum InvalidWeights {
         "{found} weights, expected 4: coverage, critical force, penetration resistance, flexural compliance"
     )]
     Count {
-        /// How many.
+        /// The number of weights.
         found: usize,
     },
     /// They do not sum to 1.

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 /// A point as its four criteria, larger being better.
 pub(crate) type Criteria = [f64; 4];
 
-/// Which of `points` no other dominates. Coordinates are finite, larger is better.
+/// Marks which of `points` no other dominates. Coordinates are finite, larger is better.
 ///
 /// ```text
 /// p dominates q  ⇔  p_c ≥ q_c for every criterion c, and p_c > q_c for one          (R6)

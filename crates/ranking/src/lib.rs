@@ -6,7 +6,7 @@
 //! | Type | Role |
 //! |---|---|
 //! | [`CRITERIA`], [`Weights`] | what is good, and how much each counts |
-//! | [`Ranking`], [`Standing`] | the designs in the order of their fitness |
+//! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
@@ -24,7 +24,7 @@ pub use compare::{
 pub use criteria::{CRITERIA, Criterion, InvalidWeights, Weights};
 pub use front::pareto_front;
 pub use ranking::{
-    InvalidRanking, LeftOut, Ranking, Standing, pareto_columns, quaternary_columns,
+    InvalidRanking, LeftOut, RankedDesign, Ranking, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns, write_ranking,
 };
 pub use tetrahedral_grid::{InvalidResolution, Steps, TetrahedralGrid};

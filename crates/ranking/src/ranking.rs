@@ -1,4 +1,4 @@
-//! Which designs are best: by weighted fitness, for all weights, and without any.
+//! The ranking of designs: by weighted fitness, for all weights, and without any.
 
 mod columns;
 
@@ -27,13 +27,13 @@ pub struct Ranking<'r> {
 /// A design that can be ranked.
 #[derive(Clone, Debug)]
 pub(crate) struct Candidate {
-    /// Its row in the results.
+    /// The row of the design in the results.
     pub row: usize,
     /// The values that the criteria are made from.
     pub values: Criteria,
     /// The criteria, larger being better (R1).
     criteria: Criteria,
-    /// The same from 0, the worst, to 1, the best.
+    /// The criteria from 0, the worst, to 1, the best.
     pub rescaled: Criteria,
     logs: Criteria,
     /// Whether no other design beats it in every criterion.
@@ -43,10 +43,10 @@ pub(crate) struct Candidate {
     won: u64,
 }
 
-/// Why a design is not ranked: the first of these that holds.
+/// The reason why a design is not ranked: the first of these that holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum LeftOut {
-    /// It leaves the substrate exposed.
+    /// The design leaves the substrate exposed.
     Exposed,
     /// A criterion (its place among [`CRITERIA`]) has no value.
     Missing(usize),
@@ -75,7 +75,7 @@ pub enum InvalidRanking {
     Nothing {
         /// The table.
         file: String,
-        /// How many designs are left out why.
+        /// The number of designs that are left out for each reason.
         reasons: String,
     },
 }
@@ -86,7 +86,7 @@ fn columns() -> String {
 
 /// A design at some weights: a row of the tables.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing<'a> {
+pub struct RankedDesign<'a> {
     pub(crate) results: &'a Results,
     pub(crate) candidate: &'a Candidate,
     whole: u64,
@@ -98,13 +98,13 @@ pub struct Standing<'a> {
     pub rank: usize,
 }
 
-impl<'a> Standing<'a> {
-    /// Its row in the results.
+impl<'a> RankedDesign<'a> {
+    /// The row of the design in the results.
     pub fn row(&self) -> usize {
         self.candidate.row
     }
 
-    /// Its number.
+    /// The number of the design.
     pub fn design(&self) -> &'a str {
         self.results.design(self.candidate.row)
     }
@@ -114,12 +114,12 @@ impl<'a> Standing<'a> {
         self.candidate.values
     }
 
-    /// Its criteria, larger being better (R1), in the order of [`CRITERIA`].
+    /// The criteria of the design, larger being better (R1), in the order of [`CRITERIA`].
     pub fn criteria(&self) -> [f64; 4] {
         self.candidate.criteria
     }
 
-    /// Its part of the tetrahedron of weights: where it is the best.
+    /// The part of the tetrahedron of weights in which the design is the best.
     pub fn share(&self) -> f64 {
         self.candidate.won as f64 / self.whole as f64
     }
@@ -129,7 +129,7 @@ impl<'a> Standing<'a> {
         self.candidate.on_front
     }
 
-    /// Its criteria from 0, the worst of the designs that are ranked, to 1, the best.
+    /// The criteria of the design from 0, the worst of the designs that are ranked, to 1, the best.
     pub fn rescaled(&self) -> [f64; 4] {
         self.candidate.rescaled
     }
@@ -158,7 +158,7 @@ impl<'r> Ranking<'r> {
         Ok(Self { results, grid, candidates, winners, left_out })
     }
 
-    /// How many designs are ranked.
+    /// The number of designs that are ranked.
     #[expect(clippy::len_without_is_empty, reason = "a ranking is never empty")]
     pub fn len(&self) -> usize {
         self.candidates.len()
@@ -169,7 +169,7 @@ impl<'r> Ranking<'r> {
         self.grid
     }
 
-    /// How many designs are left out why.
+    /// The number of designs that are left out for each reason.
     pub fn left_out(&self) -> &BTreeMap<LeftOut, usize> {
         &self.left_out
     }
@@ -183,7 +183,7 @@ impl<'r> Ranking<'r> {
     }
 
     /// All designs by fitness, the best first; equal ones in the order of their numbers.
-    pub fn by_fitness(&self, weights: Weights) -> Vec<Standing<'_>> {
+    pub fn by_fitness(&self, weights: Weights) -> Vec<RankedDesign<'_>> {
         let mut order: Vec<_> = self
             .candidates
             .iter()
@@ -192,44 +192,44 @@ impl<'r> Ranking<'r> {
         // Stable, and candidates stand in the order of their numbers.
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
         let ranked = order.into_iter().enumerate();
-        ranked.map(|(i, (_, candidate))| self.standing(candidate, weights, i + 1)).collect()
+        ranked.map(|(i, (_, candidate))| self.ranked(candidate, weights, i + 1)).collect()
     }
 
     /// The best design by `weights`.
-    pub fn winner(&self, weights: Weights) -> Standing<'_> {
-        self.standing(&self.candidates[best(&self.candidates, weights)], weights, 1)
+    pub fn winner(&self, weights: Weights) -> RankedDesign<'_> {
+        self.ranked(&self.candidates[best(&self.candidates, weights)], weights, 1)
     }
 
     /// The designs that no other beats in every criterion, in the order of their numbers.
-    pub fn front(&self) -> Vec<Standing<'_>> {
+    pub fn front(&self) -> Vec<RankedDesign<'_>> {
         let front = self.candidates.iter().filter(|candidate| candidate.on_front);
-        front.map(|candidate| self.standing(candidate, Weights::BALANCED, 0)).collect()
+        front.map(|candidate| self.ranked(candidate, Weights::BALANCED, 0)).collect()
     }
 
     /// The designs that are best for some weights of the grid, the largest share first.
-    pub fn winners(&self) -> Vec<Standing<'_>> {
+    pub fn winners(&self) -> Vec<RankedDesign<'_>> {
         let mut winners: Vec<_> = self.candidates.iter().filter(|c| c.nodes > 0).collect();
         winners.sort_by_key(|candidate| std::cmp::Reverse(candidate.won));
-        winners.into_iter().map(|winner| self.standing(winner, Weights::BALANCED, 0)).collect()
+        winners.into_iter().map(|winner| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 
     /// The best design at every node of the grid of weights.
-    pub fn quaternary(&self) -> Vec<Standing<'_>> {
+    pub fn quaternary(&self) -> Vec<RankedDesign<'_>> {
         let at = |(steps, &winner): (Steps, &usize)| {
-            self.standing(&self.candidates[winner], Weights::at(self.grid, steps), 1)
+            self.ranked(&self.candidates[winner], Weights::at(self.grid, steps), 1)
         };
         self.grid.nodes().zip(&self.winners).map(at).collect()
     }
 
-    fn standing<'a>(
+    fn ranked<'a>(
         &'a self,
         candidate: &'a Candidate,
         weights: Weights,
         rank: usize,
-    ) -> Standing<'a> {
+    ) -> RankedDesign<'a> {
         let fitness = weights.log_fitness(&candidate.logs).exp();
         let whole = self.grid.whole();
-        Standing { results: self.results, candidate, whole, weights, fitness, rank }
+        RankedDesign { results: self.results, candidate, whole, weights, fitness, rank }
     }
 }
 
@@ -322,17 +322,17 @@ pub fn write_ranking(
     ranking: &Ranking<'_>,
     weights: Weights,
 ) -> Result<[&'static str; 4], OutputError> {
-    let place = RunFolder::new(folder);
-    place.make()?;
+    let folder = RunFolder::new(folder);
+    folder.make()?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
-    let dialect = ranking.results.dialect();
+    let format = ranking.results.format();
     let rows = ranking.by_fitness(weights);
-    write_rows(folder, by_fitness, dialect, &ranking_columns(&parameters), rows)?;
-    write_rows(folder, pareto, dialect, &pareto_columns(&parameters), ranking.front())?;
-    write_rows(folder, winners, dialect, &winner_columns(&parameters), ranking.winners())?;
+    write_rows(&folder, by_fitness, format, &ranking_columns(&parameters), rows)?;
+    write_rows(&folder, pareto, format, &pareto_columns(&parameters), ranking.front())?;
+    write_rows(&folder, winners, format, &winner_columns(&parameters), ranking.winners())?;
     let rows = ranking.quaternary();
-    write_rows(folder, quaternary, dialect, &quaternary_columns(&parameters), rows)?;
-    place.sync();
+    write_rows(&folder, quaternary, format, &quaternary_columns(&parameters), rows)?;
+    folder.sync();
     Ok(RunFolder::RANKING)
 }

@@ -28,7 +28,7 @@ pub type Steps = [u32; 4];
     TetrahedralGrid::FINEST
 )]
 pub struct InvalidResolution {
-    /// What was given.
+    /// The text that was given.
     pub found: String,
 }
 

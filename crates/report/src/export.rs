@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
 
-use results::{Dialect, OutputError, RunFolder, words};
+use results::{CsvFormat, OutputError, RunFolder, words};
 use sweep::reason;
 
 use sheet::{Guide, Sheet};
@@ -132,9 +132,9 @@ fn copy(
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<u32, ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (dialect, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let (format, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
-    let mut sheet = Sheet::new(workbook, table, dialect, &header).map_err(failed)?;
+    let mut sheet = Sheet::new(workbook, table, format, &header).map_err(failed)?;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         if sheet.rows() == ROWS {
@@ -148,11 +148,11 @@ fn copy(
     Ok(rows)
 }
 
-fn open(path: &Path) -> io::Result<(Dialect, csv::Reader<BufReader<File>>)> {
+fn open(path: &Path) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
     let mut file = BufReader::new(File::open(path)?);
-    let (dialect, start) = Dialect::of(file.fill_buf()?);
+    let (format, start) = CsvFormat::of(file.fill_buf()?);
     file.consume(start);
-    Ok((dialect, dialect.reader(file)))
+    Ok((format, format.reader(file)))
 }
 
 fn unwritable(folder: &RunFolder, name: &str, reason: &str) -> ExportError {

@@ -3,8 +3,8 @@
 //! The scripts of the page draw and rank, but the axes of its charts, the rescaled criteria and the Pareto front come from
 //! here, so that the page cannot differ from figures and tables.
 
+use ranking::{Ranking, Weights};
 use serde_json::{Map, Value, json};
-use sweep::{Ranking, Weights};
 
 use crate::axis::ChartAxis;
 use crate::designs::Designs;

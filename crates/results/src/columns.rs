@@ -5,11 +5,14 @@ mod path;
 mod samples;
 mod values;
 
+use std::borrow::Borrow;
+
 use sweep::{Axis, Measure, PARAMETERS, Parameter, Sweep};
 
-use crate::design::design_result::Record;
+use crate::design::design_result::DesignRow;
+use crate::design::failure::{FailureRow, failure_detail_columns};
 use crate::folder::RunFolder;
-use samples::SPREADS;
+use samples::SAMPLE_VALUES;
 use values::VALUES;
 
 pub use cell::Cell;
@@ -18,18 +21,18 @@ pub use path::{
     STEPS,
 };
 
-/// A column of a table whose rows are made from `R`.
+/// A column of a table whose rows are `R`.
 pub struct Column<R> {
-    /// Its header.
+    /// The header of the column.
     pub name: &'static str,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// What it holds, in half a sentence.
+    /// The meaning of its cells, in half a sentence.
     pub meaning: &'static str,
     cell: Source<R>,
 }
 
-/// How the cell of a row is found.
+/// The function that makes the cell of a row.
 enum Source<R> {
     Value(fn(&R) -> Cell),
     Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
@@ -56,11 +59,11 @@ impl<R> Column<R> {
         }
     }
 
-    /// The cell of this column in the row of `record`.
-    pub fn cell(&self, record: &R) -> Cell {
+    /// The cell of this column in a row.
+    pub fn cell(&self, row: &R) -> Cell {
         match self.cell {
-            Source::Value(cell) => cell(record),
-            Source::Parameter(parameter, cell) => cell(record, parameter),
+            Source::Value(cell) => cell(row),
+            Source::Parameter(parameter, cell) => cell(row, parameter),
         }
     }
 }
@@ -85,12 +88,12 @@ pub fn parameter_of(name: &str) -> Option<&'static Parameter> {
 }
 
 /// A measured value, with the tables in which it stands besides `designs.csv`.
-struct Value {
+struct MeasuredValue {
     tables: &'static [&'static str],
     name: &'static str,
     unit: &'static str,
     meaning: &'static str,
-    cell: fn(&Record) -> Cell,
+    cell: fn(&DesignRow) -> Cell,
 }
 
 /// The tables of one measure, named by the value that they are about.
@@ -101,8 +104,8 @@ pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     ("compliance", Measure::Flexure),
 ];
 
-impl Value {
-    fn column(&self) -> Column<Record> {
+impl MeasuredValue {
+    fn column(&self) -> Column<DesignRow> {
         Column::new(self.name, self.unit, self.meaning, self.cell)
     }
 
@@ -113,27 +116,27 @@ impl Value {
 }
 
 /// The measured values of the designs of `sweep`.
-fn values(sweep: &Sweep) -> impl Iterator<Item = &'static Value> {
-    let spreads = if sweep.is_imperfect() { SPREADS } else { &[] };
-    VALUES.iter().chain(spreads)
+fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {
+    let samples = if sweep.is_imperfect() { SAMPLE_VALUES } else { &[] };
+    VALUES.iter().chain(samples)
 }
 
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let value = VALUES.iter().find(|value| value.name == name)?;
+    let value = VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)?;
     Some((value.unit, value.meaning))
 }
 
-/// A table: the name of its file, and its columns.
-pub struct TableLayout<R> {
+/// The layout of a table: the name of its file, and its columns.
+pub struct TableLayout {
     /// Name of the file.
     pub file: String,
     /// Columns, from the left.
-    pub columns: Vec<Column<R>>,
+    pub columns: Vec<Column<DesignRow>>,
 }
 
 /// The tables of `sweep`: `designs.csv`, and those of the measures that it asks for.
-pub fn tables(sweep: &Sweep) -> Vec<TableLayout<Record>> {
+pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
     let asked = MEASURE_TABLES.iter().filter(|(_, measure)| sweep.measures().contains(measure));
     let mut tables =
         vec![TableLayout { file: RunFolder::DESIGNS.to_owned(), columns: design_columns(sweep) }];
@@ -146,35 +149,55 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout<Record>> {
 
 /// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
 /// imperfections have.
-pub fn design_columns(sweep: &Sweep) -> Vec<Column<Record>> {
+pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
-    assemble(sweep, leading, others)
+    assemble(sweep, &leading, &others)
 }
 
-fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<Record>> {
-    let belongs = |value: &&Value| value.tables.contains(&table);
+fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
+    let belongs = |value: &&MeasuredValue| value.tables.contains(&table);
     let (leading, others): (Vec<_>, Vec<_>) =
         values(sweep).filter(belongs).partition(|value| value.name == table);
-    assemble(sweep, leading, others)
+    assemble(sweep, &leading, &others)
 }
 
-/// The columns that say which design a row is about.
-pub fn identity_columns(sweep: &Sweep) -> Vec<Column<Record>> {
-    assemble(sweep, Vec::new(), Vec::new())
-}
-
-/// Number and design, the leading values, the axes that not every sweep has, the other values.
-fn assemble(sweep: &Sweep, leading: Vec<&Value>, others: Vec<&Value>) -> Vec<Column<Record>> {
-    let parameter = |parameter| {
-        Column::parameter(parameter, |r: &Record, parameter| parameter.get(&r.case).into())
-    };
-    let geometry = ["gap_over_t", "length_over_t", "slant_deg"];
-    let mut columns = vec![number(|r: &Record| r.number.to_string().into())];
-    columns.extend(geometry.into_iter().filter_map(Parameter::named).map(parameter));
-    columns.extend(leading.into_iter().map(Value::column));
-    let axes = sweep.grid().axes().iter().map(Axis::parameter);
-    let extra = axes.filter(|parameter| !geometry.contains(&parameter.key));
-    columns.extend(extra.map(parameter));
-    columns.extend(others.into_iter().map(Value::column));
+/// The columns of `failures.csv`.
+pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
+    let mut columns = geometry_columns();
+    columns.extend(axis_columns(sweep));
+    columns.extend(failure_detail_columns());
     columns
+}
+
+/// Number and geometry, the leading values, the axes that not every sweep has, the other values.
+fn assemble(
+    sweep: &Sweep,
+    leading: &[&MeasuredValue],
+    others: &[&MeasuredValue],
+) -> Vec<Column<DesignRow>> {
+    let mut columns = geometry_columns();
+    columns.extend(leading.iter().map(|value| value.column()));
+    columns.extend(axis_columns(sweep));
+    columns.extend(others.iter().map(|value| value.column()));
+    columns
+}
+
+/// The axes that every grid has.
+const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
+
+/// The columns of the number of a design and of its geometry.
+fn geometry_columns<R: Borrow<DesignRow>>() -> Vec<Column<R>> {
+    let mut columns = vec![number(|row: &R| row.borrow().number.to_string().into())];
+    columns.extend(GEOMETRY.into_iter().filter_map(Parameter::named).map(parameter_column));
+    columns
+}
+
+/// The columns of the axes of `sweep` that not every grid has.
+fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Column<R>> {
+    let axes = sweep.grid().axes().iter().map(Axis::parameter);
+    axes.filter(|parameter| !GEOMETRY.contains(&parameter.key)).map(parameter_column)
+}
+
+fn parameter_column<R: Borrow<DesignRow>>(parameter: &'static Parameter) -> Column<R> {
+    Column::parameter(parameter, |row, parameter| parameter.get(&row.borrow().case).into())
 }

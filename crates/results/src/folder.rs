@@ -56,17 +56,17 @@ impl RunFolder {
         std::iter::once(Self::DESIGNS.to_owned()).chain(measures).chain(others)
     }
 
-    /// Where the folder is.
+    /// The path of the folder.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Where the file `name` of this folder is.
+    /// The path of the file `name` in this folder.
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }
 
-    /// Where the journal is.
+    /// The path of the journal.
     pub fn journal(&self) -> PathBuf {
         self.file(Self::JOURNAL)
     }

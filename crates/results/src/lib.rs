@@ -12,19 +12,19 @@ mod design;
 mod folder;
 mod path_tables;
 mod reader;
-pub mod row;
 mod tables;
 
-pub use columns::Column;
 pub use columns::cell::Cell;
-pub use design::design_result::{FlexureRecord, PunctureRecord, Record, Solved};
-pub use design::failure::{FAILURES, Failure, SEPARATOR};
-pub use design::failure::{names as failure_names, rows as failure_rows};
+pub use columns::{Column, failure_columns};
+pub use design::design_result::{
+    DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
+};
+pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
 pub use design::outcome::Outcome;
-pub use design::rerun_change::{Change, RERUN_COLUMNS};
-pub use design::sample_statistics::{Spread, Spreads};
+pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
+pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};
-pub use path_tables::write_course;
+pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
-pub use tables::csv_file::{Table, write_rows, write_table};
-pub use tables::csv_format::{Dialect, NoDialect};
+pub use tables::csv_file::{CsvFile, write_rows};
+pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

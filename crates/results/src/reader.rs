@@ -7,7 +7,7 @@ use crate::columns::parameter_of;
 use sweep::{Parameter, Sweep, number, reason};
 
 use crate::folder::RunFolder;
-use crate::tables::csv_format::Dialect;
+use crate::tables::csv_format::CsvFormat;
 
 /// The first column of that table.
 const NUMBER: &str = "design";
@@ -16,7 +16,7 @@ const NUMBER: &str = "design";
 #[derive(Clone, Debug)]
 pub struct Results {
     folder: PathBuf,
-    dialect: Dialect,
+    format: CsvFormat,
     header: Vec<String>,
     rows: Vec<csv::StringRecord>,
     parameters: Vec<(&'static Parameter, usize)>,
@@ -31,7 +31,7 @@ pub enum InvalidResults {
     Unreadable {
         /// The table.
         file: String,
-        /// What the system says.
+        /// The message of the system.
         reason: String,
     },
     /// The table is not one of designs.
@@ -71,7 +71,7 @@ impl Results {
     /// If there is no table of designs, or it cannot be read.
     pub fn read(folder: &Path) -> Result<Self, InvalidResults> {
         let path = folder.join(RunFolder::DESIGNS);
-        let (dialect, header, rows) = read_table(&path).map_err(|error| {
+        let (format, header, rows) = read_table(&path).map_err(|error| {
             InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
         })?;
         match header.first() {
@@ -86,7 +86,7 @@ impl Results {
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
         Ok(Self {
             folder: folder.to_owned(),
-            dialect,
+            format,
             parameters: parameters.collect(),
             header,
             rows,
@@ -102,14 +102,14 @@ impl Results {
         Self { rows, ..self.clone() }
     }
 
-    /// Where they stand.
+    /// The folder of the results.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
 
-    /// How the tables are written.
-    pub fn dialect(&self) -> Dialect {
-        self.dialect
+    /// The format of the tables.
+    pub fn format(&self) -> CsvFormat {
+        self.format
     }
 
     /// Name of the table of designs, for messages.
@@ -122,7 +122,7 @@ impl Results {
         self.definition.as_ref()
     }
 
-    /// How many designs there are.
+    /// The number of designs.
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
         self.rows.len()
@@ -185,28 +185,28 @@ impl Results {
 }
 
 /// A table: how it is written, its header, its rows.
-type Table = (Dialect, Vec<String>, Vec<csv::StringRecord>);
+type Table = (CsvFormat, Vec<String>, Vec<csv::StringRecord>);
 
 fn read_table(path: &Path) -> Result<Table, csv::Error> {
     let bytes = fs::read(path)?;
-    let (dialect, start) = Dialect::of(&bytes);
-    let mut table = dialect.reader(&bytes[start..]);
+    let (format, start) = CsvFormat::of(&bytes);
+    let mut table = format.reader(&bytes[start..]);
     let header = table.headers()?.iter().map(str::to_owned).collect();
-    let plain = |row: csv::StringRecord| match dialect {
-        Dialect::Plain => row,
-        Dialect::ExcelEu => row.iter().map(|cell| plain(dialect, cell)).collect(),
+    let plain = |row: csv::StringRecord| match format {
+        CsvFormat::Plain => row,
+        CsvFormat::ExcelEu => row.iter().map(|cell| plain(format, cell)).collect(),
     };
     let rows = table.records().map(|row| row.map(plain));
-    Ok((dialect, header, rows.collect::<Result<_, _>>()?))
+    Ok((format, header, rows.collect::<Result<_, _>>()?))
 }
 
-/// A cell as the plain dialect has it.
-fn plain(dialect: Dialect, cell: &str) -> String {
-    let decimal = dialect.number(cell).filter(|_| cell.contains(','));
+/// The text of a cell in the plain format.
+fn plain(format: CsvFormat, cell: &str) -> String {
+    let decimal = format.number(cell).filter(|_| cell.contains(','));
     decimal.map_or_else(|| cell.to_owned(), number::text)
 }
 
-/// What is wrong with a table, in one line.
+/// The error of a table that cannot be read, in one line.
 pub fn words(error: csv::Error) -> String {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => reason(&error),

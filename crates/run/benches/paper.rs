@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use run::{Options, Program, Start};
-use sweep::{Part, Sweep};
+use sweep::{Subset, Sweep};
 
 fn paper(c: &mut Criterion) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../sweeps/paper.toml");
@@ -17,10 +17,10 @@ fn paper(c: &mut Criterion) {
     let program = Program { version: "bench", revision: "bench" };
     let stop = AtomicBool::new(false);
     let tables_every = Duration::from_secs(30);
-    let options = Options { threads, dialect: None, fail_fast: false, tables_every, stop: &stop };
+    let options = Options { threads, format: None, fail_fast: false, tables_every, stop: &stop };
     let run = || {
-        let (part, start, folder) = (Part::default(), Start::Fresh, folder.path());
-        run::run(&sweep, part, folder, start, &options, &program, |_| ()).expect("a run")
+        let (subset, start, folder) = (Subset::default(), Start::Fresh, folder.path());
+        run::run(&sweep, subset, folder, start, &options, &program, |_| ()).expect("a run")
     };
     let mut group = c.benchmark_group("paper sweep");
     group.sample_size(10);

@@ -1,38 +1,39 @@
-//! Which designs of a run are meant: failed ones, some by number, those with certain values.
+//! Filters of the designs of a run: failed ones, some by number, those with certain values.
 
 use std::str::FromStr;
 
-use results::row;
+use results::columns::design_columns;
+use results::{Cell, Column, DesignRow};
 use sweep::{NoSuchDesign, nearest};
 
-use crate::journal::{Archive, Entry, JournalError};
+use crate::journal::{Archive, JournalEntry, JournalError};
 
-/// Which designs of a run are meant: those for which everything holds that is set.
+/// A filter of the designs of a run: those pass for which everything holds that is set.
 #[derive(Clone, Debug, Default)]
-pub struct Choice {
-    /// Those that lack a value.
+pub struct Filter {
+    /// Only designs that lack a value.
     pub failed: bool,
-    /// Those with these numbers.
+    /// Only designs with these numbers.
     pub numbers: Option<Vec<String>>,
-    /// Those whose rows in `designs.csv` have these values.
-    pub conditions: Vec<Condition>,
+    /// Only designs whose rows in `designs.csv` have these values.
+    pub columns: Vec<ColumnFilter>,
 }
 
 /// A column of `designs.csv` and the value that a row must have there.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Condition {
+pub struct ColumnFilter {
     column: String,
     value: String,
 }
 
-/// A text that is no condition.
+/// A text that is no condition on a column.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
-pub struct NoCondition(String);
+pub struct InvalidColumnFilter(String);
 
-/// A choice that makes no sense for a run.
+/// A filter that makes no sense for a run.
 #[derive(Debug, thiserror::Error)]
-pub enum WrongChoice {
+pub enum InvalidFilter {
     /// A number that is no design of the sweep.
     #[error("--design {0}")]
     Number(NoSuchDesign),
@@ -41,95 +42,93 @@ pub enum WrongChoice {
         "--design {0}: the design is not done yet, expected one that is; squama run --resume solves it"
     )]
     NotDone(String),
-    /// A column that there is not.
-    #[error("--where {column}: there is no such column in designs.csv, {hint}")]
+    /// A column that does not exist.
+    #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
     Column {
         /// The column.
         column: String,
-        /// What may be meant.
-        hint: String,
+        /// The column that may be meant.
+        suggestion: String,
     },
     /// The journal cannot be read.
     #[error(transparent)]
     Journal(#[from] JournalError),
 }
 
-impl FromStr for Condition {
-    type Err = NoCondition;
+impl FromStr for ColumnFilter {
+    type Err = InvalidColumnFilter;
 
-    fn from_str(text: &str) -> Result<Self, NoCondition> {
-        let (column, value) = text.split_once('=').ok_or_else(|| NoCondition(text.to_owned()))?;
+    fn from_str(text: &str) -> Result<Self, InvalidColumnFilter> {
+        let invalid = || InvalidColumnFilter(text.to_owned());
+        let (column, value) = text.split_once('=').ok_or_else(invalid)?;
         let (column, value) = (column.trim().to_owned(), value.trim().to_owned());
-        if column.is_empty() {
-            Err(NoCondition(text.to_owned()))
-        } else {
-            Ok(Self { column, value })
-        }
+        if column.is_empty() { Err(invalid()) } else { Ok(Self { column, value }) }
     }
 }
 
-impl Condition {
-    /// The place of the column among `columns`.
-    fn place(&self, columns: &[String]) -> Result<usize, WrongChoice> {
-        let place = columns.iter().position(|column| *column == self.column);
-        place.ok_or_else(|| {
-            let known: Vec<_> = columns.iter().map(String::as_str).collect();
-            let hint = match nearest(&self.column, &known) {
+impl ColumnFilter {
+    /// The column among `columns`.
+    fn find<'c>(
+        &self,
+        columns: &'c [Column<DesignRow>],
+    ) -> Result<&'c Column<DesignRow>, InvalidFilter> {
+        let found = columns.iter().find(|column| column.name == self.column);
+        found.ok_or_else(|| {
+            let known: Vec<_> = columns.iter().map(|column| column.name).collect();
+            let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),
             };
-            WrongChoice::Column { column: self.column.clone(), hint }
+            InvalidFilter::Column { column: self.column.clone(), suggestion }
         })
     }
 
     /// Whether `cell` has the value: as text, or as a number.
-    fn holds(&self, cell: &str) -> bool {
+    fn passes(&self, cell: &Cell) -> bool {
+        let cell = cell.to_string();
         let number = |text: &str| text.parse::<f64>().ok();
-        cell == self.value || number(cell).is_some_and(|cell| Some(cell) == number(&self.value))
+        cell == self.value || number(&cell).is_some_and(|cell| Some(cell) == number(&self.value))
     }
 }
 
-impl Choice {
-    /// The designs of `archive` that are meant, as indices of its grid, in order.
+impl Filter {
+    /// The designs of `archive` that pass, as indices of its grid, in order.
     ///
     /// # Errors
     /// If a number or a column does not exist, or the journal cannot be read.
-    pub fn designs(&self, archive: &Archive) -> Result<Vec<u64>, WrongChoice> {
-        let columns = &archive.header().columns;
-        let place = |condition: &Condition| condition.place(columns);
-        let places = self.conditions.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-        let meant = |entry: &Entry| {
-            let holds = |(condition, place): (&Condition, &usize)| {
-                row::cell(&entry.row, *place).is_some_and(|cell| condition.holds(cell))
-            };
-            (entry.failed() || !self.failed) && self.conditions.iter().zip(&places).all(holds)
+    pub fn designs(&self, archive: &Archive) -> Result<Vec<u64>, InvalidFilter> {
+        let columns = design_columns(archive.sweep());
+        let found = self.columns.iter().map(|filter| Ok((filter, filter.find(&columns)?)));
+        let found = found.collect::<Result<Vec<_>, InvalidFilter>>()?;
+        let passes = |row: &DesignRow| {
+            (row.result.failed() || !self.failed)
+                && found.iter().all(|(filter, column)| filter.passes(&column.cell(row)))
         };
         let mut designs = Vec::new();
-        let mut visit = |entry: &Entry| designs.extend(entry.index().filter(|_| meant(entry)));
+        let mut visit = |entry| {
+            let row = archive.row(entry);
+            designs.extend(passes(&row).then(|| row.number.index()));
+        };
         match &self.numbers {
-            Some(numbers) => numbered(archive, numbers)?.iter().for_each(visit),
-            None => {
-                for entry in archive.entries()?.in_order() {
-                    visit(&entry?);
-                }
-            }
+            Some(numbers) => numbered(archive, numbers)?.into_iter().for_each(visit),
+            None => archive.entries()?.in_order().try_for_each(|entry| entry.map(&mut visit))?,
         }
         Ok(designs)
     }
 }
 
 /// The entries of the designs with these numbers, in order, each once.
-fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<Entry>, WrongChoice> {
+fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
-    let index = |text: &String| grid.parse_number(text.trim()).map_err(WrongChoice::Number);
+    let index = |text: &String| grid.parse_number(text.trim()).map_err(InvalidFilter::Number);
     let mut indices = numbers.iter().map(index).collect::<Result<Vec<_>, _>>()?;
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;
     let mut entry = |index: u64| {
-        let position = archive.selection().position(index);
+        let position = archive.designs().position(index);
         let entry = position.map(|position| entries.last(position)).transpose()?.flatten();
-        entry.ok_or_else(|| WrongChoice::NotDone(grid.number(index).to_string()))
+        entry.ok_or_else(|| InvalidFilter::NotDone(grid.number(index).to_string()))
     };
     indices.into_iter().map(&mut entry).collect()
 }
@@ -140,10 +139,11 @@ mod tests {
 
     #[test]
     fn conditions_compare_numbers_as_numbers() {
-        let condition: Condition = "slant_deg = 75".parse().expect("a condition");
-        assert!(condition.holds("75") && condition.holds("75.0") && !condition.holds("7"));
-        assert!("base=2L".parse::<Condition>().expect("a condition").holds("2L"));
-        let text = "=3".parse::<Condition>().expect_err("none").to_string();
+        let filter: ColumnFilter = "slant_deg = 75".parse().expect("a condition");
+        assert!(filter.passes(&75.0.into()) && !filter.passes(&7.0.into()));
+        assert!("x=75.0".parse::<ColumnFilter>().expect("a condition").passes(&75.0.into()));
+        assert!("base=2L".parse::<ColumnFilter>().expect("a condition").passes(&"2L".into()));
+        let text = "=3".parse::<ColumnFilter>().expect_err("none").to_string();
         assert_eq!(text, "\"=3\" is no condition, expected COLUMN=VALUE, e.g. slant_deg=75");
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Each line is a JSON object with a checksum. The first names what is solved, by which program;
 //! a line of its own begins every session; the rest are designs, in the order in which they were
-//! done. A design that stands there twice was solved again, and its last line counts.
+//! done. A design that stands there several times was solved again: its lines carry the number of their
+//! rerun, and the largest counts, wherever it stands.
 //!
 //! A line is handed to the system in one piece before its design counts as done, so a process that
 //! is killed loses the designs in hand and nothing else. The file is forced to the disk once a second and
@@ -26,24 +27,24 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 pub(crate) use archive::Entries;
-pub use archive::{Archive, Latest};
-pub use entry::{Entry, Session};
+pub use archive::{Archive, LatestSession};
+pub use entry::{JournalEntry, SessionStart};
 pub use error::JournalError;
-pub use header::Header;
+pub use header::JournalHeader;
 pub(crate) use seal::{Line, Seal};
 
 use results::{OutputError, RunFolder, sync_folder};
 
-/// How often the file is forced to the disk.
+/// The interval at which the file is forced to the disk.
 const SYNC: Duration = Duration::from_secs(1);
 
-/// How long a lock is waited for: who only looks at a journal holds it for a moment.
+/// The time for which a lock is waited for: a reader of the journal holds it for a moment.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// What is right for a run that goes on.
+/// The advice to a run that is to go on with another journal.
 const GO_ON: &str = "no difference, or --fresh to throw the results away";
 
-/// What a run does with the results that it finds.
+/// The way in which a run begins: what it does with the results that it finds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Start {
     /// Refuses to touch them.
@@ -69,18 +70,22 @@ impl Journal {
     ///
     /// # Errors
     /// If it is in use, damaged, of another run, or there and `start` says nothing of it.
-    pub fn begin(folder: &Path, header: Header, start: Start) -> Result<Self, JournalError> {
-        let path = folder.join(RunFolder::JOURNAL);
-        let has_tables = folder.join(RunFolder::DESIGNS).exists();
+    pub fn begin(
+        folder: &RunFolder,
+        header: JournalHeader,
+        start: Start,
+    ) -> Result<Self, JournalError> {
+        let path = folder.journal();
+        let has_tables = folder.holds(RunFolder::DESIGNS);
         if has_tables && !path.exists() && start != Start::Fresh {
-            return Err(JournalError::exists(folder, start));
+            return Err(JournalError::exists(folder.path(), start));
         }
         let file = open(&path)?;
         lock(&file, &path)?;
         let found = if start == Start::Fresh { None } else { Archive::read(&path)? };
         let archive = match found {
             Some(archive) if start == Start::New && archive.done() > 0 => {
-                return Err(JournalError::exists(folder, start));
+                return Err(JournalError::exists(folder.path(), start));
             }
             Some(archive) if start == Start::Resume => {
                 archive.header().require(&header, &path, GO_ON)?;
@@ -95,9 +100,9 @@ impl Journal {
     ///
     /// # Errors
     /// If there is none, or it is in use or damaged.
-    pub fn resume(folder: &Path) -> Result<Self, JournalError> {
-        let path = folder.join(RunFolder::JOURNAL);
-        let missing = || JournalError::Missing { folder: folder.to_owned() };
+    pub fn resume(folder: &RunFolder) -> Result<Self, JournalError> {
+        let path = folder.journal();
+        let missing = || JournalError::Missing { folder: folder.path().to_owned() };
         if !path.exists() {
             return Err(missing());
         }
@@ -114,16 +119,16 @@ impl Journal {
         Ok(Self { archive, path, file, synced: Instant::now() })
     }
 
-    /// What it holds.
+    /// The content so far.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
 
-    /// Says that a session begins.
+    /// Adds the beginning of a session.
     ///
     /// # Errors
     /// If the disk does not take it.
-    pub fn begin_session(&mut self, session: Session) -> Result<(), OutputError> {
+    pub fn begin_session(&mut self, session: SessionStart) -> Result<(), OutputError> {
         self.write(&Line::Session(session))
     }
 
@@ -131,7 +136,7 @@ impl Journal {
     ///
     /// # Errors
     /// If the disk does not take it.
-    pub fn append(&mut self, entry: Entry) -> Result<(), OutputError> {
+    pub fn append(&mut self, entry: JournalEntry) -> Result<(), OutputError> {
         self.write(&Line::Design(entry))
     }
 
@@ -164,7 +169,7 @@ fn open(path: &Path) -> Result<File, OutputError> {
 }
 
 /// A journal with its first line.
-fn create(mut file: &File, path: &Path, header: Header) -> Result<Archive, JournalError> {
+fn create(mut file: &File, path: &Path, header: JournalHeader) -> Result<Archive, JournalError> {
     let line = Line::Header(header);
     let bytes = Seal::default().write(&line);
     let written =
@@ -200,10 +205,10 @@ fn lock(file: &File, path: &Path) -> Result<(), JournalError> {
 }
 
 /// Whether a run is writing the journal in `folder`.
-pub(crate) fn in_use(folder: &Path) -> bool {
+pub(crate) fn in_use(folder: &RunFolder) -> bool {
     let is_locked = |file: io::Result<File>| match file.map(|file| file.try_lock_shared()) {
         Ok(Err(TryLockError::WouldBlock)) => true,
         Ok(_) | Err(_) => false,
     };
-    is_locked(File::open(folder.join(RunFolder::JOURNAL)))
+    is_locked(File::open(folder.journal()))
 }

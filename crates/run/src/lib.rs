@@ -6,7 +6,46 @@
 //! grid.
 //!
 //! ```text
-//! Sweep ─► Workbench ─► Journal ─► tables
+//! Sweep ─► Groups ─► workers ─► Evaluator ─► JournalEntry ─► Journal ─► TableWriter ─► tables
+//! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`run()`] | solves the designs of a sweep and writes the tables |
+//! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
+//! | [`Evaluator`] | solves one design |
+//! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
+//! | [`Archive`] | a journal that was read |
+//! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
+//! | [`RunStatus`] | how far a run is |
+//! | [`merge()`] | puts shards together |
+//! | [`Summary`], [`Best`] | counts and best values |
+//!
+//! ```
+//! use std::sync::atomic::AtomicBool;
+//! use std::time::Duration;
+//!
+//! use run::{Options, Program, Start};
+//! use sweep::{Subset, Sweep};
+//!
+//! let text = "name = 'two'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\n\
+//!             slant_deg = [0, 45]";
+//! let sweep = Sweep::parse(text, "two.toml", &[])?;
+//! let folder = tempfile::tempdir()?;
+//! let stop = AtomicBool::new(false);
+//! let options = Options {
+//!     threads: 1,
+//!     format: None,
+//!     fail_fast: false,
+//!     tables_every: Duration::MAX,
+//!     stop: &stop,
+//! };
+//! let program = Program { version: "1.0", revision: "none" };
+//! let all = Subset::default();
+//! let finished = run::run(&sweep, all, folder.path(), Start::New, &options, &program, |_| ())?;
+//! assert_eq!((finished.summary.designs, finished.missing), (2, 0));
+//! assert!(folder.path().join("coverage.csv").exists());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod filter;
@@ -16,18 +55,19 @@ mod options;
 mod progress;
 mod rerun;
 mod run;
-mod session;
 mod solve;
 mod status;
 mod tables;
 
-pub use filter::{Choice, Condition, NoCondition, WrongChoice};
-pub use journal::{Archive, Entry, Header, Journal, JournalError, Latest, Start};
+pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
+pub use journal::{
+    Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,
+};
 pub use merge::{MergeError, Merged, merge};
 pub use options::{Options, Program};
-pub use progress::{Finished, News, RunError};
-pub use rerun::{Rerun, WrongRerun};
+pub use progress::{Finished, Progress, RunError};
+pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
-pub use solve::evaluator::Workbench;
-pub use status::Status;
+pub use solve::evaluator::Evaluator;
+pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};

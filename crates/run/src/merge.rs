@@ -4,22 +4,24 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use results::{Dialect, RunFolder};
-use sweep::{Selection, Sweep};
+use results::{CsvFormat, RunFolder};
+use sweep::{SubsetDesigns, Sweep};
 
-use crate::journal::{self, Archive, Entries, Entry, Journal, JournalError, Start};
+use crate::journal::{
+    self, Archive, Entries, Journal, JournalEntry, JournalError, SessionStart, Start,
+};
 use crate::options::{Options, Program};
 use crate::progress::{Finished, RunError};
-use crate::session::Session;
-use crate::tables::run_info::Report;
+use crate::run::Run;
+use crate::tables::run_info::RunInfo;
 
-/// What is right for shards.
+/// The advice to shards that do not belong together.
 const ALIKE: &str = "shards of one sweep by one program";
 
 /// Shards that cannot be put together.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// There is none.
+    /// No folder of a shard was given.
     #[error("there is nothing to merge, expected the folders of shards")]
     Nothing,
     /// A journal cannot be used.
@@ -31,7 +33,7 @@ pub enum MergeError {
     /// Two shards have different results for the same design.
     #[error("{}: design {design} is not what it is in {}, expected the same result; solve it again in one of them with squama rerun", second.display(), first.display())]
     Conflict {
-        /// Its number.
+        /// Number of the design.
         design: u64,
         /// A folder that has it.
         first: PathBuf,
@@ -43,9 +45,9 @@ pub enum MergeError {
 /// A merger that was done.
 #[derive(Clone, Debug)]
 pub struct Merged {
-    /// What is there now.
+    /// The results after the merger.
     pub finished: Finished,
-    /// How many designs the merger brought.
+    /// The number of designs that the merger brought.
     pub added: u64,
     /// The designs that are in none of the shards.
     pub missing: Vec<std::ops::RangeInclusive<u64>>,
@@ -62,55 +64,53 @@ pub struct Merged {
 pub fn merge(
     folders: &[PathBuf],
     out: &Path,
-    dialect: Option<Dialect>,
+    format: Option<CsvFormat>,
     program: &Program,
 ) -> Result<Merged, MergeError> {
     let clock = Instant::now();
-    let sources = open(folders, out)?;
-    let before = sources[0].archive.sessions().last().map(|session| session.csv);
+    let out = RunFolder::new(out);
+    let sources = open(folders, &out)?;
     let header = sources[0].archive.header().clone().of_all_shards();
-    let place = RunFolder::new(out);
-    place.make().map_err(RunError::from)?;
-    let mut journal = Journal::begin(out, header, Start::Resume)?;
-    place.remove_partial_files();
-    let there = journal.archive().sessions().last().map(|session| session.csv);
-    let dialect = dialect.or(there).or(before).unwrap_or_default();
-    let added = gather(&mut journal, &sources, out, dialect)?;
+    out.make().map_err(RunError::from)?;
+    let mut journal = Journal::begin(&out, header, Start::Resume)?;
+    out.remove_partial_files();
+    let formats = [journal.archive(), &sources[0].archive].map(Archive::format);
+    let format = formats.into_iter().fold(format, Option::or);
+    let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
     let archive = journal.archive();
     let (sweep, missing) =
-        (archive.sweep().clone(), numbers(archive.selection(), &archive.missing()));
+        (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
     let (stop, tables_every) = (AtomicBool::new(false), Duration::MAX);
-    let options =
-        Options { threads: 1, dialect: Some(dialect), fail_fast: false, tables_every, stop: &stop };
-    let report = Report::new(program, &options, clock);
-    let finished = Session::idle(journal, out, &options, &report).finish()?;
+    let options = Options { threads: 1, format, fail_fast: false, tables_every, stop: &stop };
+    let info = RunInfo::new(program, &options, clock);
+    let finished = Run::new(journal, out, &options, info).finish()?;
     Ok(Merged { finished, added, missing, sweep })
 }
 
 /// The results of one folder.
 struct Source {
-    folder: PathBuf,
+    folder: RunFolder,
     archive: Archive,
 }
 
 /// Opens the folders other than `out`, all of one sweep.
-fn open(folders: &[PathBuf], out: &Path) -> Result<Vec<Source>, MergeError> {
-    let same = |folder: &&PathBuf| match (folder.canonicalize(), out.canonicalize()) {
+fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<Source>, MergeError> {
+    let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
     let mut sources: Vec<Source> = Vec::new();
-    for folder in folders.iter().filter(|folder| !same(folder)) {
-        if journal::in_use(folder) {
-            return Err(JournalError::InUse { folder: folder.clone() }.into());
+    for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
+        if journal::in_use(&folder) {
+            return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
         }
-        let archive = Archive::open(folder)?;
+        let archive = Archive::open(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header().clone().of_all_shards();
-            let path = RunFolder::new(folder).journal();
-            archive.header().clone().of_all_shards().require(&wanted, &path, ALIKE)?;
+            let header = archive.header().clone().of_all_shards();
+            header.require(&wanted, &folder.journal(), ALIKE)?;
         }
-        sources.push(Source { folder: folder.clone(), archive });
+        sources.push(Source { folder, archive });
     }
     if sources.is_empty() { Err(MergeError::Nothing) } else { Ok(sources) }
 }
@@ -119,10 +119,10 @@ fn open(folders: &[PathBuf], out: &Path) -> Result<Vec<Source>, MergeError> {
 fn gather(
     journal: &mut Journal,
     sources: &[Source],
-    out: &Path,
-    dialect: Dialect,
+    out: &RunFolder,
+    format: CsvFormat,
 ) -> Result<u64, MergeError> {
-    let selection = journal.archive().selection().clone();
+    let designs = journal.archive().designs().clone();
     let mut readers = Vec::new();
     for source in sources {
         readers.push((source, source.archive.entries()?));
@@ -131,11 +131,11 @@ fn gather(
     let before = Archive::open(out)?;
     let mut there = before.entries()?;
     let mut added = 0;
-    for position in 0..selection.len() {
+    for position in 0..designs.len() {
         let known = there.last(position)?;
-        let best = choose(selection.design(position), known, &mut readers, out)?;
+        let best = choose(designs.design(position), known, &mut readers, out)?;
         if added == 0 && !best.is_empty() {
-            journal.begin_session(journal::Session::now(1, dialect)).map_err(RunError::from)?;
+            journal.begin_session(SessionStart::now(1, format)).map_err(RunError::from)?;
         }
         added += u64::from(!best.is_empty());
         for entry in best {
@@ -148,25 +148,25 @@ fn gather(
 /// The entries of the design `index` that are to be added to the one that is there.
 fn choose(
     index: u64,
-    there: Option<Entry>,
+    there: Option<JournalEntry>,
     readers: &mut [(&Source, Entries<'_>)],
-    out: &Path,
-) -> Result<Vec<Entry>, MergeError> {
+    out: &RunFolder,
+) -> Result<Vec<JournalEntry>, MergeError> {
     let known = there.as_ref().map(|entry| entry.rerun);
-    let mut best = there.map(|entry| (entry, out.to_owned()));
+    let mut best = there.map(|entry| (entry, out.path()));
     let mut added = Vec::new();
     for (source, entries) in readers {
-        let Some(position) = source.archive.selection().position(index) else { continue };
+        let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
-            Some((other, first)) if other.rerun == entry.rerun && other.row != entry.row => {
-                let (first, second) = (first.clone(), source.folder.clone());
+            Some((other, first)) if other.rerun == entry.rerun && other.result != entry.result => {
+                let (first, second) = (first.to_path_buf(), source.folder.path().to_owned());
                 return Err(MergeError::Conflict { design: entry.design, first, second });
             }
             Some((other, _)) if other.rerun >= entry.rerun => {}
             _ => {
                 added = entries.history(position)?;
-                best = Some((entry, source.folder.clone()));
+                best = Some((entry, source.folder.path()));
             }
         }
     }
@@ -175,13 +175,13 @@ fn choose(
 }
 
 /// The numbers of the designs at some positions.
-pub(crate) fn numbers(
-    selection: &Selection,
+fn numbers(
+    designs: &SubsetDesigns,
     positions: &[std::ops::Range<u64>],
 ) -> Vec<std::ops::RangeInclusive<u64>> {
     let mut numbers: Vec<std::ops::RangeInclusive<u64>> = Vec::new();
     for position in positions.iter().cloned().flatten() {
-        let number = selection.design(position) + 1;
+        let number = designs.design(position) + 1;
         match numbers.last_mut() {
             Some(last) if last.end() + 1 == number => *last = *last.start()..=number,
             _ => numbers.push(number..=number),

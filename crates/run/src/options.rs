@@ -1,30 +1,30 @@
-//! How a sweep is run, and by which program.
+//! The options of a run, and the program that runs it.
 
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use results::Dialect;
+use results::CsvFormat;
 
 /// The program that runs a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
-    /// Its version.
+    /// The version of the program.
     pub version: &'static str,
-    /// Revision of its source.
+    /// The revision of its source.
     pub revision: &'static str,
 }
 
-/// How a sweep is run.
+/// The options of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {
-    /// How many designs are solved at a time.
+    /// The number of designs that are solved at a time.
     pub threads: usize,
-    /// How the tables are written; if nothing is said, as they were before.
-    pub dialect: Option<Dialect>,
+    /// The format of the tables; `None` keeps the format that they have.
+    pub format: Option<CsvFormat>,
     /// Whether the first failure ends the run.
     pub fail_fast: bool,
-    /// How often the tables are written while the run goes on.
+    /// The interval at which the tables are written while the run goes on.
     pub tables_every: Duration,
-    /// Told to end the run: designs in hand are finished and the tables written.
+    /// Set to request a stop; designs already started are finished and the tables written.
     pub stop: &'a AtomicBool,
 }

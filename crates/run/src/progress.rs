@@ -1,14 +1,14 @@
-//! What a run tells while it goes on, and what it comes to.
+//! The progress of a run, and its end.
 
 use std::time::Duration;
 
 use results::OutputError;
 use sweep::{InvalidDefinition, SampleTooLarge};
 
-use crate::journal::{Entry, JournalError};
+use crate::journal::JournalError;
 use crate::tables::summary::Summary;
 
-/// A sweep that cannot run to its end.
+/// An error that keeps a sweep from running to its end.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// The results cannot be written.
@@ -20,15 +20,15 @@ pub enum RunError {
     /// The subset is larger than the grid.
     #[error(transparent)]
     Sample(#[from] SampleTooLarge),
-    /// The settings of a re-run are not right.
+    /// The settings of a rerun are not right.
     #[error(transparent)]
     Definition(#[from] InvalidDefinition),
     /// The threads cannot be started.
     #[error("{count} threads cannot be started ({reason}), expected fewer")]
     Threads {
-        /// How many.
+        /// The number of threads that were asked for.
         count: usize,
-        /// What the system says.
+        /// The message of the system.
         reason: String,
     },
 }
@@ -36,26 +36,29 @@ pub enum RunError {
 /// A run that came to its end.
 #[derive(Clone, Debug)]
 pub struct Finished {
-    /// What it comes to.
+    /// Counts and best values.
     pub summary: Summary,
-    /// How many designs are not done.
+    /// The number of designs that are not done.
     pub missing: u64,
-    /// How long it took.
+    /// The duration.
     pub duration: Duration,
     /// Names of the tables.
     pub tables: Vec<String>,
 }
 
-/// What a run tells while it goes on.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug)]
-pub enum News<'a> {
-    /// It begins.
+pub enum Progress {
+    /// The run begins.
     Begun {
-        /// How many designs there are.
+        /// The number of designs.
         designs: u64,
-        /// How many of them are done.
+        /// The number of designs that are done.
         done: u64,
     },
     /// A design is done.
-    Done(&'a Entry),
+    Done {
+        /// Whether it lacks a value.
+        failed: bool,
+    },
 }

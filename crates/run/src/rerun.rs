@@ -6,17 +6,18 @@ use std::time::Instant;
 use results::{RunFolder, SEPARATOR};
 use sweep::{DesignNumber, PARAMETERS, Setting, Sweep};
 
-use crate::filter::{Choice, WrongChoice};
-use crate::journal::{Archive, Header, Journal, JournalError};
+use crate::filter::{Filter, InvalidFilter};
+use crate::journal::{Archive, Journal, JournalError, JournalHeader};
 use crate::options::{Options, Program};
-use crate::progress::{Finished, News, RunError};
-use crate::session::{Bench, Session};
-use crate::tables::run_info::Report;
+use crate::progress::{Finished, Progress, RunError};
+use crate::run::Run;
+use crate::solve::task::Task;
+use crate::tables::run_info::RunInfo;
 
 /// Designs of a run, and what they are to be solved with.
 #[derive(Debug)]
 pub struct Rerun {
-    folder: std::path::PathBuf,
+    folder: RunFolder,
     sweep: Sweep,
     settings: String,
     designs: Vec<u64>,
@@ -24,13 +25,13 @@ pub struct Rerun {
 
 /// A re-run that cannot begin.
 #[derive(Debug, thiserror::Error)]
-pub enum WrongRerun {
+pub enum InvalidRerun {
     /// The journal cannot be used.
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// The designs that are meant do not exist.
     #[error(transparent)]
-    Choice(#[from] WrongChoice),
+    Filter(#[from] InvalidFilter),
     /// The settings are not right.
     #[error(transparent)]
     Definition(#[from] sweep::InvalidDefinition),
@@ -52,25 +53,26 @@ pub enum WrongRerun {
 }
 
 impl Rerun {
-    /// Plans to solve the designs of the run in `folder` that `choice` means, with `settings` in
-    /// place of what the sweep says.
+    /// Plans to solve the designs of the run in `folder` that pass `filter`, with `settings` in place
+    /// of what the sweep says.
     ///
     /// # Errors
-    /// If there is no such run, it is by another program, or choice or settings are not right.
+    /// If there is no such run, another program has solved it, or filter or settings make no sense.
     pub fn plan(
         folder: &Path,
-        choice: &Choice,
+        filter: &Filter,
         settings: &[Setting],
         program: &Program,
-    ) -> Result<Self, WrongRerun> {
-        let archive = Archive::open(folder)?;
-        require_program(&archive, folder, program)?;
-        let (sweep, text) = changed(archive.sweep(), settings)?;
-        let designs = choice.designs(&archive)?;
-        Ok(Self { folder: folder.to_owned(), sweep, settings: text, designs })
+    ) -> Result<Self, InvalidRerun> {
+        let folder = RunFolder::new(folder);
+        let archive = Archive::open(&folder)?;
+        require_program(&archive, &folder, program)?;
+        let (sweep, settings) = changed(archive.sweep(), settings)?;
+        let designs = filter.designs(&archive)?;
+        Ok(Self { folder, sweep, settings, designs })
     }
 
-    /// What is not as the sweep has it, as `key=value` with spaces between.
+    /// The settings that are not those of the sweep, as `key=value` with spaces between.
     pub fn settings(&self) -> &str {
         &self.settings
     }
@@ -81,7 +83,7 @@ impl Rerun {
     }
 
     /// Solves them, replaces their rows in every table, and tells what has changed in `reruns.csv`.
-    /// Tells `news` of each design as soon as it is done, in any order.
+    /// Reports `progress` as soon as a design is done, in any order.
     ///
     /// # Errors
     /// If the folder is in use or the disk does not take the results.
@@ -89,34 +91,34 @@ impl Rerun {
         &self,
         options: &Options<'_>,
         program: &Program,
-        mut news: impl FnMut(News<'_>),
+        mut progress: impl FnMut(Progress),
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
-        let journal = Journal::resume(&self.folder)?;
-        require_program(journal.archive(), &self.folder, program)?;
-        RunFolder::new(&self.folder).remove_partial_files();
-        news(News::Begun { designs: self.designs.len() as u64, done: 0 });
+        let folder = self.folder.clone();
+        let journal = Journal::resume(&folder)?;
+        require_program(journal.archive(), &folder, program)?;
+        folder.remove_partial_files();
+        progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
         let rerun = journal.archive().reruns() + 1;
-        let bench = Bench::new(&self.sweep, self.settings.clone(), rerun, clock);
-        let report = Report::new(program, options, clock);
-        let mut session = Session::begin(journal, &self.folder, options, &report)?;
-        session.solve(&bench, self.designs.iter().copied(), news)?;
-        session.finish()
+        let task = Task::new(&self.sweep, self.settings.clone(), rerun, clock);
+        let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
+        run.solve(&task, self.designs.iter().copied(), progress)?;
+        run.finish()
     }
 }
 
 fn require_program(
     archive: &Archive,
-    folder: &Path,
+    folder: &RunFolder,
     program: &Program,
 ) -> Result<(), JournalError> {
     let header = archive.header();
-    let wanted = Header::new(archive.sweep(), header.part(), program);
-    header.require(&wanted, &RunFolder::new(folder).journal(), "the program that solved the others")
+    let wanted = JournalHeader::new(archive.sweep(), header.subset(), program);
+    header.require(&wanted, &folder.journal(), "the program that solved the others")
 }
 
 /// `sweep` with `settings` in place of what it says, and what is then different.
-fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), WrongRerun> {
+fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), InvalidRerun> {
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
         let is_shared = |parameter: &sweep::Parameter| {
@@ -124,13 +126,13 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Wrong
                 && changed.grid().axis(parameter.key).is_none()
         };
         if !setting.parameter().is_some_and(is_shared) {
-            return Err(WrongRerun::Axis(setting.place().to_string()));
+            return Err(InvalidRerun::Axis(setting.place().to_string()));
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
     let (before, after) = (on_or_off(sweep), on_or_off(&changed));
     if before != after {
-        return Err(WrongRerun::Imperfection { before, after });
+        return Err(InvalidRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));

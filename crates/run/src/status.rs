@@ -1,29 +1,30 @@
-//! How far a run is.
+//! The status of a run: done, failed, missing.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
 use std::path::Path;
 
-use results::row;
+use results::RunFolder;
+use sweep::DesignNumber;
 
-use crate::journal::{self, Archive, Entry, JournalError};
+use crate::journal::{self, Archive, JournalEntry, JournalError};
 
-/// How many of the slowest designs are told.
+/// The number of slowest designs that are listed.
 const SLOWEST: usize = 5;
 
-/// How far a run is.
+/// The status of a run.
 #[derive(Debug)]
-pub struct Status {
-    /// What its journal holds.
+pub struct RunStatus {
+    /// The journal.
     pub archive: Archive,
     /// Whether a process is writing it.
     pub in_use: bool,
     /// Designs that lack a value.
     pub failed: u64,
-    /// Why, by measure and reason.
-    pub reasons: BTreeMap<(String, String), u64>,
+    /// The number of designs that failed, by measure and reason.
+    pub reasons: BTreeMap<(&'static str, &'static str), u64>,
     /// The slowest designs, the slowest first: their seconds and their numbers.
-    pub slowest: Vec<(f64, String)>,
+    pub slowest: Vec<(f64, DesignNumber)>,
     /// Designs that were solved again.
     pub solved_again: u64,
 }
@@ -31,18 +32,18 @@ pub struct Status {
 /// A design and how long it took; the quicker is the greater.
 struct Timed {
     seconds: f64,
-    design: u64,
-    number: String,
+    index: u64,
 }
 
-impl Status {
-    /// How far the run in `folder` is; it may be going on.
+impl RunStatus {
+    /// The status of the run in `folder`, which may be going on.
     ///
     /// # Errors
     /// If there is no run, or its journal is damaged.
     pub fn of(folder: &Path) -> Result<Self, JournalError> {
-        let in_use = journal::in_use(folder);
-        let archive = Archive::open(folder)?;
+        let folder = RunFolder::new(folder);
+        let in_use = journal::in_use(&folder);
+        let archive = Archive::open(&folder)?;
         let mut status = Self {
             in_use,
             failed: 0,
@@ -56,25 +57,23 @@ impl Status {
     }
 
     fn count(&mut self) -> Result<(), JournalError> {
-        let names = results::failure_names(self.archive.sweep());
-        let place = |name: &str| names.iter().position(|other| *other == name).unwrap_or_default();
-        let (measure, reason) = (place("measure"), place("reason"));
         let mut slowest = BinaryHeap::new();
         for entry in self.archive.entries()?.in_order() {
             let entry = entry?;
-            self.failed += u64::from(entry.failed());
+            self.failed += u64::from(entry.result.failed());
             self.solved_again += u64::from(entry.rerun > 0);
-            for failure in &entry.failures {
-                let cell = |place| row::cell(failure, place).unwrap_or_default().to_owned();
-                *self.reasons.entry((cell(measure), cell(reason))).or_default() += 1;
+            for failure in &entry.result.failures {
+                let reason = (failure.measure.key(), failure.outcome.text());
+                *self.reasons.entry(reason).or_default() += 1;
             }
-            slowest.push(Timed::new(&entry));
+            slowest.extend(Timed::new(&entry));
             if slowest.len() > SLOWEST {
                 slowest.pop();
             }
         }
+        let grid = self.archive.sweep().grid();
         let slowest = slowest.into_sorted_vec().into_iter();
-        self.slowest = slowest.map(|timed| (timed.seconds, timed.number)).collect();
+        self.slowest = slowest.map(|timed| (timed.seconds, grid.number(timed.index))).collect();
         Ok(())
     }
 
@@ -90,7 +89,7 @@ impl Status {
     }
 
     fn not_done(&self) -> u64 {
-        self.archive.selection().len() - self.archive.done()
+        self.archive.designs().len() - self.archive.done()
     }
 
     /// Designs per second of the last session.
@@ -101,16 +100,15 @@ impl Status {
 }
 
 impl Timed {
-    fn new(entry: &Entry) -> Self {
-        let number = row::cell(&entry.row, 0).unwrap_or_default().to_owned();
-        Self { seconds: entry.seconds, design: entry.design, number }
+    fn new(entry: &JournalEntry) -> Option<Self> {
+        Some(Self { seconds: entry.seconds, index: entry.index()? })
     }
 }
 
 impl Ord for Timed {
     fn cmp(&self, other: &Self) -> Ordering {
         let quicker = other.seconds.total_cmp(&self.seconds);
-        quicker.then_with(|| Reverse(other.design).cmp(&Reverse(self.design)))
+        quicker.then_with(|| Reverse(other.index).cmp(&Reverse(self.index)))
     }
 }
 

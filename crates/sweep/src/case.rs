@@ -1,4 +1,4 @@
-//! Everything that one design of a sweep is solved with.
+//! The case of one design: everything that it is solved with.
 
 use geometry::OutOfRange;
 use skin::flexure;
@@ -11,22 +11,22 @@ use substrate::{Coupling, Footprint};
 pub struct Case {
     /// The geometry.
     pub design: Design,
-    /// What the puncture depends on besides.
+    /// The other parameters of the puncture.
     pub puncture: puncture::Parameters,
-    /// What bending depends on besides. Its contact law and its steps are those of the puncture.
+    /// The other parameters of bending. The contact law and the steps are those of the puncture.
     pub flexure: flexure::Parameters,
-    /// Which neighbours of a scale the substrate couples it with.
+    /// The neighbours of a scale that the substrate couples it with.
     pub coupling: Coupling,
-    /// How far gaps and slants scatter.
+    /// The scatter of gaps and slants.
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
     pub samples: Samples,
 }
 
-/// Which imperfect rows are solved.
+/// The imperfect rows that are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// How many.
+    /// The number of rows.
     pub count: usize,
     /// Seed of their random numbers.
     pub seed: usize,

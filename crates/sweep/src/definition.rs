@@ -13,7 +13,7 @@ use std::path::Path;
 use crate::grid::Grid;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter};
-use crate::toml_source::{self, Entry, Place, Table, Value};
+use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 use invalid::{InvalidDefinition, reason};
 use measure::Measure;
 use reader::Reader;
@@ -61,7 +61,7 @@ impl Sweep {
         &self.name
     }
 
-    /// What is measured.
+    /// The measures that every design is solved for.
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
@@ -71,7 +71,7 @@ impl Sweep {
         &self.grid
     }
 
-    /// The same sweep with design `index` alone.
+    /// The sweep with design `index` alone.
     #[must_use]
     pub fn only(&self, index: u64) -> Self {
         Self { grid: self.grid.only(index), ..self.clone() }
@@ -95,9 +95,9 @@ impl Sweep {
 }
 
 /// A run's own record holds its definition in a table of that name.
-fn definition_of(mut table: Table) -> Table {
+fn definition_of(mut table: KeyValues) -> KeyValues {
     let holds =
-        |key: &str, entry: &Entry| entry.key == key && matches!(entry.value, Value::Table(_));
+        |key: &str, entry: &KeyValue| entry.key == key && matches!(entry.value, Value::Table(_));
     if table.iter().any(|entry| holds("run", entry))
         && let Some(position) = table.iter().position(|entry| holds("definition", entry))
         && let Value::Table(definition) = table.swap_remove(position).value

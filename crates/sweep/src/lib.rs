@@ -16,7 +16,7 @@
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
 //! | [`Case`] | one design with everything that it is solved with |
-//! | [`Part`], [`Sample`], [`Shard`], [`Selection`] | which of the designs a run solves |
+//! | [`Subset`], [`Sample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
 //!
 //! ```
 //! use sweep::Sweep;
@@ -47,7 +47,6 @@ mod subset;
 pub mod toml_source;
 
 pub use case::{Case, Samples};
-pub use decimal::{Decimal, DecimalRange, InvalidRange, NotDecimal};
 pub use definition::Sweep;
 pub use definition::invalid::{InvalidDefinition, Problem, reason};
 pub use definition::measure::Measure;
@@ -55,4 +54,4 @@ pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
-pub use subset::{NoShard, Part, Sample, SampleTooLarge, Selection, Shard};
+pub use subset::{NoShard, Sample, SampleTooLarge, Shard, Subset, SubsetDesigns};

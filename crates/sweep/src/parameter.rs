@@ -1,4 +1,4 @@
-//! A parameter of a sweep: which values are right, and where they go.
+//! A parameter of a sweep: the values that it takes, and the field of a case that it sets.
 
 mod list;
 mod scalar;
@@ -8,7 +8,7 @@ use std::fmt;
 use skin::puncture::RowLength;
 
 use crate::case::Case;
-use crate::decimal::{Decimal, DecimalRange};
+use crate::decimal::Decimal;
 use crate::number;
 use crate::toml_source::Value;
 
@@ -24,9 +24,9 @@ pub struct Parameter {
     pub section: &'static str,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// What it is, in half a sentence.
+    /// The meaning, in half a sentence.
     pub meaning: &'static str,
-    /// Which values are right, and where they go.
+    /// The values that the parameter takes, and the field of a case that it sets.
     pub(crate) kind: Kind,
 }
 
@@ -36,7 +36,7 @@ impl PartialEq for Parameter {
     }
 }
 
-/// Which values are right, and where they go.
+/// The values that the parameter takes, and the field of a case that it sets.
 #[derive(Debug)]
 pub(crate) enum Kind {
     Number { noun: &'static str, range: Range, field: fn(&mut Case) -> &mut f64 },
@@ -69,7 +69,7 @@ pub(crate) struct CountRange {
 /// The word of `scales` for a row as long as it needs to be.
 const AUTO: &str = "auto";
 
-/// What is wrong with a value.
+/// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WrongValue {
     /// The right type, but outside of the bounds.
@@ -77,7 +77,7 @@ pub enum WrongValue {
     OutOfRange {
         /// The value.
         found: String,
-        /// What would be right.
+        /// The values that would be right.
         expected: String,
     },
     /// Not what this key takes.
@@ -85,7 +85,7 @@ pub enum WrongValue {
     NotAccepted {
         /// The value.
         found: String,
-        /// What would be right.
+        /// The values that would be right.
         expected: String,
     },
 }
@@ -120,7 +120,7 @@ impl Parameter {
         self.get(&Case::default())
     }
 
-    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::pick`] gave.
+    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
             (Kind::Number { field, .. }, Scalar::Number(number)) => *field(case) = number,
@@ -163,14 +163,13 @@ impl Parameter {
         }
     }
 
-    /// Value `index` of `range`.
-    pub(crate) fn pick(&self, range: &DecimalRange, index: u64) -> Scalar {
-        let decimal = range.value(index);
+    /// The value that a number of a range stands for.
+    pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
-            Kind::Number { .. } | Kind::Word { .. } => Scalar::Number(decimal.to_f64()),
+            Kind::Number { .. } | Kind::Word { .. } => Scalar::Number(number.to_f64()),
             Kind::Count { .. } | Kind::RowLength { .. } => {
-                // Whole and in bounds: `read` has seen both ends and the step.
-                Scalar::Count(decimal.to_usize().unwrap_or(usize::MAX))
+                // Whole and in bounds: whoever reads a range has seen both ends and the step.
+                Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
         }
     }
@@ -185,7 +184,7 @@ impl Parameter {
         matches!(self.kind, Kind::Count { .. } | Kind::RowLength { .. })
     }
 
-    /// What is wrong with a value that [`Self::read`] refuses.
+    /// The error of a value that [`Self::read`] refuses.
     fn wrong(&self, written: &Value) -> WrongValue {
         let found = written.to_string();
         let expected = self.expected();
@@ -208,7 +207,7 @@ impl Parameter {
         }
     }
 
-    /// Which values are right, in words.
+    /// The values that the parameter takes, in words.
     pub fn expected(&self) -> String {
         match &self.kind {
             Kind::Number { noun, range, .. } => format!("{noun} {range}"),

@@ -1,4 +1,4 @@
-//! Which designs of a grid a run solves: all of them, a random subset, one shard of either.
+//! The subset of a grid that a run solves: all designs, a random sample, one shard of either.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// The part of a grid that a run solves; by default all of it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Part {
+pub struct Subset {
     /// A random subset of the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<Sample>,
@@ -23,7 +23,7 @@ pub struct Part {
 /// A random subset: the same for the same seed, on any machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
-    /// How many designs.
+    /// The number of designs.
     pub designs: u64,
     /// Seed of the generator.
     pub seed: u64,
@@ -88,7 +88,7 @@ impl fmt::Display for Sample {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for Subset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match (self.sample, self.shard) {
             (None, None) => f.write_str("all designs"),
@@ -101,7 +101,7 @@ impl fmt::Display for Part {
 
 /// The designs that a run solves, in order. Holds the subset, if there is one, but never the grid.
 #[derive(Clone, Debug)]
-pub struct Selection {
+pub struct SubsetDesigns {
     /// The designs of the subset, ascending.
     sample: Option<Vec<u64>>,
     /// Designs of which every `step`-th is taken.
@@ -110,19 +110,19 @@ pub struct Selection {
     step: u64,
 }
 
-impl Selection {
+impl SubsetDesigns {
     /// The designs of `part` of a grid of `designs` designs.
     ///
     /// # Errors
     /// If the grid has fewer designs than the subset.
-    pub fn new(designs: u64, part: Part) -> Result<Self, SampleTooLarge> {
+    pub fn new(designs: u64, part: Subset) -> Result<Self, SampleTooLarge> {
         let sample = part.sample.map(|sample| draw(designs, sample)).transpose()?;
         let whole = sample.as_ref().map_or(designs, |sample| sample.len() as u64);
         let (first, step) = part.shard.map_or((0, 1), |shard| (shard.index - 1, shard.count));
         Ok(Self { sample, whole, first, step })
     }
 
-    /// How many designs there are; a shard of few designs may have none.
+    /// The number of designs; a shard of few designs may have none.
     pub fn len(&self) -> u64 {
         self.whole.saturating_sub(self.first).div_ceil(self.step)
     }
@@ -173,27 +173,28 @@ mod tests {
 
     use super::*;
 
-    fn all(selection: &Selection) -> Vec<u64> {
+    fn all(selection: &SubsetDesigns) -> Vec<u64> {
         (0..selection.len()).map(|position| selection.design(position)).collect()
     }
 
-    fn part(sample: Option<(u64, u64)>, shard: Option<&str>) -> Part {
+    fn part(sample: Option<(u64, u64)>, shard: Option<&str>) -> Subset {
         let sample = sample.map(|(designs, seed)| Sample { designs, seed });
-        Part { sample, shard: shard.map(|text| text.parse().expect("a shard")) }
+        Subset { sample, shard: shard.map(|text| text.parse().expect("a shard")) }
     }
 
     #[test]
     fn a_seed_stands_for_its_designs_for_ever() {
-        let drawn = |seed| all(&Selection::new(720, part(Some((8, seed)), None)).expect("fewer"));
+        let drawn =
+            |seed| all(&SubsetDesigns::new(720, part(Some((8, seed)), None)).expect("fewer"));
         assert_eq!(drawn(7), [59, 112, 119, 258, 431, 503, 520, 611]);
         assert_ne!(drawn(8), drawn(7));
     }
 
     #[test]
     fn a_subset_of_a_huge_grid_is_small() {
-        let huge = Selection::new(u64::MAX, part(Some((1000, 1)), None)).expect("fewer");
+        let huge = SubsetDesigns::new(u64::MAX, part(Some((1000, 1)), None)).expect("fewer");
         assert_eq!(huge.len(), 1000);
-        let error = Selection::new(5, part(Some((6, 0)), None)).expect_err("more");
+        let error = SubsetDesigns::new(5, part(Some((6, 0)), None)).expect_err("more");
         let message = "--sample 6: there are only 5 designs, expected from 1 to 5";
         assert_eq!(error.to_string(), message);
     }
@@ -211,11 +212,11 @@ mod tests {
         #[test]
         fn shards_deal_every_design_to_one(designs in 1..500_u64, count in 1..9_u64, half: bool) {
             let sample = half.then_some((designs.div_ceil(2), 3));
-            let whole = all(&Selection::new(designs, part(sample, None)).expect("fewer"));
+            let whole = all(&SubsetDesigns::new(designs, part(sample, None)).expect("fewer"));
             let mut dealt = Vec::new();
             for index in 1..=count {
                 let shard = format!("{index}/{count}");
-                let shard = Selection::new(designs, part(sample, Some(&shard))).expect("fewer");
+                let shard = SubsetDesigns::new(designs, part(sample, Some(&shard))).expect("fewer");
                 for (position, design) in all(&shard).into_iter().enumerate() {
                     prop_assert_eq!(shard.position(design), Some(position as u64));
                     dealt.push(design);

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use toml::de::{DeTable, DeValue};
 
-/// Where a key or a value stands.
+/// The place of a key or a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
     /// In a file.
     File {
-        /// Its name as the user gave it.
+        /// Name of the file as the user gave it.
         name: Arc<str>,
         /// Line, from 1.
         line: Option<usize>,
@@ -31,17 +31,17 @@ impl fmt::Display for Place {
 
 /// A key with its value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
+pub struct KeyValue {
     /// The key, within its table.
     pub key: String,
-    /// Its value.
+    /// The value.
     pub value: Value,
-    /// Where the key stands.
+    /// Place of the key.
     pub place: Place,
 }
 
 /// Keys and values in the order in which they are written.
-pub type Table = Vec<Entry>;
+pub type KeyValues = Vec<KeyValue>;
 
 /// A value as it is written. Numbers stay text, so that ranges can count in decimals.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub enum Value {
     /// A list.
     List(Vec<Value>),
     /// A table.
-    Table(Table),
+    Table(KeyValues),
     /// A boolean or a date.
     Other(String),
 }
@@ -69,7 +69,7 @@ impl fmt::Display for Value {
             }
             Self::Table(entries) if entries.is_empty() => f.write_str("{}"),
             Self::Table(entries) => {
-                let entry = |e: &Entry| format!("{} = {}", e.key, e.value);
+                let entry = |e: &KeyValue| format!("{} = {}", e.key, e.value);
                 let entries: Vec<_> = entries.iter().map(entry).collect();
                 write!(f, "{{ {} }}", entries.join(", "))
             }
@@ -96,7 +96,7 @@ pub struct SyntaxError {
 ///
 /// # Errors
 /// If it is no TOML.
-pub fn parse(text: &str, name: &str) -> Result<Table, SyntaxError> {
+pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     let source = Source { text, name: name.into() };
     match DeTable::parse(text) {
         Ok(table) => Ok(source.table(table.get_ref())),
@@ -113,7 +113,7 @@ pub fn one_line(message: &str) -> String {
     message.lines().map(str::trim).collect::<Vec<_>>().join(", ")
 }
 
-/// Where the entries of a table are said to stand.
+/// A document with its name, from which the places of keys are found.
 struct Source<'a> {
     text: &'a str,
     name: Arc<str>,
@@ -135,16 +135,16 @@ impl Source<'_> {
         Place::File { name: Arc::clone(&self.name), line }
     }
 
-    fn table(&self, table: &DeTable<'_>) -> Table {
+    fn table(&self, table: &DeTable<'_>) -> KeyValues {
         let place = |offset| self.place(Some(offset));
         entries(table, &place)
     }
 }
 
-fn entries(table: &DeTable<'_>, place: &dyn Fn(usize) -> Place) -> Table {
+fn entries(table: &DeTable<'_>, place: &dyn Fn(usize) -> Place) -> KeyValues {
     let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
         let key: &toml::Spanned<toml::de::DeString<'_>> = key;
-        Entry {
+        KeyValue {
             key: key.get_ref().to_string(),
             value: value_of(value.get_ref(), place),
             place: place(key.span().start),

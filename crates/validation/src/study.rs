@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use results::{InvalidResults, Results};
 use run::{Options, Program, Start};
-use sweep::{Axis, Case, Parameter, Part, Sweep};
+use sweep::{Axis, Case, Parameter, Subset, Sweep};
 
 use crate::ValidationError;
 
@@ -54,12 +54,12 @@ impl Study {
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
-            dialect: None,
+            format: None,
             fail_fast: false,
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
         };
-        run::run(&sweep, Part::default(), folder.path(), Start::New, &options, &program, |_| {})?;
+        run::run(&sweep, Subset::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;
         let designs = designs(&results)?;
         Ok(Self { base: sweep.grid().case(0), sweep, results, designs })

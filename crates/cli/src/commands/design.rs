@@ -3,28 +3,28 @@
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
-use results::Solved;
 use results::columns::design_columns;
-use run::Workbench;
+use results::{RunFolder, SolvedDesign, write_path_tables};
+use run::Evaluator;
 use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
 
 use super::{DONE, INCOMPLETE, folder_of, settings};
 use crate::args;
 use crate::print::{aligned, print};
 
-/// Solves one design, prints its measures and writes its course.
+/// Solves one design, prints its measures and writes its path tables.
 pub fn design(arguments: &args::Design) -> anyhow::Result<u8> {
     let chosen = choose(arguments)?;
     let grid = chosen.sweep.grid();
-    let workbench = Workbench::new(chosen.sweep.measures());
+    let evaluator = Evaluator::new(chosen.sweep.measures());
     let number = chosen.number.unwrap_or(grid.number(0));
-    let solved = workbench.solve(number, &grid.case(0));
-    let folder = chosen.folder(arguments);
-    let files = results::write_course(&folder, &solved)?;
-    results::write_text(&folder, "design.toml", &chosen.sweep.to_toml())?;
+    let solved = evaluator.solve(number, &grid.case(0));
+    let folder = RunFolder::new(chosen.folder(arguments));
+    let files = write_path_tables(&folder, &solved)?;
+    folder.write_text("design.toml", &chosen.sweep.to_toml())?;
     let report = chosen.report(&solved);
-    print(&format!("{report}\n{}: {} design.toml\n", folder.display(), files.join(" ")))?;
-    Ok(if solved.record.failed() { INCOMPLETE } else { DONE })
+    print(&format!("{report}\n{}: {} design.toml\n", folder.path().display(), files.join(" ")))?;
+    Ok(if solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
 /// The design that is asked for.
@@ -128,11 +128,11 @@ impl Chosen {
         axes.map(value).collect::<Vec<_>>().join(separator)
     }
 
-    fn report(&self, solved: &Solved) -> String {
+    fn report(&self, solved: &SolvedDesign) -> String {
         let columns = design_columns(&self.sweep);
         // The number stands in the title.
         let rows = columns.iter().skip(1).map(|column| {
-            let value = match column.cell(&solved.record).to_string() {
+            let value = match column.cell(&solved.row).to_string() {
                 text if text.is_empty() => "none".to_owned(),
                 text => text,
             };

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ranking::{CRITERIA, Ranking, Standing, TetrahedralGrid, Weights};
+use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
 use results::Results;
 
 use super::DONE;
@@ -96,9 +96,9 @@ impl Report<'_> {
 
     fn table(
         &self,
-        standings: &[&Standing<'_>],
+        standings: &[&RankedDesign<'_>],
         first: &str,
-        cell: fn(&Standing<'_>) -> String,
+        cell: fn(&RankedDesign<'_>) -> String,
     ) -> String {
         let mut rows = vec![self.header(first)];
         rows.extend(standings.iter().map(|standing| self.row(standing, cell(standing))));
@@ -112,7 +112,7 @@ impl Report<'_> {
         header.into_iter().map(str::to_owned).collect()
     }
 
-    fn row(&self, standing: &Standing<'_>, first: String) -> Vec<String> {
+    fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
         let mut row = vec![first, standing.design().to_owned()];
         let parameters = self.results.parameters();
         row.extend(parameters.map(|p| self.results.parameter(standing.row(), p).to_owned()));
@@ -121,7 +121,7 @@ impl Report<'_> {
     }
 }
 
-fn fitness(standing: &Standing<'_>) -> String {
+fn fitness(standing: &RankedDesign<'_>) -> String {
     format!("{:.6}", standing.fitness)
 }
 

@@ -6,7 +6,7 @@ use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
 use report::{Designs, Fact};
 use results::{InvalidResults, Results};
 use sweep::Sweep;
-use sweep::toml_source::{self, Entry, Value};
+use sweep::toml_source::{self, KeyValue, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -50,9 +50,9 @@ fn facts(text: &str) -> Vec<Fact> {
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };
-    let fact = |entry: Entry| match entry.value {
+    let fact = |entry: KeyValue| match entry.value {
         Value::Table(counts) => {
-            let count = |entry: &Entry| format!("{} {}", entry.value, entry.key);
+            let count = |entry: &KeyValue| format!("{} {}", entry.value, entry.key);
             let counts: Vec<_> = counts.iter().map(count).collect();
             (entry.key.replace('_', " "), counts.join(", "))
         }

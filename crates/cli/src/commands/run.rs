@@ -6,13 +6,13 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use run::{Best, Finished, Options, Start};
-use sweep::{Part, Sample, Sweep};
+use sweep::{Sample, Subset, Sweep};
 
 use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
 use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, print};
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
@@ -23,11 +23,11 @@ pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
     let folder = folder(arguments, &sweep);
     let interrupt = Interrupt::listen()?;
     let options = options(&arguments.work, &arguments.format, &interrupt);
-    let mut progress = Progress::new(arguments.work.quiet);
-    let news = |news: run::News<'_>| progress.show(news, interrupt.stop());
-    let (part, start) = (part(arguments), start(arguments));
-    let finished = run::run(&sweep, part, &folder, start, &options, &PROGRAM, news);
-    drop(progress);
+    let mut display = ProgressDisplay::new(arguments.work.quiet);
+    let progress = |progress| display.show(progress, interrupt.stop());
+    let (subset, start) = (subset(arguments), start(arguments));
+    let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
+    drop(display);
     let finished = finished?;
     if !arguments.work.quiet {
         print(&summary(sweep.name(), &folder, options.threads, &finished))?;
@@ -45,9 +45,9 @@ fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
     }
 }
 
-fn part(arguments: &args::Run) -> Part {
+fn subset(arguments: &args::Run) -> Subset {
     let sample = arguments.sample.map(|designs| Sample { designs, seed: arguments.seed });
-    Part { sample, shard: arguments.shard }
+    Subset { sample, shard: arguments.shard }
 }
 
 fn start(arguments: &args::Run) -> Start {
@@ -67,7 +67,7 @@ pub(super) fn options<'i>(
     let cores = || available_parallelism().map_or(1, usize::from);
     Options {
         threads: work.threads.map_or_else(cores, usize::from),
-        dialect: format.csv,
+        format: format.csv,
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,
         stop: interrupt.stop(),
@@ -98,16 +98,16 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
 }
 
 fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    finished.summary.statuses.iter().map(|(column, counts)| {
+    finished.summary.statuses.iter().map(|(measure, counts)| {
         let counts: Vec<_> = counts.iter().map(|(status, n)| format!("{n} {status}")).collect();
-        [column.trim_end_matches("_status").to_owned(), counts.join(", ")]
+        [measure.key().to_owned(), counts.join(", ")]
     })
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     let row =
         |best: &Best| [best.what.to_owned(), format!("{:.6} (design {})", best.value, best.design)];
-    finished.summary.best.iter().map(row)
+    finished.summary.best().map(row)
 }
 
 /// `duration` to the hundredth of a second, or to the second if it is long.

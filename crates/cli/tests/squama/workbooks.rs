@@ -46,7 +46,7 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
         let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(
             message,
-            "error: r/x.xlsx: cannot be written (File too large), expected a disk that takes it\n"
+            "error: r/x.xlsx: cannot be written (File too large), check free space\n"
         );
         assert_eq!(place.read("r/x.xlsx"), "old");
         assert!(!place.list("r").contains("partial"));

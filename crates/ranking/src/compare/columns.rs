@@ -1,4 +1,4 @@
-//! Where two runs differ: the columns of the tables of a comparison.
+//! The columns of the tables of a comparison.
 
 use results::Column;
 use results::columns::{Cell, number};

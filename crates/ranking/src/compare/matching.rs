@@ -1,4 +1,4 @@
-//! Which design of one run is which of another.
+//! The matching of the designs of two runs.
 
 use std::collections::HashMap;
 
@@ -12,9 +12,9 @@ use super::InvalidComparison;
 pub struct ParameterChange {
     /// The parameter.
     pub parameter: &'static Parameter,
-    /// Its value in the first run.
+    /// The value in the first run.
     pub first: Scalar,
-    /// Its value in the second run.
+    /// The value in the second run.
     pub second: Scalar,
 }
 
@@ -25,7 +25,7 @@ pub(super) struct Matching {
     pub pairs: Vec<[usize; 2]>,
     /// Rows that have no partner, in the first run and in the second.
     pub alone: [Vec<usize>; 2],
-    /// What differs for all designs alike.
+    /// Parameters that differ for all designs alike.
     pub changes: Vec<ParameterChange>,
 }
 
@@ -61,7 +61,7 @@ fn common(first: &Results, second: &Results) -> Vec<&'static Parameter> {
     vary.filter(|p| knows(first, p) && knows(second, p)).collect()
 }
 
-/// What tells the design of a row from others: its values of `parameters`.
+/// The key that tells the design of a row from others: its values of `parameters`.
 fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
     let mut key = String::new();
     for parameter in parameters {

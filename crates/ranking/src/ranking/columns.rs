@@ -1,19 +1,20 @@
-//! Which designs are best: the columns of the tables of a ranking.
+//! The columns of the tables of a ranking.
 
 use results::Column;
 use results::columns::{Cell, explain_value, number};
 use sweep::Parameter;
 
-use super::Standing;
+use super::RankedDesign;
 use crate::criteria::{CRITERIA, Criterion};
 
-type Columns<'a> = Vec<Column<Standing<'a>>>;
+type Columns<'a> = Vec<Column<RankedDesign<'a>>>;
 
 /// The columns of `ranking.csv` for designs with these parameters.
 pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
-    let rank = Column::new("rank", "-", "place by fitness, 1 is the best", |s: &Standing<'a>| {
-        s.rank.into()
-    });
+    let rank =
+        Column::new("rank", "-", "place by fitness, 1 is the best", |s: &RankedDesign<'a>| {
+            s.rank.into()
+        });
     let mut columns = vec![rank];
     columns.extend(design(parameters));
     columns.push(fitness("fitness by the weights of the ranking, from 0 to 1"));
@@ -70,9 +71,9 @@ pub fn quaternary_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> 
 
 /// Number and parameters.
 fn design<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
-    let mut columns = vec![number(|s: &Standing<'a>| s.design().to_owned().into())];
+    let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
     let parameter = |parameter: &&'static Parameter| {
-        Column::parameter(parameter, |s: &Standing<'a>, parameter| {
+        Column::parameter(parameter, |s: &RankedDesign<'a>, parameter| {
             s.results.parameter(s.row(), parameter).to_owned().into()
         })
     };
@@ -80,19 +81,19 @@ fn design<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
     columns
 }
 
-fn fitness<'a>(meaning: &'static str) -> Column<Standing<'a>> {
+fn fitness<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
     Column::new("fitness", "-", meaning, |s| s.fitness.into())
 }
 
-fn share<'a>(meaning: &'static str) -> Column<Standing<'a>> {
+fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
     Column::new("share", "-", meaning, |s| s.share().into())
 }
 
 /// The values that the criteria are made from, as in `designs.csv`.
 fn criteria<'a>() -> Columns<'a> {
-    let cells: [fn(&Standing<'a>) -> Cell; 4] =
+    let cells: [fn(&RankedDesign<'a>) -> Cell; 4] =
         [|s| s.measured(0), |s| s.measured(1), |s| s.measured(2), |s| s.measured(3)];
-    let column = |(criterion, cell): (&'static Criterion, fn(&Standing<'a>) -> Cell)| {
+    let column = |(criterion, cell): (&'static Criterion, fn(&RankedDesign<'a>) -> Cell)| {
         let (unit, meaning) = explain_value(criterion.column).unwrap_or(("-", ""));
         Column::new(criterion.column, unit, meaning, cell)
     };
@@ -122,7 +123,7 @@ fn rescaled<'a>() -> Columns<'a> {
     ]
 }
 
-impl Standing<'_> {
+impl RankedDesign<'_> {
     fn weight(&self, criterion: usize) -> Cell {
         self.weights.values()[criterion].into()
     }

@@ -1,7 +1,7 @@
 //! The best designs of a run.
 
 use proptest::prelude::*;
-use ranking::{Ranking, Standing, TetrahedralGrid, Weights, write_ranking};
+use ranking::{RankedDesign, Ranking, TetrahedralGrid, Weights, write_ranking};
 use results::Results;
 use tempfile::TempDir;
 
@@ -29,7 +29,7 @@ fn weights(text: &str) -> Weights {
 
 fn order(ranking: &Ranking<'_>, by: &str) -> String {
     let standings = ranking.by_fitness(weights(by));
-    standings.iter().map(Standing::design).collect::<Vec<_>>().join(" ")
+    standings.iter().map(RankedDesign::design).collect::<Vec<_>>().join(" ")
 }
 
 #[test]
@@ -155,7 +155,7 @@ proptest! {
         let rows: Vec<_> = rows.iter().map(|[a, b, c, d]| format!("{a},{b},{c},{d}")).collect();
         let results = results(&rows.iter().map(String::as_str).collect::<Vec<_>>());
         let ranking = Ranking::new(&results, grid(&resolution.to_string())).expect("a ranking");
-        let sum: f64 = ranking.winners().iter().map(Standing::share).sum();
+        let sum: f64 = ranking.winners().iter().map(RankedDesign::share).sum();
         prop_assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     }
 }

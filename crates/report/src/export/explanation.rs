@@ -5,7 +5,7 @@ use ranking::{
     winner_columns,
 };
 use results::columns::{Cell, MEASURE_TABLES, explain_value, number, parameter_of};
-use results::{Column, FAILURES, RERUN_COLUMNS};
+use results::{Column, RERUN_COLUMNS, failure_detail_columns};
 
 /// Unit and meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl Explanation {
     /// A column that this table has, or explains otherwise than others do.
     fn own(table: &str, name: &str) -> Option<Self> {
         match table {
-            "failures" => among(FAILURES, name),
+            "failures" => among(&failure_detail_columns(), name),
             "reruns" => among(RERUN_COLUMNS, name),
             "ranking" => among(&ranking_columns(&[]), name),
             "pareto" => among(&pareto_columns(&[]), name),
@@ -87,7 +87,7 @@ mod tests {
                 assert_eq!(explained, Some(Explanation { unit, meaning }), "{}", column.name);
             }
         }
-        for name in results::failure_names(&sweep) {
+        for Column { name, .. } in results::failure_columns(&sweep) {
             assert!(Explanation::of("failures", name).is_some(), "{name}");
         }
     }

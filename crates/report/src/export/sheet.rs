@@ -6,7 +6,7 @@ use rust_xlsxwriter::{
     Worksheet, XlsxError,
 };
 
-use results::{Dialect, Outcome};
+use results::{CsvFormat, Outcome};
 
 use super::explanation::{Explanation, is_leading};
 
@@ -46,7 +46,7 @@ impl Formats {
 pub(super) struct Sheet {
     table: String,
     page: Worksheet,
-    dialect: Dialect,
+    format: CsvFormat,
     columns: Vec<SheetColumn>,
     formats: Formats,
     rows: u32,
@@ -88,7 +88,7 @@ impl Sheet {
     pub fn new(
         workbook: &mut Workbook,
         table: &str,
-        dialect: Dialect,
+        format: CsvFormat,
         header: &StringRecord,
     ) -> Result<Self, XlsxError> {
         let mut page = workbook.new_worksheet_with_constant_memory()?;
@@ -100,7 +100,7 @@ impl Sheet {
         for (column, name) in columns.iter().zip(header) {
             page.write_string_with_format(0, column.place, name, &formats.header)?;
         }
-        Ok(Self { table: table.to_owned(), page, dialect, columns, formats, rows: 0 })
+        Ok(Self { table: table.to_owned(), page, format, columns, formats, rows: 0 })
     }
 
     /// How many rows there are below the header.
@@ -123,7 +123,7 @@ impl Sheet {
             column.width = column.width.max(cell.chars().count());
             let (page, place) = (&mut self.page, column.place);
             let formats = &self.formats;
-            match self.dialect.number(cell) {
+            match self.format.number(cell) {
                 Some(number) if column.is_number => {
                     let format = if has_failed { &formats.failed_number } else { &formats.number };
                     page.write_number_with_format(self.rows, place, number, format)?

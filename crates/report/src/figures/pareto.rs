@@ -1,6 +1,6 @@
 //! The Pareto front of the four criteria, two at a time.
 
-use ranking::{Ranking, Standing, Weights};
+use ranking::{RankedDesign, Ranking, Weights};
 
 use super::{COVERAGE, sheet};
 use crate::axis::ChartAxis;
@@ -30,7 +30,7 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> Op
     (all.len() > 1).then(|| draw(name, designs, &all))
 }
 
-fn draw(name: &str, designs: &Designs, all: &[Standing<'_>]) -> String {
+fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
     let axis = |k: usize| ChartAxis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let (front, beaten): (Vec<_>, Vec<_>) = all.iter().partition(|design| design.on_front());
@@ -52,13 +52,14 @@ fn draw(name: &str, designs: &Designs, all: &[Standing<'_>]) -> String {
             y_labels: true,
         };
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(48.0)]);
-        let at = |design: &Standing<'_>| {
+        let at = |design: &RankedDesign<'_>| {
             let criteria = design.criteria();
             panel.place(criteria[i], criteria[j])
         };
-        let dot = |design: &&Standing<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
+        let dot =
+            |design: &&RankedDesign<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
         inside.push(Element::group("beaten").containing(beaten.iter().filter_map(dot)));
-        let marked = |design: &&Standing<'_>| {
+        let marked = |design: &&RankedDesign<'_>| {
             Some(mark(designs.number("slant_deg", design.row())?, at(design)?, 3.4, true))
         };
         inside.push(Element::group("front").containing(front.iter().filter_map(marked)));

@@ -1,7 +1,7 @@
 //! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
 
 use geometry::{Parallelogram, Row};
-use ranking::{Ranking, Standing, Weights};
+use ranking::{RankedDesign, Ranking, Weights};
 
 use super::sheet;
 use crate::designs::Designs;
@@ -41,7 +41,7 @@ struct Region {
 }
 
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
-    let region = |winner: &Standing<'_>| Region { row: winner.row(), share: winner.share() };
+    let region = |winner: &RankedDesign<'_>| Region { row: winner.row(), share: winner.share() };
     let regions: Vec<_> = ranking.winners().iter().map(region).collect();
     let dots = Dots {
         radius: 0.3 * SIZE * 1.63 / f64::from(ranking.grid().resolution().max(4)),

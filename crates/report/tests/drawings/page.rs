@@ -114,7 +114,7 @@ fn a_page_ranks_by_the_criteria_of_the_ranking() {
     assert_eq!(entries.len(), ranking.len());
     assert!(entries.windows(2).all(|pair| pair[0].row < pair[1].row));
     let front: Vec<_> = entries.iter().filter(|entry| entry.on_front).map(|e| e.row).collect();
-    assert_eq!(front, ranking.front().iter().map(sweep::Standing::row).collect::<Vec<_>>());
+    assert_eq!(front, ranking.front().iter().map(ranking::RankedDesign::row).collect::<Vec<_>>());
     for k in 0..4 {
         let largest = entries.iter().map(|entry| entry.rescaled[k]).fold(0.0, f64::max);
         assert_eq!(largest, 1.0);

@@ -11,7 +11,7 @@ use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
     design_columns,
 };
-use results::{Column, FAILURES, Outcome, RERUN_COLUMNS};
+use results::{Column, Outcome, RERUN_COLUMNS, failure_detail_columns};
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -54,7 +54,10 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
         ("Statuses", statuses),
-        ("`failures.csv`, after the columns that say which design it is", columns(FAILURES)),
+        (
+            "`failures.csv`, after the columns that say which design it is",
+            columns(&failure_detail_columns()),
+        ),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
         ("`path.csv`", columns(PATH)),
         ("`events.csv`", columns(EVENTS)),

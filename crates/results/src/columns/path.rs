@@ -1,4 +1,4 @@
-//! The course of one design: the columns of its paths, events, scales and iterations.
+//! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
 use skin::puncture::{Event, Iteration, PathPoint, ScaleState};

@@ -1,31 +1,33 @@
-//! Failures as data: what failed, why, and how far it came.
+//! Failures as data: what has no value, why, and how far its path came.
 
+use serde::{Deserialize, Serialize};
 use skin::flexure::Flexure;
 use skin::puncture::Puncture;
+use sweep::Measure;
 
-use crate::columns::{Cell, Column, identity_columns};
-use sweep::{Measure, Sweep};
+use super::design_result::{DesignRow, finite};
+use super::outcome::Outcome;
+use crate::columns::Column;
 
-use crate::design::design_result::{Record, Solved};
-use crate::design::outcome::Outcome;
-use crate::row;
-
-/// What stands between the settings of a design.
+/// The character between the settings of a design.
 pub const SEPARATOR: char = ' ';
 
 /// A measure of a design that has no value.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Failure {
-    number: String,
-    settings: String,
-    measure: Measure,
-    outcome: Outcome,
-    course: Course,
+    /// The measure.
+    pub measure: Measure,
+    /// The reason why it has no value.
+    pub outcome: Outcome,
+    /// The end of its path.
+    pub end: PathEnd,
 }
 
-/// How far the path came.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Course {
+/// The last equilibrium of a path that stopped early, and the last iteration after it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PathEnd {
     angle_deg: Option<f64>,
     load: Option<f64>,
     displacement: Option<f64>,
@@ -35,130 +37,103 @@ struct Course {
     residual: Option<f64>,
 }
 
-/// The columns of `failures.csv` after those that say which design it is.
-pub static FAILURES: &[Column<Failure>] = &[
-    Column::new("measure", "-", "what has no value", |f| f.measure.key().into()),
-    Column::new("reason", "-", "why, one of the statuses", |f| f.outcome.text().into()),
-    Column::new(
-        "angle_deg",
-        "deg",
-        "tilt of the punctured scale, or rotation of each end, at the last equilibrium",
-        |f| f.course.angle_deg.into(),
-    ),
-    Column::new(
-        "load",
-        "E_s L t/(1-nu^2) or E_m I_m/t",
-        "puncture force, or bending moment, at the last equilibrium",
-        |f| f.course.load.into(),
-    ),
-    Column::new(
-        "displacement",
-        "t or 1/t",
-        "displacement of the punctured point, or curvature, at the last equilibrium",
-        |f| f.course.displacement.into(),
-    ),
-    Column::new("contacts", "-", "closed contacts at the last equilibrium", |f| {
-        f.course.contacts.into()
-    }),
-    Column::new("step", "-", "step of the path at which it ended", |f| f.course.step.into()),
-    Column::new("iteration", "-", "last Newton iteration of that step", |f| {
-        f.course.iteration.into()
-    }),
-    Column::new("residual", "-", "largest scaled residual of that iteration", |f| {
-        f.course.residual.into()
-    }),
-    Column::new("settings", "-", "settings that are not the sweep's own", |f| {
-        f.settings.clone().into()
-    }),
-    Column::new(
-        "command",
-        "-",
-        "command that solves the design alone, with its whole path, from within this folder",
-        |f| command(f).into(),
-    ),
-];
-
-fn command(failure: &Failure) -> String {
-    let number = &failure.number;
-    let mut command = format!("squama design run.toml --design {number} --out designs/{number}");
-    for setting in failure.settings.split(SEPARATOR).filter(|text| !text.is_empty()) {
-        command.push_str(" --set ");
-        command.push_str(setting);
-    }
-    command
-}
-
-/// Names of the columns of `failures.csv`.
-pub fn names(sweep: &Sweep) -> Vec<&'static str> {
-    let identity = identity_columns(sweep);
-    identity.iter().map(|column| column.name).chain(FAILURES.iter().map(|c| c.name)).collect()
-}
-
-/// The rows of `failures.csv` that a solved design of `sweep` gives.
-pub fn rows(sweep: &Sweep, solved: &Solved) -> Vec<String> {
-    let identity = identity_columns(sweep);
-    let row = |failure: Failure| {
-        let identity = identity.iter().map(|column| column.cell(&solved.record));
-        let cells = identity.chain(FAILURES.iter().map(|column| column.cell(&failure)));
-        row::join(cells.map(|cell: Cell| cell.to_string()))
-    };
-    failures(sweep, solved).into_iter().map(row).collect()
-}
-
-fn failures(sweep: &Sweep, solved: &Solved) -> Vec<Failure> {
-    let record = &solved.record;
-    let mut failures = Vec::new();
-    for &measure in sweep.measures() {
-        if let Some((outcome, course)) = failed(measure, record, solved) {
-            let (number, settings) = (record.number.to_string(), record.settings.clone());
-            failures.push(Failure { number, settings, measure, outcome, course });
-        }
-    }
-    failures
-}
-
-/// Why a measure has no value, and how far it came; `None` if it has one.
-fn failed(measure: Measure, record: &Record, solved: &Solved) -> Option<(Outcome, Course)> {
-    let (outcome, course) = match measure {
-        Measure::Coverage if record.coverage.is_some() => return None,
-        // A formula fails only if the program does.
-        Measure::Coverage => (Outcome::Internal, Course::default()),
-        Measure::Puncture => {
-            let course = solved.puncture.as_ref().map(Course::of_puncture);
-            (record.puncture?.outcome, course.unwrap_or_default())
-        }
-        Measure::Flexure => {
-            let course = solved.flexure.as_ref().map(Course::of_flexure);
-            (record.flexure?.outcome, course.unwrap_or_default())
-        }
-    };
-    (outcome != Outcome::Complete).then_some((outcome, course))
-}
-
-impl Course {
-    fn of_puncture(puncture: &Puncture) -> Self {
+impl PathEnd {
+    /// The end of the path of `puncture`.
+    pub fn of_puncture(puncture: &Puncture) -> Self {
         let (point, last) = (puncture.path.last(), puncture.history.last());
         Self {
-            angle_deg: point.map(|point| point.tilt_deg),
-            load: point.map(|point| point.force),
-            displacement: point.map(|point| point.displacement),
+            angle_deg: point.and_then(|point| finite(point.tilt_deg)),
+            load: point.and_then(|point| finite(point.force)),
+            displacement: point.and_then(|point| finite(point.displacement)),
             contacts: point.map(|point| point.contacts),
             step: last.map(|last| last.step),
             iteration: last.map(|last| last.iteration),
-            residual: last.map(|last| last.residual),
+            residual: last.and_then(|last| finite(last.residual)),
         }
     }
 
-    fn of_flexure(flexure: &Flexure) -> Self {
+    /// The end of the path of `flexure`.
+    pub fn of_flexure(flexure: &Flexure) -> Self {
         let (point, last) = (flexure.path.last(), flexure.history.last());
         Self {
-            angle_deg: point.map(|point| point.end_rotation_deg),
-            load: point.map(|point| point.moment),
-            displacement: point.map(|point| point.curvature),
+            angle_deg: point.and_then(|point| finite(point.end_rotation_deg)),
+            load: point.and_then(|point| finite(point.moment)),
+            displacement: point.and_then(|point| finite(point.curvature)),
             contacts: point.map(|point| point.contacts),
             step: last.map(|last| last.step),
             iteration: last.map(|last| last.iteration),
-            residual: last.map(|last| last.residual),
+            residual: last.and_then(|last| finite(last.residual)),
         }
+    }
+}
+
+/// A row of `failures.csv`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FailureRow {
+    /// The design.
+    pub design: DesignRow,
+    /// The failure.
+    pub failure: Failure,
+}
+
+/// The columns of `failures.csv` after those that say which design it is.
+pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
+    vec![
+        Column::new("measure", "-", "what has no value", |f| f.failure.measure.key().into()),
+        Column::new("reason", "-", "why, one of the statuses", |f| f.failure.outcome.text().into()),
+        Column::new(
+            "angle_deg",
+            "deg",
+            "tilt of the punctured scale, or rotation of each end, at the last equilibrium",
+            |f| f.failure.end.angle_deg.into(),
+        ),
+        Column::new(
+            "load",
+            "E_s L t/(1-nu^2) or E_m I_m/t",
+            "puncture force, or bending moment, at the last equilibrium",
+            |f| f.failure.end.load.into(),
+        ),
+        Column::new(
+            "displacement",
+            "t or 1/t",
+            "displacement of the punctured point, or curvature, at the last equilibrium",
+            |f| f.failure.end.displacement.into(),
+        ),
+        Column::new("contacts", "-", "closed contacts at the last equilibrium", |f| {
+            f.failure.end.contacts.into()
+        }),
+        Column::new("step", "-", "step of the path at which it ended", |f| {
+            f.failure.end.step.into()
+        }),
+        Column::new("iteration", "-", "last Newton iteration of that step", |f| {
+            f.failure.end.iteration.into()
+        }),
+        Column::new("residual", "-", "largest scaled residual of that iteration", |f| {
+            f.failure.end.residual.into()
+        }),
+        Column::new("settings", "-", "settings that are not the sweep's own", |f| {
+            f.design.result.settings.clone().into()
+        }),
+        Column::new(
+            "command",
+            "-",
+            "command that solves the design alone, with its whole path, from within this folder",
+            |f| f.command().into(),
+        ),
+    ]
+}
+
+impl FailureRow {
+    /// The command that solves the design alone.
+    fn command(&self) -> String {
+        let number = self.design.number;
+        let mut command =
+            format!("squama design run.toml --design {number} --out designs/{number}");
+        let settings = self.design.result.settings.split(SEPARATOR);
+        for setting in settings.filter(|text| !text.is_empty()) {
+            command.push_str(" --set ");
+            command.push_str(setting);
+        }
+        command
     }
 }

@@ -1,14 +1,16 @@
-//! How the measurement of a design ended.
+//! The outcome of a measurement: complete, or the reason why it has no values.
 
 use std::fmt;
 
+use serde::{Deserialize, Serialize};
 use skin::{flexure, puncture};
 use solver::Stop;
 
-/// How the measurement of a design ended: complete, or the reason why it has no values.
+/// The outcome of a measurement of a design: complete, or the reason why it has no values.
 ///
 /// The list is closed and its texts are stable, so that tables can be filtered by them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Outcome {
     /// Every value exists.
     Complete,
@@ -35,7 +37,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// All of them.
+    /// All outcomes.
     pub const ALL: [Self; 11] = [
         Self::Complete,
         Self::NoConvergence,
@@ -50,7 +52,7 @@ impl Outcome {
         Self::Internal,
     ];
 
-    /// Its text in the tables.
+    /// The text of the outcome in the tables.
     pub fn text(self) -> &'static str {
         match self {
             Self::Complete => "complete",
@@ -67,7 +69,7 @@ impl Outcome {
         }
     }
 
-    /// What it means, in half a sentence.
+    /// The meaning of the outcome, in half a sentence.
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Complete => "the path reached its end and every check holds",

@@ -1,28 +1,24 @@
-//! What imperfect rows of one design measure: mean and quantiles over the samples.
+//! Statistics of the imperfect rows of one design: mean and quantiles over the samples.
 
-use skin::flexure::{self, Flexure};
-use skin::puncture;
-use substrate::RowStiffness;
+use serde::{Deserialize, Serialize};
 
-use crate::design::design_result::{FlexureRecord, PunctureRecord};
-use sweep::Case;
-use sweep::Measure;
-
-/// Values of a measure over the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// Their mean.
+/// Mean and quantiles of a measure over the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Statistics {
+    /// The mean.
     pub mean: f64,
-    /// Their 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values (type 7 of Hyndman
-    /// and Fan 1996, doi 10.1080/00031305.1996.10473566).
+    /// The 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values (type 7 of
+    /// Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566).
     pub quantiles: [f64; 3],
 }
 
-/// Which quantiles.
+/// The shares of the samples that lie below the quantiles.
 const QUANTILES: [f64; 3] = [0.05, 0.5, 0.95];
 
-impl Spread {
-    /// The spread of `values`; `None` if there are none.
+impl Statistics {
+    /// The statistics of `values`; `None` if there are no values, or one of the results is not
+    /// finite.
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;
@@ -32,92 +28,54 @@ impl Spread {
             values[below] + (place - place.floor()) * (values[above] - values[below])
         };
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        Some(Self { mean, quantiles: QUANTILES.map(quantile) })
+        let statistics = Self { mean, quantiles: QUANTILES.map(quantile) };
+        let is_finite = mean.is_finite() && statistics.quantiles.into_iter().all(f64::is_finite);
+        is_finite.then_some(statistics)
     }
 }
 
-/// What the samples of a design gave. Samples that failed have no part in the spreads.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Spreads {
+/// The statistics of the samples of a design. Samples that failed have no part in mean and quantiles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SampleStatistics {
     /// The critical force.
-    pub critical_force: Option<Spread>,
+    pub critical_force: Option<Statistics>,
     /// The penetration.
-    pub penetration: Option<Spread>,
-    /// Samples whose puncture has no values.
+    pub penetration: Option<Statistics>,
+    /// Number of samples whose puncture has no values.
     pub puncture_failed: Option<usize>,
     /// The flexural compliance.
-    pub compliance: Option<Spread>,
+    pub compliance: Option<Statistics>,
     /// The range of curvatures over which the gaps of a strip close.
-    pub closing_range: Option<Spread>,
-    /// Samples whose bending has no values.
+    pub closing_range: Option<Statistics>,
+    /// Number of samples whose bending has no values.
     pub flexure_failed: Option<usize>,
 }
 
-impl Spreads {
-    /// Punctures the samples of `case`.
-    pub fn puncture(&mut self, case: &Case, substrate: &RowStiffness) {
-        let (mut force, mut penetration) = (Vec::new(), Vec::new());
-        for number in 1..=case.samples.count as u64 {
-            let record = punctured(case, substrate, number);
-            let measures = record.map(|record| record.measures);
-            force.extend(measures.and_then(|measures| measures.critical_force));
-            penetration.extend(measures.and_then(|measures| measures.penetration));
-        }
-        self.puncture_failed = Some(case.samples.count - force.len());
-        self.critical_force = Spread::of(force);
-        self.penetration = Spread::of(penetration);
+impl SampleStatistics {
+    /// Whether no samples were solved.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
     }
-
-    /// Bends the samples of `case`.
-    pub fn flexure(&mut self, case: &Case) {
-        let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
-        for number in 1..=case.samples.count as u64 {
-            let Some(flexure) = bent(case, number) else { continue };
-            let record = FlexureRecord::new(&flexure);
-            if let Some(value) = record.measures.compliance {
-                compliance.push(value);
-                closing_range.extend(flexure.closing_range());
-            }
-        }
-        self.closing_range = Spread::of(closing_range);
-        self.flexure_failed = Some(case.samples.count - compliance.len());
-        self.compliance = Spread::of(compliance);
-    }
-
-    /// Every sample of a measure failed, whatever the reason.
-    pub fn fail(&mut self, case: &Case, measure: Measure) {
-        match measure {
-            Measure::Coverage => {}
-            Measure::Puncture => self.puncture_failed = Some(case.samples.count),
-            Measure::Flexure => self.flexure_failed = Some(case.samples.count),
-        }
-    }
-}
-
-fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureRecord> {
-    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    let puncture = puncture::solve_sample(&case.design, substrate, &case.puncture, &sample).ok()?;
-    Some(PunctureRecord::new(&puncture, substrate.estimated_error()))
-}
-
-fn bent(case: &Case, number: u64) -> Option<Flexure> {
-    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    flexure::solve_sample(&case.design, &case.flexure, &sample).ok()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Spread;
+    use super::Statistics;
 
     #[test]
     fn quantiles_lie_between_the_nearest_values() {
         let values: Vec<f64> = (0..=20).rev().map(f64::from).collect();
-        let spread = Spread::of(values).expect("values");
-        assert_eq!(spread, Spread { mean: 10.0, quantiles: [1.0, 10.0, 19.0] });
-        let spread = Spread::of(vec![3.0, 1.0]).expect("values");
-        assert_eq!((spread.mean, spread.quantiles[1]), (2.0, 2.0));
-        assert!((spread.quantiles[0] - 1.1).abs() < 1e-15);
-        assert_eq!(Spread::of(Vec::new()), None);
-        assert_eq!(Spread::of(vec![7.0]).map(|spread| spread.quantiles), Some([7.0; 3]));
+        let statistics = Statistics::of(values).expect("values");
+        assert_eq!(statistics, Statistics { mean: 10.0, quantiles: [1.0, 10.0, 19.0] });
+        let statistics = Statistics::of(vec![3.0, 1.0]).expect("values");
+        assert_eq!((statistics.mean, statistics.quantiles[1]), (2.0, 2.0));
+        assert!((statistics.quantiles[0] - 1.1).abs() < 1e-15);
+        assert_eq!(Statistics::of(Vec::new()), None);
+        assert_eq!(Statistics::of(vec![f64::MAX, f64::MAX]), None);
+        assert_eq!(
+            Statistics::of(vec![7.0]).map(|statistics| statistics.quantiles),
+            Some([7.0; 3])
+        );
     }
 }

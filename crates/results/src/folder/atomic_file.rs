@@ -1,4 +1,4 @@
-//! Files that appear whole or not at all.
+//! Atomic files: they appear whole or not at all.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -8,29 +8,29 @@ use sweep::reason;
 
 /// A file or a folder that cannot be written.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: cannot be written ({reason}), expected {expected}", path.display())]
+#[error("{}: cannot be written ({reason}), {advice}", path.display())]
 pub struct OutputError {
     path: PathBuf,
     reason: String,
-    expected: &'static str,
+    advice: &'static str,
 }
 
 impl OutputError {
     /// A folder that cannot be made or written.
     pub fn folder(path: &Path, error: &io::Error) -> Self {
-        let expected = "a folder that can be written, e.g. with --out DIR";
-        Self { path: path.to_owned(), reason: reason(error), expected }
+        let advice = "expected a folder that can be written, e.g. with --out DIR";
+        Self { path: path.to_owned(), reason: reason(error), advice }
     }
 
     /// A file that cannot be written.
     pub fn file(path: &Path, error: &io::Error) -> Self {
-        Self { path: path.to_owned(), reason: reason(error), expected: "a disk that takes it" }
+        Self { path: path.to_owned(), reason: reason(error), advice: "check free space" }
     }
 
     /// A journal that cannot be written.
     pub fn journal(path: &Path, error: &io::Error) -> Self {
-        let expected = "a disk that takes it; with --resume the run then goes on";
-        Self { path: path.to_owned(), reason: reason(error), expected }
+        let advice = "check free space; --resume then goes on with the run";
+        Self { path: path.to_owned(), reason: reason(error), advice }
     }
 }
 
@@ -54,7 +54,7 @@ impl AtomicFile {
         Ok(Self { path: folder.join(name), partial, file: Some(file) })
     }
 
-    /// Where the file will stand.
+    /// The path of the file once it is complete.
     pub fn path(&self) -> &Path {
         &self.path
     }

@@ -1,48 +1,47 @@
-//! Tables as CSV files.
+//! Tables as CSV files, the only place where rows become cells of a file.
 
 use std::borrow::Borrow;
 use std::io;
-use std::path::Path;
 
+use super::csv_format::CsvFormat;
 use crate::columns::Column;
-use crate::folder::{AtomicFile, OutputError};
-use crate::tables::csv_format::Dialect;
+use crate::folder::{AtomicFile, OutputError, RunFolder};
 
 /// A table that grows row by row and appears when it is complete.
-pub struct Table {
+pub struct CsvFile<'c, R> {
     csv: csv::Writer<AtomicFile>,
-    dialect: Dialect,
+    format: CsvFormat,
+    columns: &'c [Column<R>],
 }
 
-impl Table {
+impl<'c, R> CsvFile<'c, R> {
     /// Begins the file `name` in `folder` with its header.
     ///
     /// # Errors
     /// If the folder or the disk does not take it.
-    pub fn create<'c>(
-        folder: &Path,
+    pub fn create(
+        folder: &RunFolder,
         name: &str,
-        dialect: Dialect,
-        header: impl IntoIterator<Item = &'c str>,
+        format: CsvFormat,
+        columns: &'c [Column<R>],
     ) -> Result<Self, OutputError> {
-        let file = AtomicFile::create(folder, name)?;
+        let file = folder.create(name)?;
         let path = file.path().to_owned();
-        let csv = dialect.writer(file).map_err(|error| OutputError::file(&path, &error))?;
-        let mut table = Self { csv, dialect };
-        table.write(header)?;
+        let csv = format.writer(file).map_err(|error| OutputError::file(&path, &error))?;
+        let mut table = Self { csv, format, columns };
+        let header = table.csv.write_record(columns.iter().map(|column| column.name));
+        table.checked(header)?;
         Ok(table)
     }
 
     /// Adds a row.
     ///
     /// # Errors
-    /// If the folder or the disk does not take it.
-    pub fn write<'c>(
-        &mut self,
-        cells: impl IntoIterator<Item = &'c str>,
-    ) -> Result<(), OutputError> {
-        for cell in cells {
-            let written = self.csv.write_field(self.dialect.cell(cell).as_bytes());
+    /// If the disk does not take it.
+    pub fn write(&mut self, row: &R) -> Result<(), OutputError> {
+        for column in self.columns {
+            let cell = column.cell(row).to_string();
+            let written = self.csv.write_field(self.format.cell(&cell).as_bytes());
             self.checked(written)?;
         }
         let ended = self.csv.write_record(None::<&[u8]>);
@@ -52,7 +51,7 @@ impl Table {
     /// Puts the table in its place.
     ///
     /// # Errors
-    /// If the folder or the disk does not take it.
+    /// If the disk does not take it.
     pub fn finish(mut self) -> Result<(), OutputError> {
         let flushed = self.csv.flush();
         self.checked(flushed.map_err(csv::Error::from))?;
@@ -67,35 +66,20 @@ impl Table {
     }
 }
 
-/// Writes `rows` as the file `name` in `folder`.
-///
-/// # Errors
-/// If the folder or the disk does not take it.
-pub fn write_table<R>(
-    folder: &Path,
-    name: &str,
-    columns: &[Column<R>],
-    rows: &[R],
-) -> Result<(), OutputError> {
-    write_rows(folder, name, Dialect::Plain, columns, rows)
-}
-
-/// Writes `rows` as the file `name` in `folder`, in any dialect.
+/// Writes `rows` as the file `name` in `folder`, in any format.
 ///
 /// # Errors
 /// If the folder or the disk does not take it.
 pub fn write_rows<R>(
-    folder: &Path,
+    folder: &RunFolder,
     name: &str,
-    dialect: Dialect,
+    format: CsvFormat,
     columns: &[Column<R>],
     rows: impl IntoIterator<Item = impl Borrow<R>>,
 ) -> Result<(), OutputError> {
-    let header = columns.iter().map(|column| column.name);
-    let mut table = Table::create(folder, name, dialect, header)?;
+    let mut table = CsvFile::create(folder, name, format, columns)?;
     for row in rows {
-        let cells = columns.iter().map(|column| column.cell(row.borrow()).to_string());
-        table.write(cells.collect::<Vec<_>>().iter().map(String::as_str))?;
+        table.write(row.borrow())?;
     }
     table.finish()
 }

@@ -1,4 +1,4 @@
-//! How tables are written for the spreadsheets of different countries.
+//! The formats of CSV files: one for programs, one for spreadsheets where the comma is the decimal sign.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -7,11 +7,11 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// How a CSV file is written. All of it is RFC 4180 but for the separator: UTF-8, lines that end
+/// The format of a CSV file. All of it is RFC 4180 but for the separator: UTF-8, lines that end
 /// with CR LF, quotes where a cell needs them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Dialect {
+pub enum CsvFormat {
     /// A comma between cells, a point in decimals.
     #[default]
     Plain,
@@ -20,19 +20,19 @@ pub enum Dialect {
     ExcelEu,
 }
 
-/// A text that names no dialect.
+/// A text that names no CSV format.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no dialect, expected plain or excel-eu")]
-pub struct NoDialect(String);
+#[error("{0:?} is not a CSV format, expected plain or excel-eu")]
+pub struct UnknownCsvFormat(String);
 
 /// Says that a file is UTF-8.
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
-impl Dialect {
-    /// All of them.
+impl CsvFormat {
+    /// All formats.
     pub const ALL: [Self; 2] = [Self::Plain, Self::ExcelEu];
 
-    /// Its name on the command line.
+    /// The name of the format on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
@@ -40,7 +40,7 @@ impl Dialect {
         }
     }
 
-    /// A writer of such a file.
+    /// Writes a file in this format.
     ///
     /// # Errors
     /// If the file does not take its first bytes.
@@ -60,23 +60,23 @@ impl Dialect {
         }
     }
 
-    /// A cell as it stands in such a file.
+    /// The text of a cell in a file of this format.
     pub fn cell(self, cell: &str) -> Cow<'_, str> {
         let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
 
-    /// The dialect of a file that begins so, and where its text begins.
+    /// The format of a file that begins so, and where its text begins.
     pub fn of(beginning: &[u8]) -> (Self, usize) {
         if beginning.starts_with(MARK) { (Self::ExcelEu, MARK.len()) } else { (Self::Plain, 0) }
     }
 
-    /// A reader of the text of such a file.
+    /// Reads the text of a file in this format.
     pub fn reader<R: io::Read>(self, text: R) -> csv::Reader<R> {
         csv::ReaderBuilder::new().delimiter(self.delimiter()).from_reader(text)
     }
 
-    /// The number that a cell of such a file holds.
+    /// The number that a cell of a file in this format holds.
     pub fn number(self, cell: &str) -> Option<f64> {
         let plain = match self {
             Self::Plain => Cow::from(cell),
@@ -91,16 +91,16 @@ fn is_number(cell: &str) -> bool {
     cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse::<f64>().is_ok_and(f64::is_finite)
 }
 
-impl FromStr for Dialect {
-    type Err = NoDialect;
+impl FromStr for CsvFormat {
+    type Err = UnknownCsvFormat;
 
-    fn from_str(text: &str) -> Result<Self, NoDialect> {
-        let known = Self::ALL.into_iter().find(|dialect| dialect.name() == text);
-        known.ok_or_else(|| NoDialect(text.to_owned()))
+    fn from_str(text: &str) -> Result<Self, UnknownCsvFormat> {
+        let known = Self::ALL.into_iter().find(|format| format.name() == text);
+        known.ok_or_else(|| UnknownCsvFormat(text.to_owned()))
     }
 }
 
-impl fmt::Display for Dialect {
+impl fmt::Display for CsvFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
@@ -113,20 +113,20 @@ mod tests {
     #[test]
     fn only_numbers_take_the_decimal_comma() {
         let cells = ["0.3", "1e-7", "1.5e-12", "0417", "solver.max_step=0.01", "complete", ""];
-        let written = cells.map(|cell| Dialect::ExcelEu.cell(cell).into_owned());
+        let written = cells.map(|cell| CsvFormat::ExcelEu.cell(cell).into_owned());
         assert_eq!(
             written,
             ["0,3", "1e-7", "1,5e-12", "0417", "solver.max_step=0.01", "complete", ""]
         );
-        assert_eq!(cells.map(|cell| Dialect::Plain.cell(cell).into_owned()), cells);
+        assert_eq!(cells.map(|cell| CsvFormat::Plain.cell(cell).into_owned()), cells);
     }
 
     #[test]
     fn numbers_are_read_back() {
-        assert_eq!(Dialect::ExcelEu.number("0,3"), Some(0.3));
-        assert_eq!(Dialect::Plain.number("0.3"), Some(0.3));
+        assert_eq!(CsvFormat::ExcelEu.number("0,3"), Some(0.3));
+        assert_eq!(CsvFormat::Plain.number("0.3"), Some(0.3));
         for word in ["", "nan", "inf", "2L", "complete"] {
-            assert_eq!(Dialect::Plain.number(word), None);
+            assert_eq!(CsvFormat::Plain.number(word), None);
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::sweep;
 
 fn headers(text: &str) -> String {
     let sweep = sweep(text);
-    let line = |table: results::columns::TableLayout<results::Record>| {
+    let line = |table: results::columns::TableLayout| {
         let names: Vec<_> = table.columns.iter().map(|column| column.name).collect();
         format!("{}: {}", table.file, names.join(","))
     };

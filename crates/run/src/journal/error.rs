@@ -1,8 +1,9 @@
-//! Why a journal cannot be used.
+//! Errors of journals that cannot be used.
 
 use std::path::{Path, PathBuf};
 
 use super::Start;
+use super::header::FORMAT;
 use results::OutputError;
 
 /// A journal that cannot be used. Each message is one line that says what would be right.
@@ -11,61 +12,69 @@ pub enum JournalError {
     /// There are results already.
     #[error("{}: holds results already, expected --resume to go on with them or --fresh to throw them away", folder.display())]
     Exists {
-        /// Where.
+        /// The folder.
         folder: PathBuf,
     },
     /// There are tables that no journal stands behind.
     #[error("{}: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR", folder.display())]
     NoJournal {
-        /// Where.
+        /// The folder.
         folder: PathBuf,
     },
     /// There is none.
     #[error("{}: holds no journal, expected the folder of a run", folder.display())]
     Missing {
-        /// Where.
+        /// The folder.
         folder: PathBuf,
     },
     /// Another process writes it.
     #[error("{}: another squama is writing there, expected one at a time", folder.display())]
     InUse {
-        /// Where.
+        /// The folder.
         folder: PathBuf,
     },
-    /// It cannot be read.
+    /// The journal cannot be read.
     #[error("{}: cannot be read ({reason}), expected the journal of a run", path.display())]
     Unreadable {
-        /// Which file.
+        /// Path of the journal.
         path: PathBuf,
-        /// What the system says.
+        /// The message of the system.
         reason: String,
     },
     /// A line before the last is not as it was written.
     #[error("{}:{line}: damaged line ({problem}), expected it as it was written; remove line {line} to have its design solved again", path.display())]
     Damaged {
-        /// Which file.
+        /// Path of the journal.
         path: PathBuf,
-        /// Which line, from 1.
+        /// Number of the line, from 1.
         line: u64,
-        /// What is wrong with it.
+        /// The damage.
         problem: String,
     },
     /// The first line is not as it was written.
     #[error("{}:1: not the first line of a journal ({problem}), expected it as it was written, or --fresh to throw all of it away", path.display())]
     NoHeader {
-        /// Which file.
+        /// Path of the journal.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The damage.
         problem: String,
     },
-    /// It is of another definition, another part of the designs or another program.
+    /// The journal is of a format that another version of the program writes.
+    #[error("{}: a journal of format {found}, this squama reads format {}; expected --fresh to throw the results away and solve them again, or the squama that wrote it", path.display(), FORMAT)]
+    OtherFormat {
+        /// Path of the journal.
+        path: PathBuf,
+        /// The format of the journal.
+        found: u64,
+    },
+    /// The journal is of another definition, another subset of the designs or another program.
     #[error("{}: {difference}; expected {expected}", path.display())]
     Different {
-        /// Which file.
+        /// Path of the journal.
         path: PathBuf,
-        /// In what.
+        /// The difference.
         difference: String,
-        /// What would be right.
+        /// The values that would be right.
         expected: &'static str,
     },
     /// The disk does not take it.

@@ -1,4 +1,4 @@
-//! What a journal is of.
+//! The header of a journal: what was solved, by which program.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -7,21 +7,20 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
-use results::columns::design_columns;
 use sweep::toml_source::{self, Value};
-use sweep::{Part, Sweep};
+use sweep::{Subset, Sweep};
 
 use super::error::JournalError;
 use crate::options::Program;
 
-/// The form of journals that this program writes.
-const FORMAT: u32 = 1;
+/// The format of the journals that this program writes: typed results since 2, rows of text in 1.
+pub(super) const FORMAT: u32 = 2;
 
-/// What a journal is of: the definition, the part of its designs, the program.
+/// The header of a journal: the definition, the subset of its designs, the program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Header {
-    /// The form of the lines.
+pub struct JournalHeader {
+    /// The format of the lines.
     pub(crate) format: u32,
     /// Version of the program.
     pub(crate) version: String,
@@ -29,38 +28,35 @@ pub struct Header {
     pub(crate) revision: String,
     /// SHA-256 of the definition.
     pub(crate) definition_sha256: String,
-    /// Which designs are solved.
+    /// The designs that are solved.
     #[serde(default)]
-    pub(crate) part: Part,
-    /// Names of the cells of a row.
-    pub(crate) columns: Vec<String>,
+    pub(crate) subset: Subset,
     /// The definition, complete.
     pub(crate) definition: String,
 }
 
-impl Header {
-    /// The header of a journal of `part` of `sweep`.
-    pub fn new(sweep: &Sweep, part: Part, program: &Program) -> Self {
+impl JournalHeader {
+    /// The header of a journal of `subset` of `sweep`.
+    pub fn new(sweep: &Sweep, subset: Subset, program: &Program) -> Self {
         let definition = sweep.to_toml();
         Self {
             format: FORMAT,
             version: program.version.to_owned(),
             revision: program.revision.to_owned(),
             definition_sha256: digest(&definition),
-            part,
-            columns: design_columns(sweep).iter().map(|column| column.name.to_owned()).collect(),
+            subset,
             definition,
         }
     }
 
-    /// Whether it is what this program may have written.
+    /// Whether its checksum is that of its definition.
     pub(crate) fn is_sound(&self) -> bool {
-        self.format == FORMAT && self.definition_sha256 == digest(&self.definition)
+        self.definition_sha256 == digest(&self.definition)
     }
 
     /// The designs that are solved.
-    pub fn part(&self) -> Part {
-        self.part
+    pub fn subset(&self) -> Subset {
+        self.subset
     }
 
     /// SHA-256 of the definition.
@@ -73,9 +69,9 @@ impl Header {
         format!("{} ({})", self.version, self.revision)
     }
 
-    /// The same journal with all designs of all shards.
+    /// The header of the journal with all designs of all shards.
     pub(crate) fn of_all_shards(mut self) -> Self {
-        self.part.shard = None;
+        self.subset.shard = None;
         self
     }
 
@@ -93,7 +89,7 @@ impl Header {
         })
     }
 
-    /// How `wanted` differs from this, in words.
+    /// The difference between `wanted` and this header, in words.
     fn difference(&self, wanted: &Self) -> Option<String> {
         if self.program() != wanted.program() {
             let (here, there) = (self.program(), wanted.program());
@@ -103,12 +99,9 @@ impl Header {
             let changes = changes(&self.definition, &wanted.definition);
             return Some(format!("is of another definition: {changes}"));
         }
-        if self.part != wanted.part {
-            let (here, there) = (self.part.to_string(), wanted.part.to_string());
-            return Some(format!("is of {here}, not of {there}"));
-        }
-        // The program and the definition give the columns.
-        (self != wanted).then(|| "has other columns".to_owned())
+        // Of the rest, the format is this program's and the digest is the definition's.
+        (self.subset != wanted.subset)
+            .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
     }
 }
 

@@ -2,12 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::entry::{Entry, Session};
-use super::header::Header;
+use super::entry::{JournalEntry, SessionStart};
+use super::header::JournalHeader;
 
-/// What stands before the checksum of a line.
+/// The bytes before the checksum of a line.
 const BEFORE: &[u8] = b"{\"crc\":\"";
-/// What stands between the checksum and the content.
+/// The bytes between the checksum and the content.
 const AFTER: &[u8] = b"\",";
 /// Digits of the checksum.
 const DIGITS: usize = 8;
@@ -18,14 +18,14 @@ const DIGITS: usize = 8;
 pub(crate) enum Line {
     /// The first.
     #[serde(rename = "journal")]
-    Header(Header),
+    Header(JournalHeader),
     /// A session begins.
-    Session(Session),
+    Session(SessionStart),
     /// A design is done.
-    Design(Entry),
+    Design(JournalEntry),
 }
 
-/// What makes the lines of one journal differ from those of others: the checksums of all lines but
+/// The seal that makes the lines of one journal differ from those of others: the checksums of all lines but
 /// the first cover the first line too, so a line of another journal is as good as damaged.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Seal {
@@ -34,7 +34,7 @@ pub(crate) struct Seal {
 
 impl Seal {
     /// The seal of the journals with that header, whatever part of the designs they hold.
-    pub fn of(header: &Header) -> Self {
+    pub fn of(header: &JournalHeader) -> Self {
         let mut hasher = crc32fast::Hasher::new();
         for text in [&header.definition_sha256, &header.version, &header.revision] {
             hasher.update(text.as_bytes());
@@ -56,10 +56,15 @@ impl Seal {
         [BEFORE, self.checksum(content).as_bytes(), AFTER, content, b"\n"].concat()
     }
 
-    /// The line that `bytes`, its end included, holds.
-    pub fn read(&self, bytes: &mut [u8]) -> Result<Line, String> {
+    /// The JSON object that `bytes`, with the end of the line, hold, once their checksum is
+    /// verified. An end of CR LF is an end too: tools that synchronise files write it.
+    pub fn open<'b>(&self, bytes: &'b mut [u8]) -> Result<&'b [u8], String> {
         let [content @ .., b'\n'] = bytes else {
             return Err("it has no end".to_owned());
+        };
+        let content = match content {
+            [content @ .., b'\r'] => content,
+            content => content,
         };
         let start = BEFORE.len() + DIGITS + AFTER.len();
         let checksum = content.get(BEFORE.len()..BEFORE.len() + DIGITS).unwrap_or_default();
@@ -72,34 +77,73 @@ impl Seal {
         }
         // The object without its checksum.
         content[start - 1] = b'{';
-        let line = serde_json::from_slice(&content[start - 1..]);
+        Ok(&content[start - 1..])
+    }
+
+    /// The line that `bytes`, with the end of the line, hold.
+    pub fn read(&self, bytes: &mut [u8]) -> Result<Line, String> {
+        Line::parse(self.open(bytes)?)
+    }
+}
+
+impl Line {
+    /// The line that a JSON object stands for.
+    pub fn parse(object: &[u8]) -> Result<Self, String> {
+        let line = serde_json::from_slice(object);
         line.map_err(|error| sweep::toml_source::one_line(&error.to_string()))
+    }
+
+    /// The format that the JSON object of a first line names, whatever else it holds.
+    pub fn format_of(object: &[u8]) -> Option<u64> {
+        let line: serde_json::Value = serde_json::from_slice(object).ok()?;
+        line.get("journal")?.get("format")?.as_u64()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use results::DesignResult;
 
     use super::*;
 
     fn line() -> Line {
-        let failures = vec!["0417,no convergence".to_owned()];
-        let row = "0417,0.1,\u{e9}".to_owned();
-        Line::Design(Entry { design: 417, at: 1.5, seconds: 0.25, rerun: 0, row, failures })
+        let settings = "solver.max_step=0.01".to_owned();
+        let result =
+            DesignResult { coverage: Some(0.1 + 0.2), settings, ..DesignResult::default() };
+        Line::Design(JournalEntry { design: 417, rerun: 1, at: 1.5, seconds: 0.25, result })
     }
 
     #[test]
     fn a_line_is_json_and_reads_back() {
         let mut bytes = Seal::default().write(&line());
         insta::assert_snapshot!(String::from_utf8_lossy(&bytes), @r#"
-        {"crc":"72aaabda","design":{"design":417,"at":1.5,"seconds":0.25,"row":"0417,0.1,é","failures":["0417,no convergence"]}}
+        {"crc":"bbd5f1e4","design":{"design":417,"rerun":1,"at":1.5,"seconds":0.25,"result":{"coverage":0.30000000000000004,"settings":"solver.max_step=0.01"}}}
         "#);
         assert!(serde_json::from_slice::<serde_json::Value>(&bytes).is_ok());
         assert_eq!(Seal::default().read(&mut bytes), Ok(line()));
     }
 
+    #[test]
+    fn a_line_that_ends_as_on_windows_is_a_line() {
+        let mut bytes = Seal::default().write(&line());
+        bytes.insert(bytes.len() - 1, b'\r');
+        assert_eq!(Seal::default().read(&mut bytes), Ok(line()));
+    }
+
     proptest! {
+        /// Every number of a result comes back with all its bits.
+        #[test]
+        fn numbers_are_read_back_bit_by_bit(number in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
+            let result = DesignResult { coverage: Some(number), ..DesignResult::default() };
+            let entry = JournalEntry { design: 1, rerun: 0, at: 0.0, seconds: 0.0, result };
+            let mut bytes = Seal::default().write(&Line::Design(entry));
+            let Ok(Line::Design(entry)) = Seal::default().read(&mut bytes) else {
+                return Err(TestCaseError::fail("no design"));
+            };
+            prop_assert_eq!(entry.result.coverage.map(f64::to_bits), Some(number.to_bits()));
+        }
+
         #[test]
         fn a_line_that_is_changed_anywhere_is_refused(at in 0..1000_usize, bit in 0..8_u32) {
             let mut bytes = Seal::default().write(&line());

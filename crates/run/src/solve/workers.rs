@@ -1,143 +1,151 @@
-//! Parallel work, a bounded number of jobs at a time, that can be told to stop.
+//! Threads that solve designs, and can be told to stop.
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc;
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread::{self, Scope};
 
-use rayon::ThreadPool;
+use crate::progress::RunError;
 
-/// Jobs that are handed out and not yet done are never more than this, however many there will be.
-const WINDOW: usize = 1024;
+/// The most results that wait for the journal.
+const WAITING: usize = 1024;
 
-/// How far ahead of a job its preparation is handed out, so that jobs which share one seldom wait.
-const LEAD: usize = 256;
-
-/// What is done for each of many numbers.
-pub(crate) struct Jobs<'a, P, S> {
-    /// Something slow that later jobs may share.
-    pub prepare: P,
-    /// The job.
-    pub solve: S,
-    /// Told from outside to begin no more jobs.
-    pub stop: &'a AtomicBool,
+/// Solves the designs of `groups` on `threads` threads and hands each result to `sink` as soon as it
+/// is there, in any order. The first error of `sink` ends the work; once `stop` is set, designs already
+/// started are finished.
+///
+/// A thread takes a group at a time, because the designs of a group share something that is slow to
+/// find: so two threads seldom wait for the same. When no group is left, threads help each other.
+///
+/// # Errors
+/// If the threads cannot be started, or those of `sink`.
+pub(crate) fn solve<T: Send>(
+    threads: usize,
+    stop: &AtomicBool,
+    groups: impl Iterator<Item = Vec<u64>> + Send,
+    solve: impl Fn(u64) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let abandoned = AtomicBool::new(false);
+    let queue = Mutex::new(Queue { groups, open: vec![VecDeque::new(); threads] });
+    let next = |worker| {
+        let ended = abandoned.load(Ordering::Relaxed) || stop.load(Ordering::Relaxed);
+        // Taking a design leaves the queue whole, so a poisoned lock is as good as any.
+        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+        if ended { None } else { queue.next(worker) }
+    };
+    thread::scope(|scope| {
+        let (sender, results) = sync_channel(WAITING);
+        for worker in 0..threads {
+            let (sender, next, solve) = (sender.clone(), &next, &solve);
+            start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
+                abandoned.store(true, Ordering::Relaxed);
+                RunError::Threads { count: threads, reason: sweep::reason(&error) }
+            })?;
+        }
+        // The results end when the last worker does.
+        drop(sender);
+        let taken = results.into_iter().try_for_each(&mut sink);
+        abandoned.store(taken.is_err(), Ordering::Relaxed);
+        taken
+    })
 }
 
-impl<P: Fn(u64) + Sync, S: Fn(u64) -> T + Sync, T: Send> Jobs<'_, P, S> {
-    /// Does the jobs in `pool` and hands each result to `sink` as soon as it is there. The first
-    /// error of `sink` ends the work; once told to stop, jobs in hand are finished.
-    pub fn run<E>(
-        &self,
-        pool: &ThreadPool,
-        numbers: impl Iterator<Item = u64>,
-        mut sink: impl FnMut(T) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let abandoned = AtomicBool::new(false);
-        let ended = || abandoned.load(Ordering::Relaxed) || self.stop.load(Ordering::Relaxed);
-        let (sender, results) = mpsc::channel();
-        pool.in_place_scope_fifo(|scope| {
-            let ended = &ended;
-            let prepare = |number: u64| {
-                scope.spawn_fifo(move |_| {
-                    if !ended() {
-                        (self.prepare)(number);
-                    }
-                });
-            };
-            let launch = |number: u64, sender: mpsc::Sender<T>| {
-                scope.spawn_fifo(move |_| {
-                    if !ended() {
-                        // Nobody listens any more only when the work is abandoned.
-                        let _ = sender.send((self.solve)(number));
-                    }
-                });
-            };
-            let mut numbers = Ahead { numbers, queue: VecDeque::new() };
-            // Dropped with the last job, so that the results end when the jobs have.
-            let mut sender = Some(sender);
-            let mut hand_out = || match (numbers.next(prepare), &sender) {
-                (Some(number), Some(sender)) if !ended() => launch(number, sender.clone()),
-                _ => sender = None,
-            };
-            (0..WINDOW).for_each(|_| hand_out());
-            for result in results {
-                hand_out();
-                if let Err(error) = sink(result) {
-                    abandoned.store(true, Ordering::Relaxed);
-                    return Err(error);
-                }
-            }
-            Ok(())
-        })
+fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::io::Result<()> {
+    thread::Builder::new().spawn_scoped(scope, work).map(|_| ())
+}
+
+/// The work of one thread.
+fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
+    while let Some(design) = next() {
+        // Nobody listens any more only when the work is abandoned.
+        if sender.send(solve(design)).is_err() {
+            return;
+        }
     }
 }
 
-/// Numbers, each prepared a while before its turn.
-struct Ahead<I> {
-    numbers: I,
-    queue: VecDeque<u64>,
+/// Groups that nobody has begun, and what is left of the group of each worker.
+struct Queue<G> {
+    groups: G,
+    open: Vec<VecDeque<u64>>,
 }
 
-impl<I: Iterator<Item = u64>> Ahead<I> {
-    fn next(&mut self, prepare: impl Fn(u64)) -> Option<u64> {
-        while self.queue.len() < LEAD
-            && let Some(number) = self.numbers.next()
+impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
+    /// The next design for `worker`: of its own group, of a new one, or of the largest that is open.
+    fn next(&mut self, worker: usize) -> Option<u64> {
+        if self.open[worker].is_empty()
+            && let Some(group) = self.groups.next()
         {
-            prepare(number);
-            self.queue.push_back(number);
+            self.open[worker] = group.into();
         }
-        self.queue.pop_front()
+        let own = self.open[worker].pop_front();
+        own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::AtomicU64;
+
     use super::*;
 
-    fn pool(threads: usize) -> ThreadPool {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+    fn groups(count: u64) -> impl Iterator<Item = Vec<u64>> {
+        (0..count).map(|group| (6 * group..6 * group + 6).collect())
+    }
+
+    /// An error of the sink.
+    fn full() -> RunError {
+        RunError::Threads { count: 0, reason: "full".to_owned() }
     }
 
     #[test]
-    fn every_job_is_done_once_by_any_number_of_threads() {
+    fn every_design_is_solved_once_by_any_number_of_threads() {
         for threads in [1, 2, 8] {
             let stop = AtomicBool::new(false);
-            let jobs = Jobs { prepare: |_| (), solve: |number| number * 3, stop: &stop };
             let mut results = Vec::new();
             let sink = |result| {
                 results.push(result);
-                Ok::<(), ()>(())
+                Ok(())
             };
-            jobs.run(&pool(threads), 0..10_000, sink).expect("no error");
+            solve(threads, &stop, groups(2_000), |design| design * 3, sink).expect("no error");
             results.sort_unstable();
-            assert!(results.iter().copied().eq((0..10_000).map(|number| number * 3)));
+            assert!(results.iter().copied().eq((0..12_000).map(|design| design * 3)));
         }
+    }
+
+    #[test]
+    fn a_thread_without_a_group_helps_the_others() {
+        let mut queue = Queue { groups: groups(1), open: vec![VecDeque::new(); 2] };
+        let taken: Vec<_> = [0, 1, 0, 1].into_iter().map(|worker| queue.next(worker)).collect();
+        assert_eq!(taken, [Some(0), Some(5), Some(1), Some(4)]);
     }
 
     #[test]
     fn the_first_error_ends_the_work() {
         let stop = AtomicBool::new(false);
-        let jobs = Jobs { prepare: |_| (), solve: |number| number, stop: &stop };
         let mut left = 10;
         let sink = |_| {
             left -= 1;
-            if left == 0 { Err("full") } else { Ok(()) }
+            if left == 0 { Err(full()) } else { Ok(()) }
         };
-        assert_eq!(jobs.run(&pool(2), 0..u64::MAX, sink), Err("full"));
+        let error = solve(2, &stop, groups(u64::MAX / 6), |design| design, sink).expect_err("full");
+        assert!(error.to_string().contains("full"));
     }
 
     #[test]
     fn who_is_told_to_stop_finishes_what_is_in_hand() {
         let stop = AtomicBool::new(false);
-        let begun = std::sync::atomic::AtomicU64::new(0);
-        let solve = |_| begun.fetch_add(1, Ordering::Relaxed);
-        let jobs = Jobs { prepare: |_| (), solve, stop: &stop };
+        let begun = AtomicU64::new(0);
         let mut done = 0;
         let sink = |_| {
             done += 1;
             stop.store(done >= 10, Ordering::Relaxed);
-            Ok::<(), ()>(())
+            Ok(())
         };
-        jobs.run(&pool(2), 0..u64::MAX, sink).expect("no error");
+        let begin = |_| begun.fetch_add(1, Ordering::Relaxed);
+        solve(2, &stop, groups(u64::MAX / 6), begin, sink).expect("no error");
         assert_eq!(done, begun.load(Ordering::Relaxed));
     }
 }

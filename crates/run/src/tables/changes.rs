@@ -1,52 +1,48 @@
-//! What solving designs again has changed.
+//! The table of what reruns have changed.
 
-use results::{Change, Dialect, RERUN_COLUMNS, RunFolder, Table, row};
+use results::columns::design_columns;
+use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
 
-use crate::journal::{Archive, Entry, JournalError};
+use crate::journal::{Archive, JournalError};
 
-/// Writes the table if there is anything to tell, and returns its name.
-pub(crate) fn write(
+/// Writes the table of what reruns have changed if there is anything to tell, and returns its name.
+pub(super) fn write(
     archive: &Archive,
     folder: &RunFolder,
-    dialect: Dialect,
+    format: CsvFormat,
 ) -> Result<Option<String>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
     if pairs.peek().is_none() {
         return Ok(None);
     }
-    let names = RERUN_COLUMNS.iter().map(|column| column.name);
-    let mut table = Table::create(folder.path(), RunFolder::RERUNS, dialect, names)?;
+    let columns = design_columns(archive.sweep());
+    let mut table = CsvFile::create(folder, RunFolder::RERUNS, format, RERUN_COLUMNS)?;
     for pair in pairs {
         let (old, new) = pair?;
-        for change in changes(&archive.header().columns, &old, &new) {
-            let cells = RERUN_COLUMNS.iter().map(|column| column.cell(&change).to_string());
-            let cells: Vec<_> = cells.collect();
-            table.write(cells.iter().map(String::as_str))?;
-        }
+        let rerun = new.rerun;
+        let rows = [archive.row(old), archive.row(new)];
+        changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
     }
     table.finish()?;
     Ok(Some(RunFolder::RERUNS.to_owned()))
 }
 
 /// Every value that changed; one change without a column if none did.
-fn changes(columns: &[String], old: &Entry, new: &Entry) -> Vec<Change> {
-    let find = |entry: &Entry, name: &str| {
-        let place = columns.iter().position(|column| column == name)?;
-        row::cell(&entry.row, place).map(str::to_owned)
-    };
-    let both = |name: &str| [old, new].map(|entry| find(entry, name).unwrap_or_default());
-    let change = |column: &str, values| Change {
-        design: find(new, "design").unwrap_or_default(),
-        rerun: new.rerun,
-        settings: both("settings"),
-        column: column.to_owned(),
+fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
+    let change = |column, values| RerunChange {
+        design: rows[1].number,
+        rerun,
+        settings: rows.each_ref().map(|row| row.result.settings.clone()),
+        column,
         values,
     };
-    let values = columns.iter().filter(|name| *name != "settings").map(|name| (name, both(name)));
+    // The settings have columns of their own.
+    let columns = columns.iter().filter(|column| column.name != "settings");
+    let values = columns.map(|column| (column.name, rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
     if changes.is_empty() {
-        changes.push(change("", Default::default()));
+        changes.push(change("", [Cell::Empty, Cell::Empty]));
     }
     changes
 }

@@ -1,4 +1,4 @@
-//! What `run.toml` says of a run.
+//! The record of a run, `run.toml`.
 
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
@@ -6,23 +6,23 @@ use std::time::{Duration, Instant};
 use results::{OutputError, RunFolder};
 use sweep::toml_source::quoted;
 
+use super::summary::Summary;
 use crate::journal::Archive;
 use crate::options::{Options, Program};
-use crate::tables::summary::Summary;
 
-/// What a run is, besides its sweep and its results.
-pub(crate) struct Report<'a> {
+/// The information on a run that is neither its sweep nor its results.
+pub(crate) struct RunInfo<'a> {
     program: &'a Program,
     threads: usize,
     clock: Instant,
 }
 
-impl<'a> Report<'a> {
+impl<'a> RunInfo<'a> {
     pub fn new(program: &'a Program, options: &Options<'_>, clock: Instant) -> Self {
         Self { program, threads: options.threads, clock }
     }
 
-    /// How long the session has taken so far.
+    /// The time since the session began.
     pub fn elapsed(&self) -> Duration {
         self.clock.elapsed()
     }
@@ -40,9 +40,9 @@ impl<'a> Report<'a> {
     }
 
     fn run(&self, archive: &Archive, summary: &Summary) -> String {
-        let part = archive.header().part();
+        let subset = archive.header().subset();
         let started = archive.sessions().first().map(|session| session.started.as_str());
-        let designs = archive.selection().len();
+        let designs = archive.designs().len();
         let mut text = format!(
             "# What this run was. This file is a sweep definition too: running it repeats the run.\n\
              [run]\nversion = {}\ngit_revision = {}\nstarted = {}\nduration_s = {:.3}\nthreads = {}\n\
@@ -58,10 +58,10 @@ impl<'a> Report<'a> {
             designs - summary.designs,
         );
         // Writing to a string cannot fail.
-        if let Some(sample) = part.sample {
+        if let Some(sample) = subset.sample {
             let _ = writeln!(text, "sample = {}\nseed = {}", sample.designs, sample.seed);
         }
-        if let Some(shard) = part.shard {
+        if let Some(shard) = subset.shard {
             let _ = writeln!(text, "shard = {}", quoted(&shard.to_string()));
         }
         text
@@ -70,8 +70,8 @@ impl<'a> Report<'a> {
 
 fn statuses(summary: &Summary) -> String {
     let mut text = String::new();
-    for (column, counts) in &summary.statuses {
-        let _ = write!(text, "\n[run.{column}]\n");
+    for (measure, counts) in &summary.statuses {
+        let _ = write!(text, "\n[run.{}_status]\n", measure.key());
         for (status, count) in counts {
             let _ = writeln!(text, "{} = {count}", quoted(status));
         }

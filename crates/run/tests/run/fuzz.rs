@@ -48,7 +48,7 @@ fn open(bytes: Vec<u8>) -> Result<(), TestCaseError> {
         Ok(None) => {}
         Ok(Some(archive)) => {
             let missing: u64 = archive.missing().iter().map(|range| range.end - range.start).sum();
-            prop_assert_eq!(archive.done() + missing, archive.selection().len());
+            prop_assert_eq!(archive.done() + missing, archive.designs().len());
         }
         Err(error) => {
             let error = error.to_string();

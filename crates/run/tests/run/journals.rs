@@ -9,7 +9,7 @@ use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 use run::{Options, Program, RunError, Start};
-use sweep::{Part, Sweep};
+use sweep::{Subset, Sweep};
 
 /// Half a hundred designs; some of their punctures stop early.
 const DESIGNS: &str = "name = 'x'\nmeasures = ['coverage', 'puncture']\n[designs]\n\
@@ -26,13 +26,13 @@ pub fn resume(folder: &Path) -> Result<(), RunError> {
     let stop = AtomicBool::new(false);
     let options = Options {
         threads: 1,
-        dialect: None,
+        format: None,
         fail_fast: false,
         tables_every: Duration::MAX,
         stop: &stop,
     };
     let program = Program { version: "0", revision: "none" };
-    let all = Part::default();
+    let all = Subset::default();
     run::run(&sweep, all, folder, Start::Resume, &options, &program, |_| ()).map(|_| ())
 }
 

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 use results::Results;
 use results::columns::design_columns;
-use run::Workbench;
+use run::Evaluator;
 use sweep::Sweep;
 
 /// Designs that are solved again, and how far they are apart: a row of the grid has six slants.
@@ -39,16 +39,16 @@ fn forty_designs_of_the_paper_sweep_are_as_the_reference_has_them() {
     let sweep = Sweep::read(&root().join("sweeps/paper.toml"), &[]).expect("a sweep");
     let reference = Results::read(&root().join("results/reference/paper")).expect("tables");
     assert_eq!(reference.len() as u64, sweep.grid().len());
-    let (bench, columns) = (Workbench::new(sweep.measures()), design_columns(&sweep));
+    let (evaluator, columns) = (Evaluator::new(sweep.measures()), design_columns(&sweep));
     // Every gap, length and slant is among them.
     let chosen: Vec<u64> = (0..DESIGNS).map(|k| k * EVERY + k % EVERY).collect();
     let wrong: Vec<_> = chosen
         .par_iter()
         .flat_map(|&index| {
             let number = sweep.grid().number(index);
-            let record = bench.solve(number, &sweep.grid().case(index)).record;
+            let row = evaluator.solve(number, &sweep.grid().case(index)).row;
             let cells: Vec<_> =
-                columns.iter().map(|c| (c.name, c.cell(&record).to_string())).collect();
+                columns.iter().map(|c| (c.name, c.cell(&row).to_string())).collect();
             let wrong = differences(&cells, &reference, usize::try_from(index).expect("a row"));
             wrong.into_iter().map(|text| format!("{number}: {text}")).collect::<Vec<_>>()
         })

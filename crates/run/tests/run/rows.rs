@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use results::columns::design_columns;
-use run::Workbench;
+use run::Evaluator;
 use sweep::Sweep;
 
 /// The axes of a small grid.
@@ -23,12 +23,12 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
     let axes = axes.join("\n");
     let text = format!("name = 'x'\npuncture.scales = 21\n[designs]\n{axes}");
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
-    let (bench, mut columns) = (Workbench::new(sweep.measures()), design_columns(&sweep));
+    let (evaluator, mut columns) = (Evaluator::new(sweep.measures()), design_columns(&sweep));
     columns.retain(|column| column.name != "design");
     columns.sort_by_key(|column| column.name);
     let row = |index| {
-        let record = bench.solve(sweep.grid().number(index), &sweep.grid().case(index)).record;
-        columns.iter().map(|column| column.cell(&record).to_string()).collect()
+        let row = evaluator.solve(sweep.grid().number(index), &sweep.grid().case(index)).row;
+        columns.iter().map(|column| column.cell(&row).to_string()).collect()
     };
     (0..sweep.grid().len()).map(row).collect()
 }

@@ -1,11 +1,10 @@
 //! The axes of a grid as they are written: numbers, lists, ranges; their order.
 
 use super::invalid::Problem;
-use crate::decimal::{Decimal, DecimalRange};
-use crate::grid::{Axis, Values};
-use crate::parameter::Scalar;
-use crate::parameter::{Parameter, WrongValue};
-use crate::toml_source::{self, Entry, Table, Value};
+use crate::decimal::{self, Decimal};
+use crate::grid::Axis;
+use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::toml_source::{self, KeyValue, KeyValues, Value};
 
 /// The axes that every grid has, with the values that they take unless a definition says otherwise:
 /// those of the paper.
@@ -20,12 +19,11 @@ const FASTEST: &str = "slant_deg";
 
 /// The axis of `parameter` that `value` describes.
 pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis, Problem> {
-    let values = match value {
-        Value::List(items) => Values::List(read_list(parameter, items)?),
-        Value::Table(entries) => Values::Range(read_range(parameter, entries, value)?),
-        single => Values::List(vec![parameter.read(single)?]),
-    };
-    Ok(Axis::new(parameter, values))
+    match value {
+        Value::List(items) => Ok(Axis::list(parameter, read_list(parameter, items)?)),
+        Value::Table(entries) => read_range(parameter, entries, value),
+        single => Ok(Axis::list(parameter, vec![parameter.read(single)?])),
+    }
 }
 
 fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
@@ -45,37 +43,44 @@ fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Prob
 }
 
 fn read_range(
-    parameter: &Parameter,
-    entries: &Table,
+    parameter: &'static Parameter,
+    entries: &KeyValues,
     written: &Value,
-) -> Result<DecimalRange, Problem> {
-    let range = written.to_string();
-    let wrong = |problem: String| Problem::Range { range: range.clone(), problem };
+) -> Result<Axis, Problem> {
+    let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
     if !parameter.takes_numbers() {
         return Err(wrong(format!("no range of words, expected {}", parameter.expected())));
     }
-    if let Some(entry) = entries.iter().find(|e| !["from", "to", "step"].contains(&e.key.as_str()))
-    {
-        return Err(wrong(format!("unknown key {}, expected from, to and step", entry.key)));
-    }
-    let value = |key: &str| {
-        let entry = entries.iter().find(|entry| entry.key == key);
-        entry
-            .map(|entry| &entry.value)
-            .ok_or_else(|| wrong(format!("no `{key}`, expected from, to and step")))
-    };
-    let (from, to, step) = (value("from")?, value("to")?, value("step")?);
+    let [from, to, step] = range_values(entries).map_err(&wrong)?;
     // Both ends in bounds means all of it, because the bounds are those of an interval.
     parameter.read(from)?;
     parameter.read(to)?;
     let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
     let (from, to, step) = (from.map_err(&wrong)?, to.map_err(&wrong)?, step.map_err(&wrong)?);
-    if parameter.takes_counts() && [from, to].iter().any(|end| end.to_usize().is_none())
-        || parameter.takes_counts() && step.to_usize().is_none() && step.to_f64() > 0.0
-    {
+    let is_broken = |number: Decimal| number.to_usize().is_none();
+    // A step that is not positive has an error of its own.
+    let has_broken_step = step.to_f64() > 0.0 && is_broken(step);
+    if parameter.takes_counts() && (is_broken(from) || is_broken(to) || has_broken_step) {
         return Err(wrong("not whole, expected whole numbers".to_owned()));
     }
-    DecimalRange::new(from, to, step).map_err(|problem| wrong(problem.to_string()))
+    let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
+    let values = numbers.into_iter().map(|number| parameter.scalar(number)).collect();
+    let range = format!("{{ from = {from}, to = {to}, step = {step} }}");
+    Ok(Axis::range(parameter, values, range))
+}
+
+/// The values of the keys `from`, `to` and `step`, the only ones.
+fn range_values(entries: &KeyValues) -> Result<[&Value; 3], String> {
+    const KEYS: [&str; 3] = ["from", "to", "step"];
+    if let Some(entry) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
+        return Err(format!("unknown key {}, expected from, to and step", entry.key));
+    }
+    let value = |key: &str| {
+        let entry = entries.iter().find(|entry| entry.key == key);
+        let missing = || format!("no `{key}`, expected from, to and step");
+        entry.map(|entry| &entry.value).ok_or_else(missing)
+    };
+    Ok([value("from")?, value("to")?, value("step")?])
 }
 
 fn decimal(value: &Value) -> Result<Decimal, String> {
@@ -100,6 +105,6 @@ pub(crate) fn ordered(mut written: Vec<Axis>) -> Vec<Axis> {
 /// The axes of the paper; the tests see that none is lost.
 fn paper() -> Vec<Axis> {
     let table = toml_source::parse(PAPER, "the paper sweep").unwrap_or_default();
-    let axis = |entry: Entry| read(Parameter::named(&entry.key)?, &entry.value).ok();
+    let axis = |entry: KeyValue| read(Parameter::named(&entry.key)?, &entry.value).ok();
     table.into_iter().filter_map(axis).collect()
 }

@@ -1,4 +1,4 @@
-//! Why a definition cannot run.
+//! Errors of a definition that cannot run.
 
 use crate::grid::TooManyDesigns;
 use crate::parameter::WrongValue;
@@ -11,9 +11,9 @@ pub enum InvalidDefinition {
     /// The file cannot be read.
     #[error("{file}: cannot be read ({reason}), expected a sweep definition in TOML")]
     Unreadable {
-        /// Its name.
+        /// Name of the file.
         file: String,
-        /// What the system says.
+        /// The message of the system.
         reason: String,
     },
     /// The file is no TOML.
@@ -22,22 +22,22 @@ pub enum InvalidDefinition {
     /// A key or a value is not right.
     #[error("{place}: {key}: {problem}")]
     Refused {
-        /// Where it stands.
+        /// Place of the key.
         place: Place,
         /// The key, dotted.
         key: String,
-        /// What is wrong, and what would be right.
+        /// The problem, and what would be right.
         problem: Box<Problem>,
     },
 }
 
-/// What is wrong with a key.
+/// A problem with a key.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
     /// There is no such key.
     #[error("unknown key (its value is {value}), {hint}")]
     Unknown {
-        /// What it is set to.
+        /// The value that the key is set to.
         value: String,
         /// The key that may be meant.
         hint: String,
@@ -45,7 +45,7 @@ pub enum Problem {
     /// A required key is missing.
     #[error("missing, expected {expected}")]
     Missing {
-        /// What would be right.
+        /// The values that would be right.
         expected: &'static str,
     },
     /// The value of a parameter.
@@ -56,7 +56,7 @@ pub enum Problem {
     Range {
         /// The range as written.
         range: String,
-        /// Why.
+        /// The problem.
         problem: String,
     },
     /// A value stands in a list twice.
@@ -68,11 +68,11 @@ pub enum Problem {
     /// A parameter is set in its section and in the grid.
     #[error("{value} contradicts {other} at {place}, expected one of the two")]
     Contradiction {
-        /// What it is set to here.
+        /// The value that the parameter is set to here.
         value: String,
         /// The other key.
         other: String,
-        /// Where that stands.
+        /// Place of the other key.
         place: Place,
     },
     /// Steps that no path can follow.
@@ -96,7 +96,7 @@ pub(crate) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> I
     }
 }
 
-/// What went wrong with a file, in the words of the system but without its error number.
+/// The message of an error of the system, without its error number.
 pub fn reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or(&text).to_owned()

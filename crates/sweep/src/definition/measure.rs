@@ -1,4 +1,6 @@
-//! What a sweep measures.
+//! The measures of a sweep.
+
+use serde::{Deserialize, Serialize};
 
 use super::invalid::Problem;
 use super::suggestion;
@@ -6,9 +8,10 @@ use crate::parameter::{WrongValue, any_of};
 use crate::toml_source::Value;
 
 /// Something that a sweep measures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Measure {
-    /// How much of the substrate the scales cover.
+    /// The share of the substrate that the scales cover.
     Coverage,
     /// The puncture of the middle scale of a row.
     Puncture,
@@ -17,10 +20,10 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All of them, in the order of the tables.
+    /// All measures, in the order of the tables.
     pub const ALL: [Self; 3] = [Self::Coverage, Self::Puncture, Self::Flexure];
 
-    /// Its name in a definition.
+    /// The name of the measure in a definition.
     pub fn key(self) -> &'static str {
         match self {
             Self::Coverage => "coverage",

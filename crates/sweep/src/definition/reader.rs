@@ -9,9 +9,9 @@ use crate::definition::Sweep;
 use crate::grid::{Axis, Grid};
 use crate::number;
 use crate::parameter::{Parameter, WrongValue};
-use crate::toml_source::{Entry, Place, Value};
+use crate::toml_source::{KeyValue, Place, Value};
 
-/// What has been understood so far.
+/// A reader of definitions, with the keys that it has understood so far.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
     name: Option<String>,
@@ -30,7 +30,7 @@ struct WrittenAxis {
 
 impl Reader {
     /// Understands one key outside of the sections, or one section.
-    pub fn entry(&mut self, entry: &Entry) -> Result<(), InvalidDefinition> {
+    pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let wrong = |problem| refuse(&entry.place, &entry.key, Problem::Value(problem));
         match entry.key.as_str() {
             "name" => self.name = Some(read_name(&entry.value).map_err(wrong)?),
@@ -44,7 +44,7 @@ impl Reader {
         Ok(())
     }
 
-    fn section(&mut self, section: &str, entry: &Entry) -> Result<(), InvalidDefinition> {
+    fn section(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let Value::Table(entries) = &entry.value else {
             let found = entry.value.to_string();
             let expected = format!("a section, e.g. [{section}]");
@@ -56,7 +56,7 @@ impl Reader {
         Ok(())
     }
 
-    fn parameter(&mut self, section: &str, entry: &Entry) -> Result<(), InvalidDefinition> {
+    fn parameter(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         let key = format!("{section}.{}", entry.key);
         let belongs = |p: &&Parameter| section == "designs" || section == p.section;
         let Some(parameter) = Parameter::named(&entry.key).filter(belongs) else {
@@ -131,7 +131,7 @@ impl Reader {
         )
     }
 
-    /// Where a parameter is written.
+    /// The place at which a parameter is written.
     fn place(&self, key: &str) -> Option<&Place> {
         let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
         let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));
@@ -139,7 +139,7 @@ impl Reader {
     }
 }
 
-fn unknown(section: &str, entry: &Entry) -> InvalidDefinition {
+fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     let dot = if section.is_empty() { "" } else { "." };
     let key = format!("{section}{dot}{}", entry.key);
     let hint = suggestion::for_key(section, &entry.key);

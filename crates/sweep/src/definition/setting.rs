@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::parameter::Parameter;
-use crate::toml_source::{self, Entry, Place, Table, Value};
+use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// A key and the value that replaces what the file says.
 ///
@@ -66,21 +66,21 @@ impl Setting {
         }
     }
 
-    /// Where it is set.
+    /// The place at which the key is set.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
     /// Puts the value into `table`, in place of what is written there.
-    pub(crate) fn apply(&self, table: &mut Table) {
+    pub(crate) fn apply(&self, table: &mut KeyValues) {
         self.supersede(table);
         self.put(table, &self.path);
     }
 
-    fn put(&self, table: &mut Table, path: &[String]) {
+    fn put(&self, table: &mut KeyValues, path: &[String]) {
         let Some((key, rest)) = path.split_first() else { return };
         match table.iter_mut().find(|entry| entry.key == *key) {
-            Some(Entry { value: Value::Table(inner), .. }) if !rest.is_empty() => {
+            Some(KeyValue { value: Value::Table(inner), .. }) if !rest.is_empty() => {
                 self.put(inner, rest);
             }
             Some(entry) => *entry = self.entry(key, rest),
@@ -89,17 +89,17 @@ impl Setting {
     }
 
     /// `key` with the value in tables of the names `rest`.
-    fn entry(&self, key: &str, rest: &[String]) -> Entry {
+    fn entry(&self, key: &str, rest: &[String]) -> KeyValue {
         let value = match rest.split_first() {
             None => self.value.clone(),
             Some((next, rest)) => Value::Table(vec![self.entry(next, rest)]),
         };
-        Entry { key: key.to_owned(), value, place: self.place.clone() }
+        KeyValue { key: key.to_owned(), value, place: self.place.clone() }
     }
 
     /// A parameter stands in its section or among the axes. What the file says in the other of the
     /// two gives way; what another setting says there stays, and is refused as a contradiction.
-    fn supersede(&self, table: &mut Table) {
+    fn supersede(&self, table: &mut KeyValues) {
         let Some(parameter) = self.parameter().filter(|parameter| parameter.section != "designs")
         else {
             return;
@@ -107,7 +107,7 @@ impl Setting {
         let other = if self.path[0] == "designs" { parameter.section } else { "designs" };
         for entry in table.iter_mut().filter(|entry| entry.key == other) {
             if let Value::Table(entries) = &mut entry.value {
-                let is_file = |entry: &Entry| matches!(entry.place, Place::File { .. });
+                let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
                 entries.retain(|entry| entry.key != parameter.key || !is_file(entry));
             }
         }

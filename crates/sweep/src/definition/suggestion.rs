@@ -1,4 +1,4 @@
-//! What an unknown key may have meant.
+//! Suggestions for unknown keys.
 
 use crate::parameter::{PARAMETERS, Parameter};
 
@@ -20,7 +20,7 @@ pub(crate) fn sections() -> Vec<&'static str> {
     sections
 }
 
-/// What to write instead of `key` in `section` (empty: outside of the sections).
+/// A suggestion of what to write instead of `key` in `section` (empty: outside of the sections).
 pub(crate) fn for_key(section: &str, key: &str) -> String {
     if let Some(parameter) = Parameter::named(key) {
         return format!("did you mean {}?", parameter.path());

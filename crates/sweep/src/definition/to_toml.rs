@@ -5,9 +5,8 @@ use std::fmt::Write as _;
 use super::measure::Measure;
 use super::suggestion::sections;
 use crate::definition::Sweep;
-use crate::grid::{Axis, Values};
-use crate::parameter::Parameter;
-use crate::parameter::Scalar;
+use crate::grid::Axis;
+use crate::parameter::{Parameter, Scalar};
 use crate::toml_source::quoted;
 
 impl Sweep {
@@ -21,7 +20,7 @@ impl Sweep {
         text
     }
 
-    /// The same in a table `parent`.
+    /// The complete definition within a table `parent`.
     pub fn to_toml_under(&self, parent: &str) -> String {
         let mut text = format!("[{parent}]\n{}", self.top());
         for (section, lines) in self.sections() {
@@ -59,17 +58,4 @@ impl Sweep {
 
 fn axis_line(axis: &Axis) -> String {
     format!("{} = {}\n", axis.parameter().key, axis.to_toml())
-}
-
-impl Axis {
-    /// The values as a definition writes them.
-    pub fn to_toml(&self) -> String {
-        match self.values() {
-            Values::Range(range) => range.to_string(),
-            Values::List(list) => {
-                let values: Vec<_> = list.iter().map(|value| value.to_toml()).collect();
-                format!("[{}]", values.join(", "))
-            }
-        }
-    }
 }
