@@ -204,7 +204,8 @@ fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 5] {
 
 #[cfg(test)]
 mod tests {
-    use skin::puncture::{Measures, Status};
+    use skin::Status;
+    use skin::puncture::Measures;
 
     use super::*;
 
