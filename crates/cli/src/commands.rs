@@ -1,4 +1,4 @@
-//! What the commands do.
+//! The commands, one file each.
 
 mod calibrate;
 mod check;

@@ -27,7 +27,7 @@ pub fn pareto_front(points: &[Criteria]) -> Vec<bool> {
         descending_ranks(&groups.iter().map(|group| points[group[0]][2]).collect::<Vec<_>>());
     let candidate = |(group, members): (usize, &&[usize])| {
         let [_, second, _, fourth] = points[members[0]];
-        Candidate { group, second, third: thirds[group], fourth, beaten: false }
+        Point { group, second, third: thirds[group], fourth, beaten: false }
     };
     let mut candidates: Vec<_> = groups.iter().enumerate().map(candidate).collect();
     let mut best = PrefixMaxima { values: vec![f64::NEG_INFINITY; groups.len() + 1] };
@@ -55,7 +55,7 @@ fn descending_ranks(values: &[f64]) -> Vec<usize> {
 
 /// Points that are equal in everything.
 #[derive(Clone, Copy)]
-struct Candidate {
+struct Point {
     group: usize,
     second: f64,
     /// Rank of the third coordinate, the largest first.
@@ -66,7 +66,7 @@ struct Candidate {
 
 /// Finds which of `candidates`, in the order in which they may dominate each other, are beaten;
 /// leaves them in the order of the second coordinate, the largest first.
-fn divide(candidates: &mut [Candidate], best: &mut PrefixMaxima) {
+fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
     if candidates.len() < 2 {
         return;
     }
@@ -79,7 +79,7 @@ fn divide(candidates: &mut [Candidate], best: &mut PrefixMaxima) {
 }
 
 /// Marks what `earlier` beats of `later`, both in the order of the second coordinate.
-fn conquer(earlier: &[Candidate], later: &mut [Candidate], best: &mut PrefixMaxima) {
+fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
         while above < earlier.len() && earlier[above].second >= candidate.second {

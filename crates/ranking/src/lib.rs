@@ -10,6 +10,21 @@
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
+//!
+//! ```
+//! use ranking::{Ranking, TetrahedralGrid, Weights};
+//! use results::Results;
+//!
+//! let table = "design,coverage,critical_force,penetration,compliance\n\
+//!              0001,0.2,1,0.5,10\n0002,0.6,5,0.25,20\n0003,1,3,0.2,40";
+//! let folder = tempfile::tempdir()?;
+//! std::fs::write(folder.path().join("designs.csv"), table)?;
+//! let results = Results::read(folder.path())?;
+//! let ranking = Ranking::new(&results, TetrahedralGrid::default())?;
+//! assert_eq!(ranking.winner(Weights::BALANCED).design(), "0003");
+//! assert_eq!(ranking.front().len(), 2);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod compare;
 mod criteria;

@@ -29,11 +29,11 @@ pub struct Column<R> {
     pub unit: &'static str,
     /// The meaning of its cells, in half a sentence.
     pub meaning: &'static str,
-    cell: Source<R>,
+    cell: CellSource<R>,
 }
 
 /// The function that makes the cell of a row.
-enum Source<R> {
+enum CellSource<R> {
     Value(fn(&R) -> Cell),
     Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
 }
@@ -46,7 +46,7 @@ impl<R> Column<R> {
         meaning: &'static str,
         cell: fn(&R) -> Cell,
     ) -> Self {
-        Self { name, unit, meaning, cell: Source::Value(cell) }
+        Self { name, unit, meaning, cell: CellSource::Value(cell) }
     }
 
     /// The column of a parameter, whose cells `cell` makes.
@@ -55,15 +55,15 @@ impl<R> Column<R> {
             name: header(parameter),
             unit: parameter.unit,
             meaning: parameter.meaning,
-            cell: Source::Parameter(parameter, cell),
+            cell: CellSource::Parameter(parameter, cell),
         }
     }
 
     /// The cell of this column in a row.
     pub fn cell(&self, row: &R) -> Cell {
         match self.cell {
-            Source::Value(cell) => cell(row),
-            Source::Parameter(parameter, cell) => cell(row, parameter),
+            CellSource::Value(cell) => cell(row),
+            CellSource::Parameter(parameter, cell) => cell(row, parameter),
         }
     }
 }

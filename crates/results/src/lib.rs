@@ -6,6 +6,36 @@
 //! ```text
 //! DesignResult ─► columns ─► Cell ─► CsvFile ─► designs.csv ─► Results
 //! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`DesignResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
+//! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
+//! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
+//! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`CsvFormat`], [`CsvFile`] | how tables are written |
+//! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`Results`] | the designs of a run read back |
+//!
+//! ```
+//! use results::columns::design_columns;
+//! use results::{CsvFormat, DesignResult, DesignRow, Results, RunFolder, write_rows};
+//! use sweep::Sweep;
+//!
+//! let sweep = Sweep::parse("name = 'x'\nmeasures = 'coverage'", "x.toml", &[])?;
+//! let (number, case) = (sweep.grid().number(2), sweep.grid().case(2));
+//! let result = DesignResult { coverage: Some(0.5), ..DesignResult::default() };
+//! let place = tempfile::tempdir()?;
+//! let (folder, columns) = (RunFolder::new(place.path()), design_columns(&sweep));
+//! let rows = [DesignRow { number, case, result }];
+//! write_rows(&folder, RunFolder::DESIGNS, CsvFormat::Plain, &columns, &rows)?;
+//!
+//! let results = Results::read(place.path())?;
+//! assert_eq!(results.design(0), "0003");
+//! assert_eq!(results.number(0, results.column("coverage")?)?, Some(0.5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod columns;
 mod design;

@@ -137,7 +137,7 @@ impl Journal {
     /// # Errors
     /// If the disk does not take it.
     pub fn append(&mut self, entry: JournalEntry) -> Result<(), OutputError> {
-        self.write(&Line::Design(entry))
+        self.write(&Line::Design(Box::new(entry)))
     }
 
     fn write(&mut self, line: &Line) -> Result<(), OutputError> {

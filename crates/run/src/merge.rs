@@ -88,18 +88,18 @@ pub fn merge(
 }
 
 /// The results of one folder.
-struct Source {
+struct ShardResults {
     folder: RunFolder,
     archive: Archive,
 }
 
 /// Opens the folders other than `out`, all of one sweep.
-fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<Source>, MergeError> {
+fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
-    let mut sources: Vec<Source> = Vec::new();
+    let mut sources: Vec<ShardResults> = Vec::new();
     for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
         if journal::in_use(&folder) {
             return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
@@ -110,7 +110,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<Source>, MergeError>
             let header = archive.header().clone().of_all_shards();
             header.require(&wanted, &folder.journal(), ALIKE)?;
         }
-        sources.push(Source { folder, archive });
+        sources.push(ShardResults { folder, archive });
     }
     if sources.is_empty() { Err(MergeError::Nothing) } else { Ok(sources) }
 }
@@ -118,7 +118,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<Source>, MergeError>
 /// Appends to `journal` what it lacks; returns how many designs that were.
 fn gather(
     journal: &mut Journal,
-    sources: &[Source],
+    sources: &[ShardResults],
     out: &RunFolder,
     format: CsvFormat,
 ) -> Result<u64, MergeError> {
@@ -149,7 +149,7 @@ fn gather(
 fn choose(
     index: u64,
     there: Option<JournalEntry>,
-    readers: &mut [(&Source, Entries<'_>)],
+    readers: &mut [(&ShardResults, Entries<'_>)],
     out: &RunFolder,
 ) -> Result<Vec<JournalEntry>, MergeError> {
     let known = there.as_ref().map(|entry| entry.rerun);

@@ -99,7 +99,7 @@ pub(crate) enum InvalidRange {
     Backwards { from: Decimal },
     /// The steps pass by the end.
     #[error("{to} is not reached in steps of {step}, expected a `to` of {below} or {above}")]
-    Missed { to: Decimal, step: Decimal, below: Decimal, above: Decimal },
+    Missed { to: String, step: String, below: String, above: String },
     /// The range is longer than a list in memory should be.
     #[error("the range has {count} values, expected at most {LONGEST}, with a larger step")]
     TooLong { count: i128 },
@@ -132,8 +132,9 @@ pub(crate) fn range(
     }
     if length % stride != 0 {
         let below = last - length % stride;
-        let [below, above] =
-            [below, below.saturating_add(stride)].map(|digits| Decimal::new(digits, exponent));
+        let [below, above] = [below, below.saturating_add(stride)]
+            .map(|digits| Decimal::new(digits, exponent).to_string());
+        let (to, step) = (to.to_string(), step.to_string());
         return Err(InvalidRange::Missed { to, step, below, above });
     }
     let count = length / stride + 1;

@@ -16,7 +16,7 @@
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
 //! | [`Case`] | one design with everything that it is solved with |
-//! | [`Subset`], [`Sample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
+//! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
 //!
 //! ```
 //! use sweep::Sweep;
@@ -54,4 +54,4 @@ pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
-pub use subset::{NoShard, Sample, SampleTooLarge, Shard, Subset, SubsetDesigns};
+pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};

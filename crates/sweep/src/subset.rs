@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 pub struct Subset {
     /// A random subset of the designs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sample: Option<Sample>,
+    pub sample: Option<RandomSample>,
     /// One shard of the designs, or of the subset.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shard: Option<Shard>,
@@ -22,7 +22,7 @@ pub struct Subset {
 
 /// A random subset: the same for the same seed, on any machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Sample {
+pub struct RandomSample {
     /// The number of designs.
     pub designs: u64,
     /// Seed of the generator.
@@ -82,7 +82,7 @@ impl From<Shard> for String {
     }
 }
 
-impl fmt::Display for Sample {
+impl fmt::Display for RandomSample {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "--sample {} --seed {}", self.designs, self.seed)
     }
@@ -153,7 +153,7 @@ impl SubsetDesigns {
 }
 
 /// Floyd's algorithm (Bentley & Floyd 1987, doi 10.1145/30401.315746): memory for the subset alone.
-fn draw(designs: u64, sample: Sample) -> Result<Vec<u64>, SampleTooLarge> {
+fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> {
     if !(1..=designs).contains(&sample.designs) {
         return Err(SampleTooLarge { asked: sample.designs, designs });
     }
@@ -178,7 +178,7 @@ mod tests {
     }
 
     fn part(sample: Option<(u64, u64)>, shard: Option<&str>) -> Subset {
-        let sample = sample.map(|(designs, seed)| Sample { designs, seed });
+        let sample = sample.map(|(designs, seed)| RandomSample { designs, seed });
         Subset { sample, shard: shard.map(|text| text.parse().expect("a shard")) }
     }
 

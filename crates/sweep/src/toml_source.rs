@@ -97,7 +97,7 @@ pub struct SyntaxError {
 /// # Errors
 /// If it is no TOML.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
-    let source = Source { text, name: name.into() };
+    let source = Document { text, name: name.into() };
     match DeTable::parse(text) {
         Ok(table) => Ok(source.table(table.get_ref())),
         Err(error) => Err(SyntaxError {
@@ -114,12 +114,12 @@ pub fn one_line(message: &str) -> String {
 }
 
 /// A document with its name, from which the places of keys are found.
-struct Source<'a> {
+struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
 }
 
-impl Source<'_> {
+impl Document<'_> {
     /// The beginning of the line at `offset`, what cannot be printed left out.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));

@@ -9,7 +9,7 @@ use crate::args;
 use crate::print::{aligned, print};
 
 /// Prints the springs under a row of scales.
-pub fn calibrate(arguments: &args::Calibrate) -> anyhow::Result<u8> {
+pub fn calibrate(arguments: &args::CalibrateArguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
     let springs = substrate::calibrate(&footprint)?;
     print(&report(&footprint, &springs))?;
@@ -17,7 +17,7 @@ pub fn calibrate(arguments: &args::Calibrate) -> anyhow::Result<u8> {
 }
 
 /// The arguments are validated as the keys of a sweep that they are.
-fn footprint_of(arguments: &args::Calibrate) -> anyhow::Result<Footprint> {
+fn footprint_of(arguments: &args::CalibrateArguments) -> anyhow::Result<Footprint> {
     let options = [
         ("--gap", "designs.gap_over_t", &arguments.gap),
         ("--length", "designs.length_over_t", &arguments.length),

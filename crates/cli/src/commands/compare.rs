@@ -14,7 +14,7 @@ use crate::print::{aligned, counted, digits, print};
 const LISTED: usize = 8;
 
 /// Says where two runs differ.
-pub fn compare(arguments: &args::Compare) -> anyhow::Result<u8> {
+pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
     let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
     let (first, second) = (first?, second?);

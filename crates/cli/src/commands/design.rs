@@ -13,7 +13,7 @@ use crate::args;
 use crate::print::{aligned, print};
 
 /// Solves one design, prints its measures and writes its path tables.
-pub fn design(arguments: &args::Design) -> anyhow::Result<u8> {
+pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
     let chosen = choose(arguments)?;
     let grid = chosen.sweep.grid();
     let evaluator = Evaluator::new(chosen.sweep.measures());
@@ -39,14 +39,14 @@ struct Chosen {
     original: Option<Case>,
 }
 
-fn choose(arguments: &args::Design) -> anyhow::Result<Chosen> {
+fn choose(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
     match &arguments.number {
         Some(number) => by_number(arguments, number),
         None => by_values(arguments),
     }
 }
 
-fn by_number(arguments: &args::Design, number: &str) -> anyhow::Result<Chosen> {
+fn by_number(arguments: &args::DesignArguments, number: &str) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
     let sweep = Sweep::read(path, &settings(&arguments.definition)?)?;
     let grid = sweep.grid();
@@ -63,7 +63,7 @@ fn by_number(arguments: &args::Design, number: &str) -> anyhow::Result<Chosen> {
     })
 }
 
-fn by_values(arguments: &args::Design) -> anyhow::Result<Chosen> {
+fn by_values(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
     let mut settings = settings(&arguments.definition)?;
     let options = [
@@ -95,7 +95,7 @@ fn by_values(arguments: &args::Design) -> anyhow::Result<Chosen> {
 }
 
 /// `sweep`, of one design, with the number that the definition as it is written gives it.
-fn located(arguments: &args::Design, sweep: Sweep) -> Chosen {
+fn located(arguments: &args::DesignArguments, sweep: Sweep) -> Chosen {
     let whole = Sweep::read(&arguments.definition.path, &[]).ok();
     let found = whole.and_then(|whole| {
         let grid = whole.grid();
@@ -110,7 +110,7 @@ fn located(arguments: &args::Design, sweep: Sweep) -> Chosen {
 }
 
 impl Chosen {
-    fn folder(&self, arguments: &args::Design) -> PathBuf {
+    fn folder(&self, arguments: &args::DesignArguments) -> PathBuf {
         let folder = || folder_of(&self.sweep, None).join("designs").join(self.label());
         arguments.out.clone().unwrap_or_else(folder)
     }

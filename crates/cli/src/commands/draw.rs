@@ -20,7 +20,7 @@ const FRAMES: u32 = 60;
 const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 
 /// Draws designs.
-pub fn draw(arguments: &args::Draw) -> anyhow::Result<u8> {
+pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = arguments.out.clone();
     let folder = folder.unwrap_or_else(|| folder_of(&sweep, None).join("drawings"));
@@ -59,7 +59,7 @@ struct Drawing<'a> {
     sweep: &'a Sweep,
     number: DesignNumber,
     case: Case,
-    arguments: &'a args::Draw,
+    arguments: &'a args::DrawArguments,
     folder: &'a PathBuf,
 }
 

@@ -6,7 +6,7 @@ use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, print};
 
 /// Writes the tables of a run as one workbook.
-pub fn export(arguments: &args::Export) -> anyhow::Result<u8> {
+pub fn export(arguments: &args::ExportArguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
     Interrupt::survive_file_limits()?;

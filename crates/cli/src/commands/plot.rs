@@ -23,7 +23,7 @@ const CURVE_STEP: f64 = 0.004;
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
 /// Draws the figures of a sweep, or the curves of designs.
-pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
+pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
         (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
         (None, Some(results)) => plot_results(results, arguments),
@@ -31,7 +31,7 @@ pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
     }
 }
 
-fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
+fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(results)?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
@@ -44,7 +44,7 @@ fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
+fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let chosen = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
     let solve = |(_, case): &(DesignNumber, Case)| solve(case, arguments.to);

@@ -15,14 +15,14 @@ use crate::print::{aligned, counted, digits, print};
 const LISTED: usize = 10;
 
 /// Finds the best designs of a run and writes them down.
-pub fn rank(arguments: &args::Rank) -> anyhow::Result<u8> {
+pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let weights: Weights = option("--weights", &arguments.weights)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let results = Results::read(&arguments.results)?;
     let ranking = Ranking::new(&results, grid)?;
     let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
     let files = ranking::write_ranking(folder, &ranking, weights)?;
-    let report = Report { results: &results, ranking: &ranking };
+    let report = RankReport { results: &results, ranking: &ranking };
     let text = report.text(weights, arguments.top);
     print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     Ok(DONE)
@@ -36,12 +36,12 @@ where
     text.parse().with_context(|| format!("{name} {text}"))
 }
 
-struct Report<'a> {
+struct RankReport<'a> {
     results: &'a Results,
     ranking: &'a Ranking<'a>,
 }
 
-impl Report<'_> {
+impl RankReport<'_> {
     fn text(&self, weights: Weights, top: usize) -> String {
         let folder = self.results.folder();
         let best = self.ranking.by_fitness(weights);

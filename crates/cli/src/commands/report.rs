@@ -21,7 +21,7 @@ const DRAWN: usize = 24;
 const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
-pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
+pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(&arguments.results)?;
     let page = page(&results)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));

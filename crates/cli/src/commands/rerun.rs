@@ -14,7 +14,7 @@ use crate::progress::ProgressDisplay;
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
+pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
     let rerun = Rerun::plan(&arguments.results, &filter(arguments), &settings, &PROGRAM)?;
@@ -36,7 +36,7 @@ pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
     Ok(exit_code(&finished, &interrupt))
 }
 
-fn filter(arguments: &args::Rerun) -> Filter {
+fn filter(arguments: &args::RerunArguments) -> Filter {
     Filter {
         failed: arguments.failed,
         numbers: arguments.numbers.clone(),

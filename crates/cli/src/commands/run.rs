@@ -6,7 +6,7 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use run::{Best, Finished, Options, Start};
-use sweep::{Sample, Subset, Sweep};
+use sweep::{RandomSample, Subset, Sweep};
 
 use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
 use crate::args;
@@ -18,7 +18,7 @@ use crate::progress::ProgressDisplay;
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
+pub fn run(arguments: &args::RunArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
     let interrupt = Interrupt::listen()?;
@@ -35,7 +35,7 @@ pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
     Ok(exit_code(&finished, &interrupt))
 }
 
-fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
+fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {
     let folder = folder_of(sweep, arguments.out.as_deref());
     match &arguments.shard {
         Some(shard) if arguments.out.is_none() => {
@@ -45,12 +45,12 @@ fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
     }
 }
 
-fn subset(arguments: &args::Run) -> Subset {
-    let sample = arguments.sample.map(|designs| Sample { designs, seed: arguments.seed });
+fn subset(arguments: &args::RunArguments) -> Subset {
+    let sample = arguments.sample.map(|designs| RandomSample { designs, seed: arguments.seed });
     Subset { sample, shard: arguments.shard }
 }
 
-fn start(arguments: &args::Run) -> Start {
+fn start(arguments: &args::RunArguments) -> Start {
     match (arguments.resume, arguments.fresh) {
         (true, _) => Start::Resume,
         (_, true) => Start::Fresh,

@@ -10,7 +10,7 @@ use crate::args;
 use crate::print::{aligned, counted, print};
 
 /// Says how far a run is.
-pub fn status(arguments: &args::Status) -> anyhow::Result<u8> {
+pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
     let status = run::RunStatus::of(&arguments.results)?;
     print(&report(&status))?;
     let complete = status.failed == 0 && status.archive.missing().is_empty();

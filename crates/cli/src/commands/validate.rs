@@ -12,7 +12,7 @@ use crate::args;
 use crate::print::print;
 
 /// Carries out the validation, prints its page and writes it down.
-pub fn validate(arguments: &args::Validate) -> anyhow::Result<u8> {
+pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     if let Some(path) = &arguments.search {
         print(&SettingSearch::run(Sweep::read(path, &[])?)?.table())?;
         return Ok(DONE);

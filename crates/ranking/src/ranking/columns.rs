@@ -7,10 +7,10 @@ use sweep::Parameter;
 use super::RankedDesign;
 use crate::criteria::{CRITERIA, Criterion};
 
-type Columns<'a> = Vec<Column<RankedDesign<'a>>>;
+type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
 
 /// The columns of `ranking.csv` for designs with these parameters.
-pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
+pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let rank =
         Column::new("rank", "-", "place by fitness, 1 is the best", |s: &RankedDesign<'a>| {
             s.rank.into()
@@ -30,7 +30,7 @@ pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
 }
 
 /// The columns of `pareto.csv`.
-pub fn pareto_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
+pub fn pareto_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.extend(criteria());
     columns.push(share("part of all weights for which it is the best design"));
@@ -38,7 +38,7 @@ pub fn pareto_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
 }
 
 /// The columns of `winners.csv`.
-pub fn winner_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
+pub fn winner_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.push(share("part of all weights for which it is the best design"));
     columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
@@ -50,8 +50,8 @@ pub fn winner_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
 }
 
 /// The columns of `quaternary.csv`.
-pub fn quaternary_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
-    let mut columns: Columns<'a> = vec![
+pub fn quaternary_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+    let mut columns: RankedColumns<'a> = vec![
         Column::new("coverage_weight", "-", "weight m of the coverage", |s| s.weight(0)),
         Column::new("critical_force_weight", "-", "weight n of the critical force", |s| {
             s.weight(1)
@@ -70,7 +70,7 @@ pub fn quaternary_columns<'a>(parameters: &[&'static Parameter]) -> Columns<'a> 
 }
 
 /// Number and parameters.
-fn design<'a>(parameters: &[&'static Parameter]) -> Columns<'a> {
+fn design<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
     let parameter = |parameter: &&'static Parameter| {
         Column::parameter(parameter, |s: &RankedDesign<'a>, parameter| {
@@ -90,7 +90,7 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
 }
 
 /// The values that the criteria are made from, as in `designs.csv`.
-fn criteria<'a>() -> Columns<'a> {
+fn criteria<'a>() -> RankedColumns<'a> {
     let cells: [fn(&RankedDesign<'a>) -> Cell; 4] =
         [|s| s.measured(0), |s| s.measured(1), |s| s.measured(2), |s| s.measured(3)];
     let column = |(criterion, cell): (&'static Criterion, fn(&RankedDesign<'a>) -> Cell)| {
@@ -100,7 +100,7 @@ fn criteria<'a>() -> Columns<'a> {
     CRITERIA.iter().zip(cells).map(column).collect()
 }
 
-fn rescaled<'a>() -> Columns<'a> {
+fn rescaled<'a>() -> RankedColumns<'a> {
     vec![
         Column::new(
             "coverage_rescaled",

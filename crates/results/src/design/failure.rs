@@ -78,9 +78,25 @@ pub struct FailureRow {
 
 /// The columns of `failures.csv` after those that say which design it is.
 pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
-    vec![
+    let mut columns: Vec<Column<FailureRow>> = vec![
         Column::new("measure", "-", "what has no value", |f| f.failure.measure.key().into()),
         Column::new("reason", "-", "why, one of the statuses", |f| f.failure.outcome.text().into()),
+    ];
+    columns.extend(path_end_columns());
+    columns.push(Column::new("settings", "-", "settings that are not the sweep's own", |f| {
+        f.design.result.settings.clone().into()
+    }));
+    columns.push(Column::new(
+        "command",
+        "-",
+        "command that solves the design alone, with its whole path, from within this folder",
+        |f| f.command().into(),
+    ));
+    columns
+}
+
+fn path_end_columns() -> [Column<FailureRow>; 7] {
+    [
         Column::new(
             "angle_deg",
             "deg",
@@ -111,15 +127,6 @@ pub fn failure_detail_columns() -> Vec<Column<FailureRow>> {
         Column::new("residual", "-", "largest scaled residual of that iteration", |f| {
             f.failure.end.residual.into()
         }),
-        Column::new("settings", "-", "settings that are not the sweep's own", |f| {
-            f.design.result.settings.clone().into()
-        }),
-        Column::new(
-            "command",
-            "-",
-            "command that solves the design alone, with its whole path, from within this folder",
-            |f| f.command().into(),
-        ),
     ]
 }
 

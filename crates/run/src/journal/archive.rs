@@ -319,7 +319,7 @@ impl Entries<'_> {
         read.map_err(|error| self.archive.unreadable(&error))?;
         self.at = offset + bytes.len() as u64;
         match self.archive.line(&mut bytes) {
-            Ok(Line::Design(entry)) => Ok(entry),
+            Ok(Line::Design(entry)) => Ok(*entry),
             Ok(_) => Err(self.changed("it is no design any more")),
             Err(problem) => Err(self.changed(&problem)),
         }

@@ -5,7 +5,7 @@ use skin::flexure::Method;
 use substrate::Coupling;
 
 use crate::parameter::Bound::{Excluded, Included};
-use crate::parameter::{CountRange, Kind, Parameter, Range};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range};
 
 const LENGTH: Range = Range { low: Excluded(0.0), high: Included(1e6) };
 const POSITIVE: Range = Range { low: Excluded(0.0), high: Included(1e30) };
@@ -19,21 +19,29 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "designs",
         unit: "t",
         meaning: "gap d between neighbouring bases",
-        kind: Kind::Number { noun: "a length", range: LENGTH, field: |c| &mut c.design.gap },
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.gap,
+        },
     },
     Parameter {
         key: "length_over_t",
         section: "designs",
         unit: "t",
         meaning: "length L of a scale",
-        kind: Kind::Number { noun: "a length", range: LENGTH, field: |c| &mut c.design.length },
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.length,
+        },
     },
     Parameter {
         key: "slant_deg",
         section: "designs",
         unit: "deg",
         meaning: "slant of the scales from the vertical, to the right",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Included(0.0), high: Excluded(90.0) },
             field: |c| &mut c.design.slant_deg,
@@ -44,7 +52,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "scale",
         unit: "-",
         meaning: "length of the base of a scale, L or 2L",
-        kind: Kind::Word {
+        kind: ParameterKind::Word {
             words: &["L", "2L"],
             get: |c| usize::from(c.design.base == Base::TwoL),
             set: |c, word| c.design.base = [Base::L, Base::TwoL][word],
@@ -55,14 +63,18 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "scale",
         unit: "t",
         meaning: "out-of-plane width b of the scales",
-        kind: Kind::Number { noun: "a length", range: LENGTH, field: |c| &mut c.design.width },
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.width,
+        },
     },
     Parameter {
         key: "poisson_ratio",
         section: "substrate",
         unit: "-",
         meaning: "Poisson's ratio of the substrate",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(0.5) },
             field: |c| &mut c.puncture.poisson_ratio,
@@ -73,7 +85,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "substrate",
         unit: "-",
         meaning: "neighbours that the substrate couples a scale with, the nearest or all that matter",
-        kind: Kind::Word {
+        kind: ParameterKind::Word {
             words: &["nearest", "full"],
             get: |c| usize::from(c.coupling == Coupling::Full),
             set: |c, word| c.coupling = [Coupling::Nearest, Coupling::Full][word],
@@ -84,14 +96,18 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "contact",
         unit: "-",
         meaning: "prefactor C1 of the contact law",
-        kind: Kind::Number { noun: "a number", range: POSITIVE, field: |c| &mut c.puncture.law.c1 },
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.puncture.law.c1,
+        },
     },
     Parameter {
         key: "c2",
         section: "contact",
         unit: "-",
         meaning: "exponent C2 of the contact law",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(10.0) },
             field: |c| &mut c.puncture.law.c2,
@@ -102,14 +118,14 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "scales in the row",
-        kind: Kind::RowLength { range: CountRange { low: 1, high: 1_000_000 } },
+        kind: ParameterKind::RowLength { range: CountRange { low: 1, high: 1_000_000 } },
     },
     Parameter {
         key: "load_position",
         section: "puncture",
         unit: "-",
         meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(1.0) },
             field: |c| &mut c.puncture.load_position,
@@ -120,7 +136,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "deg",
         meaning: "tilt of the punctured scale at which the puncture ends",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Excluded(0.0), high: Excluded(90.0) },
             field: |c| &mut c.puncture.critical_tilt_deg,
@@ -131,7 +147,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
             field: |c| &mut c.puncture.contact_modulus_over_substrate,
@@ -142,7 +158,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "what is bent: one gap, since all deform alike, or the chain of all",
-        kind: Kind::Word {
+        kind: ParameterKind::Word {
             words: &["unit-cell", "chain"],
             get: |c| usize::from(c.flexure.method == Method::Chain),
             set: |c, word| c.flexure.method = [Method::UnitCell, Method::Chain][word],
@@ -153,7 +169,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "t",
         meaning: "length of the membrane, rounded to whole gaps",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
             field: |c| &mut c.flexure.membrane_length,
@@ -164,7 +180,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "t",
         meaning: "thickness h of the membrane",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
             field: |c| &mut c.flexure.membrane_thickness,
@@ -175,7 +191,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "t",
         meaning: "depth of the axis of the membrane below the bases of the scales",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a length",
             range: Range { low: Included(-1e6), high: Included(1e6) },
             field: |c| &mut c.flexure.membrane_axis_offset,
@@ -186,7 +202,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "beam elements of the membrane between two scales",
-        kind: Kind::Count {
+        kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1000 },
             field: |c| &mut c.flexure.elements_per_gap,
         },
@@ -196,7 +212,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "deg",
         meaning: "rotation of each end at which bending ends",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Excluded(0.0), high: Included(180.0) },
             field: |c| &mut c.flexure.max_end_rotation_deg,
@@ -207,7 +223,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
             field: |c| &mut c.flexure.contact_modulus_over_membrane,
@@ -218,7 +234,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "coefficient of variation of the gaps of imperfect rows",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(1.0) },
             field: |c| &mut c.imperfection.gap_cv,
@@ -229,7 +245,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "deg",
         meaning: "standard deviation of the slants of imperfect rows",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Included(0.0), high: Included(30.0) },
             field: |c| &mut c.imperfection.slant_sd_deg,
@@ -240,7 +256,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "imperfect rows that are solved, if gaps or slants scatter",
-        kind: Kind::Count {
+        kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1_000_000 },
             field: |c| &mut c.samples.count,
         },
@@ -250,7 +266,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "seed of the random gaps and slants",
-        kind: Kind::Count {
+        kind: ParameterKind::Count {
             range: CountRange { low: 0, high: 1_000_000_000 },
             field: |c| &mut c.samples.seed,
         },
@@ -260,7 +276,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "first step, as a fraction of the whole path",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
             field: |c| &mut c.puncture.solver.first_step,
@@ -271,7 +287,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "largest step, as a fraction of the whole path",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
             field: |c| &mut c.puncture.solver.max_step,
@@ -282,7 +298,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "smallest step, as a fraction of the whole path, below which the path stops",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
             field: |c| &mut c.puncture.solver.min_step,
@@ -293,7 +309,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "largest scaled residual of an equilibrium",
-        kind: Kind::Number {
+        kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(0.01) },
             field: |c| &mut c.puncture.solver.tolerance,
@@ -304,7 +320,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "Newton iterations after which a step is cut to a third",
-        kind: Kind::Count {
+        kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1000 },
             field: |c| &mut c.puncture.solver.max_iterations,
         },
@@ -314,7 +330,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "equilibria after which the path stops",
-        kind: Kind::Count {
+        kind: ParameterKind::Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
             field: |c| &mut c.puncture.solver.max_points,
         },
