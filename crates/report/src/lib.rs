@@ -6,7 +6,7 @@
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | what a sweep found, from its table |
 //! | [`Page`] | all of it on one page |
-//! | [`png`] | any of them as an image |
+//! | `png` | any of them as an image, if this crate is built with its feature `png` |
 //!
 //! ```
 //! use report::drawings::Puncture;
@@ -23,6 +23,7 @@
 //! let name = "five scales";
 //! let svg = Puncture { name, design: &design, load_position: 1.0, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
+//! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -36,6 +37,7 @@ mod figures;
 mod label;
 mod page;
 mod palette;
+#[cfg(feature = "png")]
 mod png;
 mod svg;
 
@@ -44,4 +46,5 @@ pub use designs::Designs;
 pub use figures::{Figure, figures};
 pub use page::{Fact, Page};
 pub use palette::{Mark, slant_color};
+#[cfg(feature = "png")]
 pub use png::{NoImage, png};
