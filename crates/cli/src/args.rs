@@ -337,7 +337,7 @@ pub struct DrawArguments {
     #[arg(long)]
     pub flexure: bool,
 
-    /// An image beside each drawing
+    /// An image beside each drawing, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
@@ -369,7 +369,7 @@ pub struct PlotArguments {
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
 
-    /// An image beside each figure
+    /// An image beside each figure, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
@@ -403,7 +403,7 @@ pub struct CurvesArguments {
     #[arg(long, value_name = "U")]
     pub to: Option<f64>,
 
-    /// An image beside each figure
+    /// An image beside each figure, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 

@@ -10,7 +10,7 @@
 //! | [`figures()`] | figures of a sweep, from its table |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`RankingEntry`] | figures, ranking, table and drawings on one HTML page |
-//! | [`png`] | conversion of a drawing or figure to an image |
+//! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!
 //! ```
@@ -28,6 +28,7 @@
 //! let name = "five scales";
 //! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
+//! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -43,6 +44,7 @@ mod figures;
 mod label;
 mod page;
 mod palette;
+#[cfg(feature = "png")]
 mod png;
 mod svg;
 
@@ -53,4 +55,5 @@ pub use export::{ExportError, Exported, export};
 pub use figures::{Figure, figures};
 pub use page::{Fact, Page, RankingEntry};
 pub use palette::{Mark, slant_color};
+#[cfg(feature = "png")]
 pub use png::{NoImage, png};

@@ -22,12 +22,8 @@ fn a_run_becomes_a_workbook() {
 #[test]
 fn a_folder_without_a_run_is_refused() {
     let place = Place::with(FEW);
-    let refused = |arguments: &str| {
-        let stderr = place.squama(arguments).assert().code(2).get_output().stderr.clone();
-        String::from_utf8(stderr).expect("text")
-    };
-    insta::assert_snapshot!(refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
-    insta::assert_snapshot!(refused("export . --xlsx x.csv"), @"error: x.csv: is no name of a workbook, expected one that ends in .xlsx");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: is no name of a workbook, expected one that ends in .xlsx");
     assert_eq!(place.list("."), "x.toml");
 }
 

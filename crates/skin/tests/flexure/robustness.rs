@@ -1,18 +1,17 @@
 //! Every design of the reference study can be bent to a full turn.
 
-use contact::Law;
 use rayon::prelude::*;
 use skin::Base;
 use skin::Status;
 use skin::flexure::{Parameters, solve};
 use solver::Stop;
 
-use crate::samples::{BASES, design, reference_study};
+use crate::samples::{BASES, LAWS, design, reference_study};
 
 #[test]
 fn the_reference_study_completes_with_either_law() {
     for base in BASES {
-        for law in [Law::PRINTED, Law::EXCHANGED] {
+        for law in LAWS {
             let parameters = Parameters { law, ..Parameters::default() };
             let touching: usize = reference_study(base)
                 .par_iter()

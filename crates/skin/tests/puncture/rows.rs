@@ -1,12 +1,11 @@
 //! Rows of any length.
 
 use approx::assert_relative_eq;
-use contact::Law;
 use skin::puncture::{Parameters, RowLength};
 use skin::{Base, Design};
 use substrate::Calibrations;
 
-use crate::samples::{blocks, design, domino, on_row, settled, solve, solve_with};
+use crate::samples::{LAWS, blocks, design, domino, on_row, settled, solve, solve_with};
 use crate::{assert_same_measures, complete};
 
 fn automatic() -> Parameters {
@@ -18,7 +17,7 @@ fn automatic_rows_measure_what_longer_rows_do() {
     let known = Calibrations::default();
     let designs = [blocks(), settled(), domino(), design(1.0, 0.025, 75.0, Base::TwoL)];
     for design in designs {
-        for law in [Law::PRINTED, Law::EXCHANGED] {
+        for law in LAWS {
             let ours = solve_with(&known, &design, &Parameters { law, ..automatic() });
             let longer = 2 * ours.measures.scales + 301;
             let theirs = solve_with(&known, &design, &Parameters { law, ..on_row(longer) });

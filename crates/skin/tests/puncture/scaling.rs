@@ -7,7 +7,7 @@ use skin::{Base, Design};
 use substrate::Calibrations;
 
 use crate::complete;
-use crate::samples::{on_row, settled, solve, springs};
+use crate::samples::{LAWS, on_row, settled, solve, springs};
 
 /// Round-off, and what the tolerance of the equilibria leaves.
 const SAME: f64 = 1e-9;
@@ -52,7 +52,7 @@ fn a_wider_scale_of_a_softer_material_is_the_same() {
 fn a_base_of_2l_is_a_base_of_l_by_another_name() {
     let ours = settled();
     let theirs = Design { length: 0.5 * ours.length, base: Base::TwoL, ..ours };
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    for law in LAWS {
         let renamed = Law { c1: law.c1 * 2.0_f64.powf(1.0 - law.c2), ..law };
         let ours = complete(&solve(&ours, &Parameters { law, ..on_row(41) }));
         let theirs = complete(&solve(&theirs, &Parameters { law: renamed, ..on_row(41) }));
@@ -66,7 +66,7 @@ fn a_base_of_2l_is_a_base_of_l_by_another_name() {
 /// Contacts that are ever harder settle to rigid ones.
 #[test]
 fn harder_contacts_settle_to_rigid_ones() {
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    for law in LAWS {
         let force = |factor: f64| {
             let mut parameters = Parameters { law, ..on_row(41) };
             parameters.contact_modulus_over_substrate *= factor;
