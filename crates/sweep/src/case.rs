@@ -2,7 +2,7 @@
 
 use skin::flexure;
 use skin::puncture;
-use skin::{Base, Design, Imperfection};
+use skin::{Base, Common, Design, Imperfection};
 use substrate::Coupling;
 
 /// One design with everything that it is solved with.
@@ -10,9 +10,11 @@ use substrate::Coupling;
 pub struct Case {
     /// The geometry.
     pub design: Design,
+    /// The contact law and the solver's settings, of puncture and bending.
+    pub common: Common,
     /// What the puncture depends on besides.
     pub puncture: puncture::Parameters,
-    /// What bending depends on besides. Its contact law and its steps are those of the puncture.
+    /// What bending depends on besides.
     pub flexure: flexure::Parameters,
     /// Which neighbours of a scale the substrate couples it with.
     pub coupling: Coupling,
@@ -31,19 +33,12 @@ pub struct Samples {
     pub seed: usize,
 }
 
-impl Case {
-    /// Gives bending the contact law and the steps of the puncture.
-    pub(crate) fn share(&mut self) {
-        self.flexure.law = self.puncture.law;
-        self.flexure.solver = self.puncture.solver;
-    }
-}
-
 impl Default for Case {
     /// The first design of the paper sweep.
     fn default() -> Self {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
+            common: Common::default(),
             puncture: puncture::Parameters::default(),
             flexure: flexure::Parameters::default(),
             coupling: Coupling::Nearest,

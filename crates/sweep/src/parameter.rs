@@ -125,7 +125,6 @@ impl Parameter {
             (Kind::RowLength { .. }, Scalar::Word(_)) => case.puncture.scales = RowLength::Auto,
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
-        case.share();
     }
 
     /// The value `written`, if it is right for this parameter.

@@ -84,7 +84,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "contact",
         unit: "-",
         meaning: "prefactor C1 of the contact law",
-        kind: Kind::Number { noun: "a number", range: POSITIVE, field: |c| &mut c.puncture.law.c1 },
+        kind: Kind::Number { noun: "a number", range: POSITIVE, field: |c| &mut c.common.law.c1 },
     },
     Parameter {
         key: "c2",
@@ -94,7 +94,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: Kind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(10.0) },
-            field: |c| &mut c.puncture.law.c2,
+            field: |c| &mut c.common.law.c2,
         },
     },
     Parameter {
@@ -263,7 +263,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: Kind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.first_step,
+            field: |c| &mut c.common.solver.first_step,
         },
     },
     Parameter {
@@ -274,7 +274,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: Kind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.max_step,
+            field: |c| &mut c.common.solver.max_step,
         },
     },
     Parameter {
@@ -285,7 +285,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: Kind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.min_step,
+            field: |c| &mut c.common.solver.min_step,
         },
     },
     Parameter {
@@ -296,7 +296,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: Kind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(0.01) },
-            field: |c| &mut c.puncture.solver.tolerance,
+            field: |c| &mut c.common.solver.tolerance,
         },
     },
     Parameter {
@@ -306,7 +306,7 @@ pub static PARAMETERS: &[Parameter] = &[
         meaning: "Newton iterations after which a step is cut to a third",
         kind: Kind::Count {
             range: CountRange { low: 1, high: 1000 },
-            field: |c| &mut c.puncture.solver.max_iterations,
+            field: |c| &mut c.common.solver.max_iterations,
         },
     },
     Parameter {
@@ -316,7 +316,7 @@ pub static PARAMETERS: &[Parameter] = &[
         meaning: "equilibria after which the path stops",
         kind: Kind::Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
-            field: |c| &mut c.puncture.solver.max_points,
+            field: |c| &mut c.common.solver.max_points,
         },
     },
 ];

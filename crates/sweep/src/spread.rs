@@ -96,13 +96,15 @@ impl Spreads {
 
 fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureRecord> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    let puncture = puncture::solve_sample(&case.design, substrate, &case.puncture, &sample).ok()?;
+    let puncture =
+        puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
+            .ok()?;
     Some(PunctureRecord::new(&puncture, substrate.estimated_error()))
 }
 
 fn bent(case: &Case, number: u64) -> Option<Flexure> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    flexure::solve_sample(&case.design, &case.flexure, &sample).ok()
+    flexure::solve_sample(&case.design, &case.common, &case.flexure, &sample).ok()
 }
 
 #[cfg(test)]

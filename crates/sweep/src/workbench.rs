@@ -68,7 +68,8 @@ impl Workbench {
 
     fn puncture(&self, case: &Case) -> Result<(PunctureRecord, Puncture), Outcome> {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
-        let puncture = guarded(|| puncture::solve(&case.design, &*substrate, &case.puncture))?;
+        let puncture =
+            guarded(|| puncture::solve(&case.design, &*substrate, &case.common, &case.puncture))?;
         // Validation lets no case without mechanical meaning come here.
         let puncture = puncture.map_err(|_| Outcome::Internal)?;
         Ok((PunctureRecord::new(&puncture, substrate.estimated_error()), puncture))
@@ -117,7 +118,7 @@ fn flexure(case: &Case) -> Result<(FlexureRecord, Flexure), Outcome> {
     if case.flexure.method == Method::Chain {
         chain_fits(case)?;
     }
-    let flexure = guarded(|| flexure::solve(&case.design, &case.flexure))?;
+    let flexure = guarded(|| flexure::solve(&case.design, &case.common, &case.flexure))?;
     // Validation lets no case without mechanical meaning come here.
     let flexure = flexure.map_err(|_| Outcome::Internal)?;
     Ok((FlexureRecord::new(&flexure), flexure))

@@ -3,6 +3,7 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use rayon::prelude::*;
+use skin::Common;
 use skin::flexure::{Parameters, solve};
 use solver::Settings;
 
@@ -18,10 +19,8 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     };
     for law in [Law::PRINTED, Law::EXCHANGED] {
         forty().par_iter().for_each(|design| {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..Parameters::default() };
-                solve(design, &parameters).unwrap()
-            };
+            let with =
+                |solver| solve(design, &Common { law, solver }, &Parameters::default()).unwrap();
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             let compliance =

@@ -1,11 +1,11 @@
 //! The path does not depend on the steps with which it is followed.
 
 use contact::Law;
-use skin::puncture::Parameters;
+use skin::Common;
 use solver::Settings;
 use substrate::Calibrations;
 
-use crate::samples::{on_row, solve_with, spread};
+use crate::samples::{on_row, solve_as, spread};
 
 #[test]
 fn steps_ten_times_smaller_give_the_same_measures() {
@@ -18,10 +18,7 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     };
     for design in spread() {
         for law in [Law::PRINTED, Law::EXCHANGED] {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..on_row(41) };
-                solve_with(&known, &design, &parameters)
-            };
+            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &on_row(41));
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);
