@@ -16,14 +16,14 @@
 //! ```
 //! use report::drawings::PunctureDrawing;
 //! use skin::puncture::{At, Parameters, RowLength, snapshots};
-//! use skin::{Base, Design};
+//! use skin::{Base, Common, Design};
 //! use substrate::calibrate;
 //!
 //! // A row of five scales at rest and when the middle one has tilted by 10°.
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
 //! let springs = calibrate(&design.footprint(0.5)?)?;
 //! let parameters = Parameters { scales: RowLength::Scales(5), ..Parameters::default() };
-//! let solved = snapshots(&design, &springs, &parameters, &[At::Tilt(10.0)])?;
+//! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
 //! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, states: &states }.svg()?;

@@ -7,7 +7,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 
-use contact::{ContactLaw, Law};
+use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use point::scales;
 use solver::{Path, Settings, Stop};
@@ -17,7 +17,7 @@ use system::{Chain, Layout};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, State};
 use crate::record::{ContactEvent, Iteration, Record};
-use crate::{Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
 pub use point::{PathPoint, ScaleState};
@@ -44,8 +44,6 @@ pub enum RowLength {
 pub struct Parameters {
     /// Poisson's ratio `ν` of the substrate.
     pub poisson_ratio: f64,
-    /// Contact law between scales.
-    pub law: Law,
     /// `E_ct / E_s`.
     pub contact_modulus_over_substrate: f64,
     /// Row length.
@@ -54,8 +52,6 @@ pub struct Parameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
-    /// Path following.
-    pub solver: Settings,
 }
 
 impl Default for Parameters {
@@ -63,12 +59,10 @@ impl Default for Parameters {
     fn default() -> Self {
         Self {
             poisson_ratio: 0.5,
-            law: Law::PRINTED,
             contact_modulus_over_substrate: 9677.0,
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
-            solver: Settings::default(),
         }
     }
 }
@@ -99,9 +93,10 @@ pub struct Puncture {
 pub fn solve(
     design: &Design,
     substrate: impl Into<RowStiffness>,
+    common: &Common,
     parameters: &Parameters,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Even(design.row()?), design, substrate.into(), parameters)?.solve()
+    Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
 /// Follows the puncture of an imperfect row as [`solve`] does: gaps and slants are those of `sample`, the substrate stays
@@ -112,10 +107,11 @@ pub fn solve(
 pub fn solve_sample(
     design: &Design,
     substrate: impl Into<RowStiffness>,
+    common: &Common,
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Sample(sample), design, substrate.into(), parameters)?.solve()
+    Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
 /// Source of rows of any length.
@@ -173,6 +169,7 @@ struct Problem<'a> {
     design: &'a Design,
     stiffness: RowStiffness,
     law: ContactLaw,
+    settings: Settings,
     parameters: &'a Parameters,
 }
 
@@ -181,13 +178,14 @@ impl<'a> Problem<'a> {
         rows: Rows<'a>,
         design: &'a Design,
         stiffness: RowStiffness,
+        common: &Common,
         parameters: &'a Parameters,
     ) -> Result<Self, InvalidDesign> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
-        let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-        Ok(Self { rows, design, stiffness, law, parameters })
+        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
+        Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
     }
 
     fn solve(&self) -> Result<Puncture, InvalidDesign> {
@@ -242,7 +240,7 @@ impl<'a> Problem<'a> {
     ) -> Result<(Puncture, Reached), InvalidDesign> {
         let chain = self.chain(layout)?;
         let rest = State::at_rest(&chain);
-        let mut path = Path::new(chain, rest, self.parameters.solver);
+        let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
         let mut reached = Reached::default();
         while let Some(point) = path.next() {

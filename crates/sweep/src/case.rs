@@ -3,7 +3,7 @@
 use geometry::OutOfRange;
 use skin::flexure;
 use skin::puncture;
-use skin::{Base, Design, Imperfection};
+use skin::{Base, Common, Design, Imperfection};
 use substrate::{Coupling, Footprint};
 
 /// One design with everything that it is solved with.
@@ -11,9 +11,11 @@ use substrate::{Coupling, Footprint};
 pub struct Case {
     /// The geometry.
     pub design: Design,
+    /// The contact law and the solver's settings, of puncture and bending.
+    pub common: Common,
     /// The other parameters of the puncture.
     pub puncture: puncture::Parameters,
-    /// The other parameters of bending. The contact law and the steps are those of the puncture.
+    /// The other parameters of bending.
     pub flexure: flexure::Parameters,
     /// The neighbours of a scale that the substrate couples it with.
     pub coupling: Coupling,
@@ -40,12 +42,6 @@ impl Case {
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
         self.design.footprint(self.puncture.poisson_ratio)
     }
-
-    /// Gives bending the contact law and the steps of the puncture.
-    pub(crate) fn share(&mut self) {
-        self.flexure.law = self.puncture.law;
-        self.flexure.solver = self.puncture.solver;
-    }
 }
 
 impl Default for Case {
@@ -53,6 +49,7 @@ impl Default for Case {
     fn default() -> Self {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
+            common: Common::default(),
             puncture: puncture::Parameters::default(),
             flexure: flexure::Parameters::default(),
             coupling: Coupling::Nearest,

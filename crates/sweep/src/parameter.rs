@@ -137,7 +137,6 @@ impl Parameter {
             }
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
-        case.share();
     }
 
     /// The value `written`, if it is right for this parameter.

@@ -114,7 +114,8 @@ impl Drawing<'_> {
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::Snapshot>> {
         let case = &self.case;
         let substrate = substrate(case)?;
-        let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, at)?;
+        let solved =
+            puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::Snapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
@@ -132,7 +133,7 @@ impl Drawing<'_> {
             [] => ROTATIONS_DEG.into_iter().filter(|&rotation| rotation <= last).collect(),
             at => at.to_vec(),
         };
-        let solved = flexure::snapshots(&self.case.design, &parameters, &at)?;
+        let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
         let reached = |(at, state): (&f64, Option<flexure::Snapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: bending does not turn the ends by {at}°", self.number),

@@ -80,20 +80,19 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
 /// The puncture of a design, to the critical tilt or to a displacement, and its bending.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let substrate = substrate(case)?;
-    let (mut parameters, mut bending) = (case.puncture, case.flexure);
+    let mut common = case.common;
     // Close enough for a line.
-    for solver in [&mut parameters.solver, &mut bending.solver] {
-        solver.max_step = solver.max_step.min(CURVE_STEP);
-    }
+    common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
-    let mut puncture = puncture::snapshots(&case.design, &substrate, &parameters, &at)?.puncture;
+    let mut puncture =
+        puncture::snapshots(&case.design, &substrate, &common, &case.puncture, &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
     }
-    Ok((puncture, flexure::solve(&case.design, &bending)?))
+    Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
 /// The numbers of designs, for the name of a file.

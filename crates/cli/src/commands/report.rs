@@ -90,7 +90,8 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
     let case = grid.case(grid.parse_number(number).ok()?);
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, &at).ok()?;
+    let solved =
+        puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
     let drawing = drawings::PunctureDrawing {

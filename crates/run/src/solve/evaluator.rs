@@ -56,7 +56,8 @@ impl Evaluator {
 
     fn puncture(&self, case: &Case) -> Result<(PunctureResult, Puncture), Outcome> {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
-        let puncture = guarded(|| puncture::solve(&case.design, &*substrate, &case.puncture))?;
+        let puncture =
+            guarded(|| puncture::solve(&case.design, &*substrate, &case.common, &case.puncture))?;
         // Validation lets no case without mechanical meaning come here.
         let puncture = puncture.map_err(|_| Outcome::Internal)?;
         Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
@@ -100,7 +101,7 @@ fn flexure(case: &Case) -> Result<(FlexureResult, Flexure), Outcome> {
     if case.flexure.method == Method::Chain {
         chain_fits(case)?;
     }
-    let flexure = guarded(|| flexure::solve(&case.design, &case.flexure))?;
+    let flexure = guarded(|| flexure::solve(&case.design, &case.common, &case.flexure))?;
     // Validation lets no case without mechanical meaning come here.
     let flexure = flexure.map_err(|_| Outcome::Internal)?;
     Ok((FlexureResult::new(&flexure), flexure))

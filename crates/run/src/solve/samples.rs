@@ -36,11 +36,13 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics) {
 
 fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureResult> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    let puncture = puncture::solve_sample(&case.design, substrate, &case.puncture, &sample).ok()?;
+    let puncture =
+        puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
+            .ok()?;
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
 fn bent(case: &Case, number: u64) -> Option<Flexure> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    flexure::solve_sample(&case.design, &case.flexure, &sample).ok()
+    flexure::solve_sample(&case.design, &case.common, &case.flexure, &sample).ok()
 }

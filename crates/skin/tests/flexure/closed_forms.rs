@@ -5,7 +5,7 @@ use analytical::upright_blocks::{
 };
 use approx::assert_relative_eq;
 use skin::flexure::{Flexure, Parameters, solve};
-use skin::{Base, ContactChange};
+use skin::{Base, Common, ContactChange};
 
 use crate::samples::{design, forty};
 
@@ -14,7 +14,7 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
     let mut compared = 0;
     for design in forty() {
         let pitch = design.row().unwrap().pitch();
-        let flexure = solve(&design, &Parameters::default()).unwrap();
+        let flexure = solve(&design, &Common::default(), &Parameters::default()).unwrap();
         let free = flexure.path.iter().skip(1).take_while(|point| point.contacts == 0);
         for point in free {
             let expected = point.curvature * moment_over_curvature(design.gap, pitch);
@@ -30,7 +30,7 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
 /// Upright blocks on a strip so short that they meet, with this many elements in each gap.
 fn blocks(gap: f64, length: f64, elements_per_gap: usize) -> Flexure {
     let parameters = Parameters { membrane_length: 4.0, elements_per_gap, ..Parameters::default() };
-    solve(&design(gap, length, 0.0, Base::L), &parameters).unwrap()
+    solve(&design(gap, length, 0.0, Base::L), &Common::default(), &parameters).unwrap()
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
+use skin::Common;
 use skin::flexure::{Parameters, solve};
 use solver::Settings;
 
@@ -13,10 +14,8 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     let fine = finer(coarse);
     for law in LAWS {
         forty().par_iter().for_each(|design| {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..Parameters::default() };
-                solve(design, &parameters).unwrap()
-            };
+            let with =
+                |solver| solve(design, &Common { law, solver }, &Parameters::default()).unwrap();
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             let compliance =

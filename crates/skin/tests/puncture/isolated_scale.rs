@@ -3,13 +3,12 @@
 use analytical::isolated_scale::IsolatedScale;
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::Base;
-use skin::Status;
 use skin::puncture::Parameters;
+use skin::{Base, Status};
 use solver::Stop;
 use substrate::Calibrations;
 
-use crate::samples::{design, on_row, solve_with, springs};
+use crate::samples::{design, on_row, solve_with, springs, with_law};
 
 fn closed_form(
     design: &skin::Design,
@@ -79,8 +78,10 @@ fn its_measures_are_those_of_the_closed_form() {
 /// it buckles. The tilt cannot drive it.
 #[test]
 fn a_load_over_the_node_does_not_tilt_a_block() {
-    let parameters = Parameters { load_position: 0.5, law: Law::EXCHANGED, ..on_row(1) };
-    let puncture = crate::samples::solve(&design(0.1, 1.0, 0.0, Base::L), &parameters);
+    let parameters = Parameters { load_position: 0.5, ..on_row(1) };
+    let (known, common) = (Calibrations::default(), with_law(Law::EXCHANGED));
+    let block = design(0.1, 1.0, 0.0, Base::L);
+    let puncture = crate::samples::solve_as(&known, &block, &common, &parameters);
     assert_eq!(puncture.status, Status::Stopped(Stop::Singular));
     assert_eq!(puncture.measures.critical_force, None);
 }

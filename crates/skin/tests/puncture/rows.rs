@@ -5,7 +5,7 @@ use skin::puncture::{Parameters, RowLength};
 use skin::{Base, Design};
 use substrate::Calibrations;
 
-use crate::samples::{LAWS, blocks, design, domino, on_row, settled, solve, solve_with};
+use crate::samples::{LAWS, blocks, design, domino, on_row, settled, solve, solve_as, with_law};
 use crate::{assert_same_measures, complete};
 
 fn automatic() -> Parameters {
@@ -18,9 +18,9 @@ fn automatic_rows_measure_what_longer_rows_do() {
     let designs = [blocks(), settled(), domino(), design(1.0, 0.025, 75.0, Base::TwoL)];
     for design in designs {
         for law in LAWS {
-            let ours = solve_with(&known, &design, &Parameters { law, ..automatic() });
+            let ours = solve_as(&known, &design, &with_law(law), &automatic());
             let longer = 2 * ours.measures.scales + 301;
-            let theirs = solve_with(&known, &design, &Parameters { law, ..on_row(longer) });
+            let theirs = solve_as(&known, &design, &with_law(law), &on_row(longer));
             assert_same_measures(&complete(&ours), &complete(&theirs), 1e-6);
         }
     }

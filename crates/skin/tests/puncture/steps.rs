@@ -1,10 +1,10 @@
 //! The path does not depend on the steps with which it is followed.
 
-use skin::puncture::Parameters;
+use skin::Common;
 use solver::Settings;
 use substrate::Calibrations;
 
-use crate::samples::{LAWS, finer, on_row, solve_with, spread};
+use crate::samples::{LAWS, finer, on_row, solve_as, spread};
 
 #[test]
 fn steps_ten_times_smaller_give_the_same_measures() {
@@ -13,10 +13,7 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     let fine = finer(coarse);
     for design in spread() {
         for law in LAWS {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..on_row(41) };
-                solve_with(&known, &design, &parameters)
-            };
+            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &on_row(41));
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);

@@ -5,7 +5,7 @@
 
 use contact::Law;
 use skin::puncture::{self, Parameters, Puncture, RowLength};
-use skin::{Base, Design};
+use skin::{Base, Common, Design};
 use solver::Settings;
 use substrate::{Calibrations, Springs};
 
@@ -140,7 +140,22 @@ pub fn springs(design: &Design, parameters: &Parameters, known: &Calibrations) -
 
 /// Solves a design whose springs may be known.
 pub fn solve_with(known: &Calibrations, design: &Design, parameters: &Parameters) -> Puncture {
-    puncture::solve(design, &springs(design, parameters, known), parameters).unwrap()
+    solve_as(known, design, &Common::default(), parameters)
+}
+
+/// Solves a design whose springs may be known, with another contact law or other steps.
+pub fn solve_as(
+    known: &Calibrations,
+    design: &Design,
+    common: &Common,
+    parameters: &Parameters,
+) -> Puncture {
+    puncture::solve(design, &springs(design, parameters, known), common, parameters).unwrap()
+}
+
+/// A contact law, and steps as usual.
+pub fn with_law(law: Law) -> Common {
+    Common { law, ..Common::default() }
 }
 
 /// Solves a design.

@@ -99,7 +99,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
-            field: |c| &mut c.puncture.law.c1,
+            field: |c| &mut c.common.law.c1,
         },
     },
     Parameter {
@@ -110,7 +110,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(10.0) },
-            field: |c| &mut c.puncture.law.c2,
+            field: |c| &mut c.common.law.c2,
         },
     },
     Parameter {
@@ -279,7 +279,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.first_step,
+            field: |c| &mut c.common.solver.first_step,
         },
     },
     Parameter {
@@ -290,7 +290,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.max_step,
+            field: |c| &mut c.common.solver.max_step,
         },
     },
     Parameter {
@@ -301,7 +301,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
-            field: |c| &mut c.puncture.solver.min_step,
+            field: |c| &mut c.common.solver.min_step,
         },
     },
     Parameter {
@@ -312,7 +312,7 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(0.01) },
-            field: |c| &mut c.puncture.solver.tolerance,
+            field: |c| &mut c.common.solver.tolerance,
         },
     },
     Parameter {
@@ -322,7 +322,7 @@ pub static PARAMETERS: &[Parameter] = &[
         meaning: "Newton iterations after which a step is cut to a third",
         kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1000 },
-            field: |c| &mut c.puncture.solver.max_iterations,
+            field: |c| &mut c.common.solver.max_iterations,
         },
     },
     Parameter {
@@ -332,7 +332,7 @@ pub static PARAMETERS: &[Parameter] = &[
         meaning: "equilibria after which the path stops",
         kind: ParameterKind::Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
-            field: |c| &mut c.puncture.solver.max_points,
+            field: |c| &mut c.common.solver.max_points,
         },
     },
 ];

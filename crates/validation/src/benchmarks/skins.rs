@@ -5,7 +5,7 @@ use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,
 };
 use skin::puncture::RowLength;
-use skin::{Base, Design, flexure, puncture};
+use skin::{Base, Common, Design, flexure, puncture};
 
 use super::Benchmark;
 use crate::ValidationError;
@@ -28,7 +28,9 @@ fn isolated_scale() -> Result<Vec<Benchmark>, ValidationError> {
         puncture::Parameters { scales: RowLength::Scales(1), ..puncture::Parameters::default() };
     let footprint = design.footprint(parameters.poisson_ratio).map_err(|e| wrong(&e))?;
     let springs = substrate::calibrate(&footprint).map_err(|e| wrong(&e))?;
-    let measures = puncture::solve(&design, &springs, &parameters).map_err(|e| wrong(&e))?.measures;
+    let measures = puncture::solve(&design, &springs, &Common::default(), &parameters)
+        .map_err(|e| wrong(&e))?
+        .measures;
     let (a, tilt) = (design.half_base(), parameters.critical_tilt_deg.to_radians());
     let exact = IsolatedScale {
         normal: a * springs.direct[1],
@@ -58,7 +60,7 @@ fn bending() -> Result<Vec<Benchmark>, ValidationError> {
             elements_per_gap,
             ..flexure::Parameters::default()
         };
-        flexure::solve(&design, &parameters).map_err(|e| wrong(&e))
+        flexure::solve(&design, &Common::default(), &parameters).map_err(|e| wrong(&e))
     };
     let (one, many) = (bent(1)?, bent(128)?);
     let free = one.path.get(1).ok_or_else(missing)?;

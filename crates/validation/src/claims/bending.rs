@@ -12,8 +12,9 @@ fn bent(study: &Study, gap: f64, length: f64, slant_deg: f64, strip: f64) -> Opt
     let design = skin::Design { gap, length, slant_deg, ..case.design };
     let mut parameters = case.flexure;
     parameters.membrane_length = strip;
-    parameters.solver.max_step = 0.002;
-    flexure::solve(&design, &parameters).ok()
+    let mut common = case.common;
+    common.solver.max_step = 0.002;
+    flexure::solve(&design, &common, &parameters).ok()
 }
 
 /// The length of the strip, over `t`: that of the experiment of Fig. 10, on which the cubes touch.

@@ -95,7 +95,7 @@ fn substrate(case: &Case) -> Option<RowStiffness> {
 }
 
 fn punctured(case: &Case) -> Option<Puncture> {
-    puncture::solve(&case.design, &substrate(case)?, &case.puncture).ok()
+    puncture::solve(&case.design, &substrate(case)?, &case.common, &case.puncture).ok()
 }
 
 /// Returns the mean stiffness of the step behind the first contact over that of the step before it.
@@ -109,14 +109,16 @@ fn kink(puncture: &Puncture) -> Option<f64> {
 }
 
 fn finely(mut case: Case) -> Case {
-    case.puncture.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
+    case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     case
 }
 
 pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
     let case = finely(case(study, 0.1, 1.0, 0.0));
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &substrate(&case)?, &case.puncture, &at).ok()?;
+    let solved =
+        puncture::snapshots(&case.design, &substrate(&case)?, &case.common, &case.puncture, &at)
+            .ok()?;
     let contacts = &solved.at.first()?.as_ref()?.contacts;
     let strongest = contacts
         .iter()
