@@ -12,7 +12,7 @@
 //! | Item | Role |
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
-//! | [`claims()`], [`Claim`], [`CheckedClaim`] | the statements of the paper, and their verdicts |
+//! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`] | the statements of the paper, and their verdicts |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
@@ -35,7 +35,7 @@ mod study;
 use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
-pub use claims::{CheckedClaim, Claim, Finding, Verdict, claims};
+pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims};
 pub use error::ValidationError;
 pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{CouplingEffect, Headlines, Sensitivity};

@@ -19,7 +19,7 @@ pub(crate) fn is_geometry(parameter: &Parameter) -> bool {
 }
 
 /// The parameters and measures of a design; `None` where a value does not exist.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct MeasuredDesign {
     pub(crate) gap: f64,
     pub(crate) length: f64,
@@ -114,18 +114,6 @@ impl Study {
     /// Returns the first design with these parameters.
     pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
-    }
-
-    /// Returns the design of which a value is largest, among those of which it exists.
-    pub(crate) fn largest(
-        &self,
-        among: impl Fn(&MeasuredDesign) -> bool,
-        value: impl Fn(&MeasuredDesign) -> Option<f64>,
-    ) -> Option<(&MeasuredDesign, f64)> {
-        let all = self.designs.iter().filter(|design| among(design));
-        let valued = all.filter_map(|design| Some((design, value(design)?)));
-        // The first of equal ones.
-        valued.reduce(|best, other| if other.1 > best.1 { other } else { best })
     }
 }
 

@@ -1,230 +1,188 @@
-//! Claims about coverage and puncture.
+//! Claims about the punctures of Figs. 3 and 6.
 
-use skin::puncture::{self, Puncture, RowLength};
-use solver::Settings;
-use substrate::RowStiffness;
-use sweep::Case;
+use super::digits;
+use super::evidence::{Evidence, PunctureCurve};
+use super::statement::{Measured, Statement};
+use super::statistics::TrendSteps;
+use super::verdict::Limits;
 
-use super::finding::{Finding, digits, named};
-use super::statistics::{DesignParameter, DesignValue, explained, falls, lines, rises, share};
-use crate::study::{MeasuredDesign, Study};
+pub(super) const FIRST_CONTACT_UNSLANTED: [Statement; 1] = [Statement::number(
+    "",
+    "u* at first contact",
+    |evidence| Some(first_contact(evidence, 0.0)?.into()),
+    Limits::printed(0.08),
+)];
 
-/// The part of the load from which a scale counts as carrying it. The paper gives none; 5 % leaves out the wide shallow bowl
-/// of reactions around the load.
-const CARRIES: f64 = 0.05;
+pub(super) const FIRST_CONTACT_AT_45: [Statement; 1] = [Statement::number(
+    "",
+    "u* at first contact",
+    |evidence| Some(first_contact(evidence, 45.0)?.into()),
+    Limits::printed(0.08),
+)];
 
-pub(super) const GAP: DesignParameter = |design| design.gap;
-pub(super) const LENGTH: DesignParameter = |design| design.length;
-pub(super) const SLANT: DesignParameter = |design| design.slant;
-const FORCE: DesignValue = |design| design.critical_force;
+pub(super) const STEEP_SCALES_TOUCH_FIRST: [Statement; 1] = [Statement::number(
+    "",
+    "u* at first contact with 75°, over the smaller of 0° and 45°",
+    steep_scales_touch_first,
+    Limits::at_most(1.0, 1.0),
+)];
 
-/// Returns whether the figures show a design: they leave out the smallest aspect ratios.
-pub(super) fn in_figures(design: &MeasuredDesign) -> bool {
-    design.length >= 0.1
+pub(super) const INITIAL_STIFFNESS_BY_SLANT: [Statement; 1] = [Statement::number(
+    "",
+    "steps from slant to slant at which dF*/du* at rest falls, %",
+    |evidence| trend(&evidence.by_slant, |curve| curve.initial_slope, TrendSteps::falling),
+    Limits::TREND,
+)];
+
+pub(super) const STIFFNESS_BY_SLANT: [Statement; 2] = [
+    Statement::number(
+        "rises",
+        "steps from slant to slant at which the stiffness after contact rises, %",
+        |evidence| {
+            trend(&evidence.by_slant, PunctureCurve::slope_after_contact, TrendSteps::rising)
+        },
+        Limits::TREND,
+    ),
+    Statement::number(
+        "significantly",
+        "stiffness after contact with 75° over that with 0°",
+        |evidence| {
+            let [steep, upright] = [75.0, 0.0].map(|slant| at_slant(evidence, slant));
+            Some((steep?.slope_after_contact()? / upright?.slope_after_contact()?).into())
+        },
+        Limits::MUCH,
+    ),
+];
+
+pub(super) const UNSLANTED_CONTACT: [Statement; 2] = [
+    Statement::number(
+        "little resistance",
+        "stiffness after contact over that before it",
+        |evidence| {
+            let curve = at_slant(evidence, 0.0)?;
+            Some((curve.slope_after_contact()? / curve.slope_before_contact()?).into())
+        },
+        Limits::LITTLE,
+    ),
+    Statement::number(
+        "mostly horizontal",
+        "largest angle of the strongest contact force from the horizontal, °",
+        |evidence| Some(at_slant(evidence, 0.0)?.contact_angle_deg?.into()),
+        Limits::at_most(30.0, 45.0),
+    ),
+];
+
+pub(super) const BY_LENGTH: [Statement; 4] = [
+    Statement::number(
+        "smaller L/t penetrates more",
+        "steps from length to length at which the penetration at u/t = 0.7 falls, %",
+        |evidence| trend(&evidence.by_length, |c| Some(c.end?.penetration), TrendSteps::falling),
+        Limits::TREND,
+    ),
+    Statement::number(
+        "smaller L/t tilts less",
+        "steps from length to length at which the tilt at u/t = 0.7 rises, %",
+        |evidence| trend(&evidence.by_length, |c| Some(c.end?.tilt_deg), TrendSteps::rising),
+        Limits::TREND,
+    ),
+    Statement::number(
+        "smaller L/t is stiffer at first",
+        "steps from length to length at which dF*/du* at rest falls, %",
+        |evidence| trend(&evidence.by_length, |c| c.initial_slope, TrendSteps::falling),
+        Limits::TREND,
+    ),
+    Statement::number(
+        "smaller L/t is stiffer after contact",
+        "steps from length to length at which the stiffness after contact falls, %",
+        |evidence| {
+            trend(&evidence.by_length, PunctureCurve::slope_after_contact, TrendSteps::falling)
+        },
+        Limits::TREND,
+    ),
+];
+
+pub(super) const BY_GAP: [Statement; 3] = [
+    Statement::number(
+        "no significant effect on the initial stiffness",
+        "largest over smallest dF*/du* at rest",
+        |evidence| spread(&evidence.by_gap, |curve| curve.initial_slope),
+        Limits::NO_EFFECT,
+    ),
+    Statement::number(
+        "little effect after contact",
+        "largest over smallest stiffness after contact",
+        |evidence| spread(&evidence.by_gap, PunctureCurve::slope_after_contact),
+        Limits::LITTLE,
+    ),
+    Statement::number(
+        "contact is delayed",
+        "steps from gap to gap at which u* at first contact rises, %",
+        contact_is_delayed,
+        Limits::TREND,
+    ),
+];
+
+pub(super) const TWO_BLOCKS: [Statement; 1] = [Statement::number(
+    "",
+    "stiffness just after contact over that just before it",
+    |evidence| Some(evidence.kink?.into()),
+    Limits::at_least(1.1, 1.01),
+)];
+
+fn at_slant(evidence: &Evidence, slant: f64) -> Option<&PunctureCurve> {
+    evidence.by_slant.iter().find(|curve| curve.design.slant == slant)
 }
 
-pub(super) fn unslanted_coverage(study: &Study) -> Option<Finding> {
-    let (_, best) = study.largest(|d| d.slant == 0.0, |d| d.coverage)?;
-    Some(Finding::is(best == 0.0, digits(best)))
+fn first_contact(evidence: &Evidence, slant: f64) -> Option<f64> {
+    evidence.design(0.1, 1.0, slant)?.first_contact
 }
 
-pub(super) fn best_coverage(study: &Study) -> Option<Finding> {
-    let (design, coverage) = study.largest(|_| true, |d| d.coverage)?;
-    let agrees = design.gap == 0.1 && design.slant == 45.0 && design.length > 0.75;
-    let ours = format!("{}, λ = {}", named(design), digits(coverage));
-    Some(Finding::is(agrees, ours))
-}
-
-fn first_contact(study: &Study, slant: f64) -> Option<f64> {
-    study.design(0.1, 1.0, slant)?.first_contact
-}
-
-pub(super) fn first_contact_unslanted(study: &Study) -> Option<Finding> {
-    Some(Finding::number(first_contact(study, 0.0)?, 0.08))
-}
-
-pub(super) fn first_contact_at_45(study: &Study) -> Option<Finding> {
-    Some(Finding::number(first_contact(study, 45.0)?, 0.08))
-}
-
-pub(super) fn steep_scales_touch_first(study: &Study) -> Option<Finding> {
-    let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(study, slant));
+fn steep_scales_touch_first(evidence: &Evidence) -> Option<Measured> {
+    let [flat, slanted, steep] = [0.0, 45.0, 75.0].map(|slant| first_contact(evidence, slant));
     let (flat, slanted, steep) = (flat?, slanted?, steep?);
-    let ours = format!("{} against {} and {}", digits(steep), digits(flat), digits(slanted));
-    Some(Finding::is(steep < flat.min(slanted), ours))
+    let value = steep / flat.min(slanted);
+    let [of, others] = [steep, flat.min(slanted)].map(digits);
+    Some(Measured { value, shown: format!("{}: {of} against {others}", digits(value)) })
 }
 
-/// Returns the value of each design; `None` if one lacks it.
-fn along<const N: usize>(
-    designs: [Option<&MeasuredDesign>; N],
-    value: DesignValue,
-) -> Option<Vec<f64>> {
-    designs.into_iter().map(|design| value(design?)).collect()
+fn listed(values: &[Option<f64>]) -> String {
+    let shown = values.iter().map(|value| value.map_or_else(|| "none".to_owned(), digits));
+    shown.collect::<Vec<_>>().join(", ")
 }
 
-fn listed(values: &[f64]) -> String {
-    values.iter().map(|value| digits(*value)).collect::<Vec<_>>().join(", ")
+/// Counts the steps along a line of curves that go the right way.
+fn trend(
+    curves: &[PunctureCurve],
+    value: impl Fn(&PunctureCurve) -> Option<f64>,
+    steps: fn(&[Vec<Option<f64>>]) -> TrendSteps,
+) -> Option<Measured> {
+    let line: Vec<_> = curves.iter().map(value).collect();
+    let shown = listed(&line);
+    let steps = steps(&[line]);
+    Some(Measured { value: steps.percent()?, shown: format!("{steps}: {shown}") })
 }
 
-fn by_slant(study: &Study, value: DesignValue) -> Option<Vec<f64>> {
-    let designs = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0].map(|slant| study.design(0.1, 1.0, slant));
-    along(designs, value)
+/// Returns the largest of the values that exist, over the smallest.
+fn spread(
+    curves: &[PunctureCurve],
+    value: impl Fn(&PunctureCurve) -> Option<f64>,
+) -> Option<Measured> {
+    let values: Vec<f64> = curves.iter().filter_map(value).collect();
+    let largest = values.iter().copied().reduce(f64::max)?;
+    let smallest = values.iter().copied().reduce(f64::min)?;
+    let value = largest / smallest;
+    let [low, high, ratio] = [smallest, largest, value].map(digits);
+    Some(Measured { value, shown: format!("{ratio}: {low} to {high}") })
 }
 
-pub(super) fn initial_stiffness_by_slant(study: &Study) -> Option<Finding> {
-    let values = by_slant(study, |design| design.initial_stiffness)?;
-    Some(Finding::is(falls(&values), listed(&values)))
-}
-
-pub(super) fn stiffness_by_slant(study: &Study) -> Option<Finding> {
-    let values = by_slant(study, |design| design.max_stiffness)?;
-    // The slants of Fig. 6b.
-    let drawn = [values[0], values[3], values[5]];
-    Some(Finding::graded(rises(&values), rises(&drawn), listed(&values)))
-}
-
-/// Returns a design with the other parameters of the study.
-fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
-    let mut case = study.base;
-    case.design = skin::Design { gap, length, slant_deg: slant, ..case.design };
-    case
-}
-
-fn substrate(case: &Case) -> Option<RowStiffness> {
-    RowStiffness::of(&case.footprint().ok()?, case.coupling).ok()
-}
-
-fn punctured(case: &Case) -> Option<Puncture> {
-    puncture::solve(&case.design, &substrate(case)?, &case.common, &case.puncture).ok()
-}
-
-/// Returns the mean stiffness of the step behind the first contact over that of the step before it.
-fn kink(puncture: &Puncture) -> Option<f64> {
-    let first = puncture.path.iter().position(|point| point.contacts > 0)?;
-    let stiffness = |at: usize| {
-        let [from, to] = [puncture.path.get(at)?, puncture.path.get(at + 1)?];
-        Some((to.force - from.force) / (to.displacement - from.displacement))
-    };
-    Some(stiffness(first)? / stiffness(first.checked_sub(1)?)?)
-}
-
-fn finely(mut case: Case) -> Case {
-    case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
-    case
-}
-
-pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
-    let case = finely(case(study, 0.1, 1.0, 0.0));
-    let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved =
-        puncture::snapshots(&case.design, &substrate(&case)?, &case.common, &case.puncture, &at)
-            .ok()?;
-    let contacts = &solved.at.first()?.as_ref()?.contacts;
-    let strongest = contacts
-        .iter()
-        .max_by(|a, b| a.force[0].hypot(a.force[1]).total_cmp(&b.force[0].hypot(b.force[1])))?;
-    let angle = strongest.force[1].abs().atan2(strongest.force[0].abs()).to_degrees();
-    let kink = kink(&solved.puncture)?;
-    let (horizontal, little) = (angle < 30.0, kink < 1.5);
-    let ours = format!("{angle:.1}° from the horizontal; stiffness × {}", digits(kink));
-    Some(Finding::graded(horizontal && little, horizontal || little, ours))
-}
-
-pub(super) fn stiffness_by_length(study: &Study) -> Option<Finding> {
-    let designs = study.designs.iter().filter(|d| (d.gap, d.slant) == (0.1, 45.0) && in_figures(d));
-    let per_length = |d: &MeasuredDesign| Some(d.max_stiffness? / d.length);
-    let line = lines(designs, LENGTH, [GAP, SLANT], per_length).pop()?;
-    // As Fig. 6d draws it: dF*/du* = (1 − ν²) K*/(L/t).
-    let plane = 1.0 - study.base.puncture.poisson_ratio.powi(2);
-    let line: Vec<f64> = line.into_iter().map(|stiffness| plane * stiffness).collect();
-    Some(Finding::graded(falls(&line), falls(&line[line.len() / 2..]), listed(&line)))
-}
-
-pub(super) fn stiffness_by_gap(study: &Study) -> Option<Finding> {
-    let line: Vec<&MeasuredDesign> =
-        study.designs.iter().filter(|d| (d.length, d.slant) == (0.5, 45.0)).collect();
-    let stiffness: Option<Vec<f64>> = line.iter().map(|d| d.initial_stiffness).collect();
-    // Large gaps have no contact.
-    let contact: Vec<f64> = line.iter().filter_map(|d| d.first_contact).collect();
-    let stiffness = stiffness?;
-    let (low, high) = stiffness
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(low, high), k| (low.min(*k), high.max(*k)));
-    let (constant, later) = (high / low < 1.05, rises(&contact));
-    let ours = format!("{} to {}; contact at {}", digits(low), digits(high), listed(&contact));
-    Some(Finding::graded(constant && later, constant || later, ours))
-}
-
-/// Creates a finding from the share of the lines that show a trend: all, or in part at least 80 %.
-pub(super) fn all_lines(share: f64) -> Finding {
-    Finding::graded(share >= 1.0, share >= 0.8, format!("{:.1} %", 100.0 * share))
-}
-
-pub(super) fn force_by_gap(study: &Study) -> Option<Finding> {
-    let lines = lines(study.designs.iter(), GAP, [LENGTH, SLANT], FORCE);
-    (!lines.is_empty()).then(|| all_lines(share(&lines, falls)))
-}
-
-fn at_the_corner(design: &MeasuredDesign) -> bool {
-    (design.gap, design.length, design.slant) == (0.1, 0.1, 75.0)
-}
-
-pub(super) fn largest_force(study: &Study) -> Option<Finding> {
-    let (design, _) = study.largest(in_figures, FORCE)?;
-    Some(Finding::is(at_the_corner(design), named(design)))
-}
-
-pub(super) fn largest_force_value(study: &Study) -> Option<Finding> {
-    Some(Finding::number(study.design(0.1, 0.1, 75.0)?.critical_force?, 64.0))
-}
-
-pub(super) fn force_and_stiffness(study: &Study) -> Option<Finding> {
-    let pair = |d: &MeasuredDesign| Some([d.max_stiffness?, d.critical_force?]);
-    let pairs: Vec<_> = study.designs.iter().filter(|d| in_figures(d)).filter_map(pair).collect();
-    let rank = ranking::rank_correlation(&pairs)?;
-    Some(Finding::graded(rank > 0.8, rank > 0.5, format!("{rank:.3}")))
-}
-
-pub(super) fn largest_stiffness(study: &Study) -> Option<Finding> {
-    let (design, stiffness) = study.largest(in_figures, |d| d.max_stiffness)?;
-    Some(Finding::is(
-        at_the_corner(design),
-        format!("{}, K* = {}", named(design), digits(stiffness)),
-    ))
-}
-
-pub(super) fn strongest_parameter(study: &Study) -> Option<Finding> {
-    let valued = |d| Some((d, FORCE(d)?.ln()));
-    let designs: Vec<_> =
-        study.designs.iter().filter(|d| in_figures(d)).filter_map(valued).collect();
-    if designs.is_empty() {
-        return None;
-    }
-    let [gap, length, slant] = [GAP, LENGTH, SLANT].map(|p| 100.0 * explained(&designs, p));
-    let ours = format!("d/t {gap:.0} %, L/t {length:.0} %, slant {slant:.0} %");
-    Some(Finding::is(slant > gap.max(length), ours))
-}
-
-/// Returns the number of scales that carry a part of the load at the critical tilt.
-fn carriers(study: &Study, slant: f64) -> Option<usize> {
-    let puncture = punctured(&case(study, 0.1, 1.0, slant))?;
-    let load: f64 = puncture.scales.iter().map(|scale| scale.reaction).sum();
-    Some(puncture.scales.iter().filter(|scale| scale.reaction >= CARRIES * load).count())
-}
-
-pub(super) fn unslanted_load(study: &Study) -> Option<Finding> {
-    let count = carriers(study, 0.0)?;
-    Some(Finding::graded(count == 1, count <= 3, count.to_string()))
-}
-
-pub(super) fn domino(study: &Study) -> Option<Finding> {
-    let count = carriers(study, 75.0)?;
-    Some(Finding::graded((7..=9).contains(&count), (5..=11).contains(&count), count.to_string()))
-}
-
-pub(super) fn two_blocks(study: &Study) -> Option<Finding> {
-    let mut case = finely(case(study, 0.1, 1.0, 0.0));
-    case.puncture.scales = RowLength::Scales(2);
-    let kink = kink(&punctured(&case)?)?;
-    Some(Finding::is(kink > 1.05, format!("stiffness × {}", digits(kink))))
+/// Counts the steps at which contact comes later. Rows that do not touch on the way touch later than those that do.
+fn contact_is_delayed(evidence: &Evidence) -> Option<Measured> {
+    let contacts: Vec<_> = evidence.by_gap.iter().map(|curve| Some(curve.contact?[0])).collect();
+    let touching = contacts.iter().rposition(Option::is_some)?;
+    // The step from the last that touches to the first that does not counts as well.
+    let later = |i: usize| (i > touching).then_some(f64::INFINITY);
+    let line = contacts.iter().take(touching + 2).enumerate();
+    let steps = TrendSteps::rising(&[line.map(|(i, contact)| contact.or(later(i))).collect()]);
+    let shown = format!("{steps}: {}", listed(&contacts));
+    Some(Measured { value: steps.percent()?, shown })
 }

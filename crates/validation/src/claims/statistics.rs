@@ -1,22 +1,26 @@
 //! Trends along the lines of a grid, and shares of variance.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use crate::study::MeasuredDesign;
 
-/// A parameter of a design.
+/// A parameter of the grid.
 pub(crate) type DesignParameter = fn(&MeasuredDesign) -> f64;
 /// A value of a design, if it has one.
 pub(crate) type DesignValue = fn(&MeasuredDesign) -> Option<f64>;
 
-/// Returns the values along each line of designs that differ in one parameter, ordered by it. Lines without a value
-/// somewhere are left out.
+pub(crate) const GAP: DesignParameter = |design| design.gap;
+pub(crate) const LENGTH: DesignParameter = |design| design.length;
+pub(crate) const SLANT: DesignParameter = |design| design.slant;
+
+/// Returns the values along each line of designs that differ in one parameter, ordered by it.
 pub(crate) fn lines<'d>(
     designs: impl Iterator<Item = &'d MeasuredDesign>,
     along: DesignParameter,
     fixed: [DesignParameter; 2],
     value: DesignValue,
-) -> Vec<Vec<f64>> {
+) -> Vec<Vec<Option<f64>>> {
     let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
     for design in designs {
         // Parameters are positive, so their bits are in their order.
@@ -25,27 +29,61 @@ pub(crate) fn lines<'d>(
     }
     let ordered = lines.into_values().map(|mut line| {
         line.sort_by(|a, b| a.0.total_cmp(&b.0));
-        line.into_iter().map(|(_, value)| value).collect::<Option<Vec<_>>>()
+        line.into_iter().map(|(_, value)| value).collect()
     });
-    ordered.flatten().collect()
+    ordered.collect()
 }
 
-/// Returns whether values fall from each to the next.
-pub(crate) fn falls(line: &[f64]) -> bool {
-    line.windows(2).all(|pair| pair[1] < pair[0])
+/// The steps between neighbours on lines, counted by their direction.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct TrendSteps {
+    /// Steps in the direction that is asked for.
+    pub(crate) right: usize,
+    /// Steps that lack a value at one of their ends; which have no direction.
+    pub(crate) missing: usize,
+    pub(crate) all: usize,
 }
 
-/// Returns whether values rise from each to the next.
-pub(crate) fn rises(line: &[f64]) -> bool {
-    line.windows(2).all(|pair| pair[1] > pair[0])
+impl TrendSteps {
+    /// Counts the steps at which values fall.
+    pub(crate) fn falling(lines: &[Vec<Option<f64>>]) -> Self {
+        Self::of(lines, |from, to| to < from)
+    }
+
+    /// Counts the steps at which values rise.
+    pub(crate) fn rising(lines: &[Vec<Option<f64>>]) -> Self {
+        Self::of(lines, |from, to| to > from)
+    }
+
+    fn of(lines: &[Vec<Option<f64>>], right: fn(f64, f64) -> bool) -> Self {
+        let mut steps = Self::default();
+        for step in lines.iter().flat_map(|line| line.windows(2)) {
+            steps.all += 1;
+            match (step[0], step[1]) {
+                (Some(from), Some(to)) => steps.right += usize::from(right(from, to)),
+                _ => steps.missing += 1,
+            }
+        }
+        steps
+    }
+
+    /// Returns the part of the steps in the right direction, in percent, if there are any.
+    pub(crate) fn percent(&self) -> Option<f64> {
+        (self.all > 0).then(|| 100.0 * self.right as f64 / self.all as f64)
+    }
 }
 
-/// Returns the part of the lines for which `holds` is true.
-pub(crate) fn share(lines: &[Vec<f64>], holds: fn(&[f64]) -> bool) -> f64 {
-    lines.iter().filter(|line| holds(line)).count() as f64 / lines.len() as f64
+impl fmt::Display for TrendSteps {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.right, self.all)?;
+        match self.missing {
+            0 => Ok(()),
+            missing => write!(f, " ({missing} without a value)"),
+        }
+    }
 }
 
-/// Returns the part of the variance of a value that a parameter alone explains: the variance of the means over
+/// Returns the part of the variance of `value` that a parameter alone explains: the variance of the means over
 /// all designs that share a value of it (the first-order effect, Sobol 1993).
 pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignParameter) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -57,16 +95,4 @@ pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignPar
     let centre = mean(&all);
     let between: f64 = groups.values().map(|g| g.len() as f64 * (mean(g) - centre).powi(2)).sum();
     between / all.iter().map(|value| (value - centre).powi(2)).sum::<f64>()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{falls, rises, share};
-
-    #[test]
-    fn trends() {
-        assert!(falls(&[3.0, 2.0, 1.0]) && !falls(&[3.0, 3.0, 1.0]));
-        assert!(rises(&[1.0, 2.0]) && !rises(&[1.0, 2.0, 1.5]));
-        assert!((share(&[vec![2.0, 1.0], vec![1.0, 2.0]], falls) - 0.5).abs() < 1e-15);
-    }
 }

@@ -1,0 +1,171 @@
+//! The evidence on which claims are judged: numbers alone, so that a verdict can be tested on constructed ones.
+
+use std::fmt;
+
+use super::statistics::{DesignParameter, DesignValue, lines};
+use super::{digits, named};
+use crate::study::MeasuredDesign;
+
+/// Two values are equal if they differ by less than this part of the larger one, as values do that are the same but for
+/// the round-off of their paths.
+const EQUAL: f64 = 1e-6;
+
+/// The number of equal designs that are listed by name.
+const LISTED: usize = 3;
+
+/// The evidence on which claims are judged.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Evidence {
+    /// Every design of the study.
+    pub(crate) designs: Vec<MeasuredDesign>,
+    /// The punctures of Fig. 6b, of designs with `L/t = 1` and `d/t = 0.1`, by slant.
+    pub(crate) by_slant: Vec<PunctureCurve>,
+    /// The punctures of Fig. 6d, of designs with `d/t = 0.1` and 45°, by length.
+    pub(crate) by_length: Vec<PunctureCurve>,
+    /// The punctures of Fig. 6f, of designs with `L/t = 0.5` and 45°, by gap.
+    pub(crate) by_gap: Vec<PunctureCurve>,
+    /// The rows of Fig. 9 with no slant and with 75°, under the same force.
+    pub(crate) loaded: Option<[LoadedRow; 2]>,
+    /// Stiffness of two blocks just after they touch, over that just before.
+    pub(crate) kink: Option<f64>,
+    /// The strips of Figs. 10c and 11b, of designs with `L/t = 1` and `d/t = 0.1`, by slant.
+    pub(crate) strips: Vec<BentStrip>,
+    /// A strip without slant as above, of ten thicknesses.
+    pub(crate) short_strip: Option<BentStrip>,
+    /// The choice by equal weights.
+    pub(crate) balanced: Option<Balanced>,
+}
+
+/// A puncture as far as Fig. 6 shows it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PunctureCurve {
+    pub(crate) design: MeasuredDesign,
+    /// `dF*/du*` at rest.
+    pub(crate) initial_slope: Option<f64>,
+    /// `u*` and `F*` at the first contact.
+    pub(crate) contact: Option<[f64; 2]>,
+    /// The end of the curve.
+    pub(crate) end: Option<CurveEnd>,
+    /// Largest angle between the strongest contact force and the horizontal on the way to the end, degrees.
+    pub(crate) contact_angle_deg: Option<f64>,
+}
+
+/// A row at the end of a curve.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CurveEnd {
+    /// `u*`.
+    pub(crate) displacement: f64,
+    /// `F*`.
+    pub(crate) force: f64,
+    /// Tilt of the punctured scale, degrees.
+    pub(crate) tilt_deg: f64,
+    /// Depth of the deepest base corner, over `t`.
+    pub(crate) penetration: f64,
+}
+
+impl PunctureCurve {
+    /// Returns the mean slope `ΔF*/Δu*` from rest to the first contact.
+    pub(crate) fn slope_before_contact(&self) -> Option<f64> {
+        let [displacement, force] = self.contact?;
+        Some(force / displacement)
+    }
+
+    /// Returns the mean slope `ΔF*/Δu*` from the first contact to the end.
+    pub(crate) fn slope_after_contact(&self) -> Option<f64> {
+        let ([displacement, force], end) = (self.contact?, self.end?);
+        Some((end.force - force) / (end.displacement - displacement))
+    }
+}
+
+/// A row of scales under a given force.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LoadedRow {
+    /// `F*`.
+    pub(crate) force: f64,
+    /// `u*`.
+    pub(crate) displacement: f64,
+    /// Scales that carry at least a twentieth of the force.
+    pub(crate) carrying: usize,
+    /// Scales that touch a neighbour.
+    pub(crate) touching: usize,
+}
+
+/// A strip that was bent to the largest rotation of its ends.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct BentStrip {
+    pub(crate) slant: f64,
+    /// Largest axial over bending energy of the membrane before contact.
+    pub(crate) axial_before: f64,
+    /// Axial over bending energy of the membrane at the end.
+    pub(crate) axial_at_end: f64,
+    /// `dM*/dκ*` at the end, over the largest one after contact.
+    pub(crate) softening: Option<f64>,
+}
+
+/// The choice by equal weights.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Balanced {
+    /// The best design.
+    pub(crate) best: MeasuredDesign,
+    /// Its fitness.
+    pub(crate) fitness: f64,
+    /// The part of the weights that it wins, in percent.
+    pub(crate) share: f64,
+    /// The part of the weights that the printed optimum wins, in percent.
+    pub(crate) share_of_printed: f64,
+}
+
+impl From<Balanced> for BestDesigns {
+    fn from(balanced: Balanced) -> Self {
+        Self { designs: vec![balanced.best], value: balanced.fitness }
+    }
+}
+
+/// The designs of which a value is largest: several if they are equal.
+#[derive(Clone, Debug)]
+pub(crate) struct BestDesigns {
+    pub(crate) designs: Vec<MeasuredDesign>,
+    pub(crate) value: f64,
+}
+
+impl fmt::Display for BestDesigns {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut equals: Vec<_> = self.designs.iter().take(LISTED).map(named).collect();
+        if self.designs.len() > LISTED {
+            equals.push(format!("{} more", self.designs.len() - LISTED));
+        }
+        let equally = if equals.len() > 1 { " equally" } else { "" };
+        write!(f, "{}{equally}, {}", equals.join(" and "), digits(self.value))
+    }
+}
+
+impl Evidence {
+    /// Returns the design with these parameters.
+    pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
+        self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
+    }
+
+    /// Returns the designs of which a value is largest, among those that have it.
+    pub(crate) fn best(
+        &self,
+        among: impl Fn(&MeasuredDesign) -> bool,
+        value: DesignValue,
+    ) -> Option<BestDesigns> {
+        let valued =
+            || self.designs.iter().filter(|d| among(d)).filter_map(|d| Some((*d, value(d)?)));
+        let largest = valued().map(|(_, value)| value).reduce(f64::max)?;
+        let equal = valued().filter(|(_, value)| *value >= largest - EQUAL * largest.abs());
+        Some(BestDesigns { designs: equal.map(|(design, _)| design).collect(), value: largest })
+    }
+
+    /// Returns the lines of a value along a parameter, of the designs `among`.
+    pub(crate) fn lines(
+        &self,
+        among: fn(&MeasuredDesign) -> bool,
+        along: DesignParameter,
+        fixed: [DesignParameter; 2],
+        value: DesignValue,
+    ) -> Vec<Vec<Option<f64>>> {
+        lines(self.designs.iter().filter(|design| among(design)), along, fixed, value)
+    }
+}

@@ -1,0 +1,212 @@
+//! The evidence of a study: what its tables do not have is solved here.
+
+use ranking::{Ranking, TetrahedralGrid, Weights};
+use rayon::prelude::*;
+use skin::flexure::{self, Flexure};
+use skin::puncture::{self, At, Puncture, RowLength, Snapshot, Snapshots};
+use skin::{ContactChange, Status};
+use solver::Settings;
+use substrate::RowStiffness;
+use sweep::Case;
+
+use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, PunctureCurve};
+use super::statistics::{DesignParameter, GAP, LENGTH, SLANT};
+use super::words::in_figures;
+use crate::study::{MeasuredDesign, Study};
+
+/// `u/t` of the rows in Fig. 6, and so the end of its curves.
+const DEPTH: f64 = 0.7;
+
+/// The number of depths up to there at which contact forces are looked at.
+const DEPTHS: usize = 14;
+
+/// A scale carries a part of the load if it carries at least this much of it.
+const CARRIES: f64 = 0.05;
+
+/// Largest step of the paths on which slopes are compared.
+const FINE: f64 = 2e-3;
+
+/// Length over `t` of a strip that bends further than those of the paper.
+const SHORT: f64 = 10.0;
+
+/// A strip is halved at most so many times until its scales touch.
+const HALVINGS: i32 = 10;
+
+/// Gathers the evidence of a study.
+pub(super) fn gather(study: &Study) -> Evidence {
+    let curves = |among: fn(&MeasuredDesign) -> bool, by: DesignParameter| curves(study, among, by);
+    Evidence {
+        designs: study.designs.clone(),
+        by_slant: curves(|d| (d.gap, d.length) == (0.1, 1.0), SLANT),
+        by_length: curves(|d| (d.gap, d.slant) == (0.1, 45.0) && in_figures(d), LENGTH),
+        by_gap: curves(|d| (d.length, d.slant) == (0.5, 45.0), GAP),
+        loaded: loaded(study),
+        kink: two_blocks(study).as_ref().and_then(kink),
+        strips: strips(study).unwrap_or_default(),
+        short_strip: bent(study, 0.0, SHORT).map(|bent| bent_strip(0.0, &bent)),
+        balanced: balanced(study),
+    }
+}
+
+/// Returns a design of the study with all that it is solved with.
+fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
+    let mut case = study.base;
+    case.design = skin::Design { gap, length, slant_deg: slant, ..case.design };
+    case
+}
+
+fn substrate(case: &Case) -> Option<RowStiffness> {
+    RowStiffness::of(&case.footprint().ok()?, case.coupling).ok()
+}
+
+fn snapshots(case: &Case, at: &[At]) -> Option<Snapshots> {
+    puncture::snapshots(&case.design, &substrate(case)?, &case.common, &case.puncture, at).ok()
+}
+
+/// Solves the curves of some designs of the study, in the order of a parameter.
+fn curves(
+    study: &Study,
+    among: fn(&MeasuredDesign) -> bool,
+    by: DesignParameter,
+) -> Vec<PunctureCurve> {
+    let mut designs: Vec<_> = study.designs.iter().filter(|design| among(design)).collect();
+    designs.sort_by(|a, b| by(a).total_cmp(&by(b)));
+    designs.into_par_iter().map(|design| curve(study, design)).collect()
+}
+
+fn curve(study: &Study, design: &MeasuredDesign) -> PunctureCurve {
+    let case = case(study, design.gap, design.length, design.slant);
+    // dF*/du* = (1 − ν²) K*/(L/t).
+    let slope = (1.0 - case.puncture.poisson_ratio.powi(2)) / design.length;
+    let initial_slope = design.initial_stiffness.map(|stiffness| slope * stiffness);
+    let start = PunctureCurve { design: *design, initial_slope, ..PunctureCurve::default() };
+    let depths = (1..=DEPTHS).map(|i| At::Displacement(DEPTH * i as f64 / DEPTHS as f64));
+    let Some(solved) = snapshots(&case, &depths.collect::<Vec<_>>()) else { return start };
+    let angles = solved.at.iter().flatten().filter_map(contact_angle_deg);
+    PunctureCurve {
+        contact: first_contact(&solved.puncture),
+        contact_angle_deg: angles.reduce(f64::max),
+        end: solved.at.last().and_then(Option::as_ref).map(|end| curve_end(&case, end)),
+        ..start
+    }
+}
+
+/// Returns `u*` and `F*` at the first contact, if it lies on the curve.
+fn first_contact(puncture: &Puncture) -> Option<[f64; 2]> {
+    let first = puncture.events.iter().find(|event| event.change == ContactChange::Closed)?.point;
+    (first.displacement < DEPTH).then_some([first.displacement, first.force])
+}
+
+fn curve_end(case: &Case, snapshot: &Snapshot) -> CurveEnd {
+    let a = case.design.half_base();
+    let depths = snapshot
+        .scales
+        .iter()
+        .map(|scale| a * scale.rotation_deg.to_radians().sin().abs() - scale.displacement[1]);
+    CurveEnd {
+        displacement: snapshot.displacement,
+        force: snapshot.force,
+        tilt_deg: snapshot.tilt_deg,
+        penetration: depths.fold(0.0, f64::max),
+    }
+}
+
+/// Returns the angle between the strongest contact force and the horizontal.
+fn contact_angle_deg(snapshot: &Snapshot) -> Option<f64> {
+    let forces = snapshot.contacts.iter().map(|contact| contact.force);
+    let strongest = forces.max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
+    Some(strongest[1].abs().atan2(strongest[0].abs()).to_degrees())
+}
+
+/// Solves the rows of Fig. 9: of the design of Fig. 6a, under the largest force that both bear on their curves.
+fn loaded(study: &Study) -> Option<[LoadedRow; 2]> {
+    let cases = [0.0, 75.0].map(|slant| case(study, 0.1, 1.0, slant));
+    let forces =
+        cases.map(|case| Some(snapshots(&case, &[At::Displacement(DEPTH)])?.at.pop()??.force));
+    let force = forces[0]?.min(forces[1]?);
+    let [upright, steep] = cases.map(|case| {
+        let snapshot = snapshots(&case, &[At::Force(force)])?.at.pop()??;
+        Some(loaded_row(&snapshot))
+    });
+    Some([upright?, steep?])
+}
+
+fn loaded_row(snapshot: &Snapshot) -> LoadedRow {
+    let load: f64 = snapshot.scales.iter().map(|scale| scale.reaction).sum();
+    let carries = |scale: &&puncture::ScaleState| scale.reaction >= CARRIES * load;
+    let touches = |i: &usize| {
+        snapshot.contacts.iter().any(|contact| contact.left == *i || contact.left + 1 == *i)
+    };
+    LoadedRow {
+        force: snapshot.force,
+        displacement: snapshot.displacement,
+        carrying: snapshot.scales.iter().filter(carries).count(),
+        touching: (0..snapshot.scales.len()).filter(touches).count(),
+    }
+}
+
+fn two_blocks(study: &Study) -> Option<Puncture> {
+    let mut case = case(study, 0.1, 1.0, 0.0);
+    case.puncture.scales = RowLength::Scales(2);
+    case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
+    puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.puncture).ok()
+}
+
+/// Returns the mean stiffness of the step behind the first contact over that of the step before it.
+fn kink(puncture: &Puncture) -> Option<f64> {
+    let first = puncture.path.iter().position(|point| point.contacts > 0)?;
+    let stiffness = |at: usize| {
+        let [from, to] = [puncture.path.get(at)?, puncture.path.get(at + 1)?];
+        Some((to.force - from.force) / (to.displacement - from.displacement))
+    };
+    Some(stiffness(first)? / stiffness(first.checked_sub(1)?)?)
+}
+
+/// Bends the strips of Fig. 11b, as long as that of the study, or halved until upright scales touch.
+fn strips(study: &Study) -> Option<Vec<BentStrip>> {
+    let whole = study.base.flexure.membrane_length;
+    let lengths = (0..HALVINGS).map(|halvings| whole * 0.5_f64.powi(halvings));
+    let touches = |length: &f64| {
+        bent(study, 0.0, *length).is_some_and(|strip| strip.measures.contact == Some(true))
+    };
+    let length = lengths.into_iter().find(touches)?;
+    let slants = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0];
+    slants.map(|slant| Some(bent_strip(slant, &bent(study, slant, length)?))).into_iter().collect()
+}
+
+fn bent(study: &Study, slant: f64, length: f64) -> Option<Flexure> {
+    let mut case = case(study, 0.1, 1.0, slant);
+    case.flexure.membrane_length = length;
+    case.common.solver.max_step = FINE;
+    flexure::solve(&case.design, &case.common, &case.flexure).ok()
+}
+
+fn bent_strip(slant: f64, bent: &Flexure) -> BentStrip {
+    let axial = |point: &flexure::PathPoint| point.axial_energy / point.bending_energy;
+    let free = bent.path.iter().filter(|p| p.contacts == 0 && p.bending_energy > 0.0);
+    let slopes: Vec<f64> =
+        bent.path.iter().filter(|point| point.contacts > 0).map(|point| point.stiffness).collect();
+    let steepest = slopes.iter().copied().reduce(f64::max);
+    // A path that stops before the end has no slope there.
+    let last = slopes.last().filter(|_| bent.status == Status::Complete);
+    BentStrip {
+        slant,
+        axial_before: free.map(axial).fold(0.0, f64::max),
+        axial_at_end: bent.path.last().map_or(0.0, axial),
+        softening: last.zip(steepest).map(|(last, steepest)| last / steepest),
+    }
+}
+
+fn balanced(study: &Study) -> Option<Balanced> {
+    let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok()?;
+    let best = ranking.winner(Weights::BALANCED);
+    let design = |row: usize| study.designs.get(row).copied();
+    let printed = |row| design(row).is_some_and(|d| (d.gap, d.length, d.slant) == (0.7, 0.1, 60.0));
+    let printed = ranking.winners().into_iter().find(|winner| printed(winner.row()));
+    Some(Balanced {
+        best: design(best.row())?,
+        fitness: best.fitness,
+        share: 100.0 * best.share(),
+        share_of_printed: printed.map_or(0.0, |winner| 100.0 * winner.share()),
+    })
+}
