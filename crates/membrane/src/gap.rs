@@ -210,7 +210,7 @@ fn entries(u: &DVector<f64>, k: usize) -> Ends {
 }
 
 /// Refuses a span that no membrane can bridge.
-fn check(span: &Span) -> Result<(), InvalidMembrane> {
+pub(crate) fn check(span: &Span) -> Result<(), InvalidMembrane> {
     positive("gap", span.gap)?;
     let Span { half_base, axis_offset, .. } = *span;
     if !(half_base >= 0.0 && half_base.is_finite()) {

@@ -38,11 +38,14 @@
 //! ```
 
 mod corotational_beam;
+mod elastica;
 mod gap;
+mod lobatto;
 mod rigid_arm;
 mod section;
 
 pub use corotational_beam::{CorotationalBeam, Ends, Local, Response, Stiffness};
+pub use elastica::{Elastica, GapEnergies};
 pub use gap::{GapMembrane, GapResponse, Span};
 pub use rigid_arm::{OffsetBeam, RigidArm};
 pub use section::{InvalidMembrane, Section};

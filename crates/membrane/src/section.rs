@@ -45,6 +45,11 @@ impl Section {
         })
     }
 
+    /// Thickness `h`, over `t`.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
     /// Axial stiffness `EA` (M1), over `E_m t²`.
     pub fn axial_stiffness(&self) -> f64 {
         self.depth * self.thickness
