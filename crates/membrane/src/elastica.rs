@@ -173,7 +173,7 @@ impl Elastica {
             let turning = -weight * (shear * shear - (1.0 + strain) * strain);
             let mixed = -weight * ((1.0 + strain) * across + shear * along);
             let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
-            stretching -= weight * along * along.transpose();
+            stretching -= weight * (along * along.transpose());
             hessian[(turn, turn)] += xi * xi * turning;
             coupling += xi * mixed;
             if (1..n).contains(&i) {

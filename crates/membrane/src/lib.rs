@@ -22,6 +22,7 @@
 //! | [`RigidArm`] | kinematics of a point that is rigidly attached to a pose |
 //! | [`OffsetBeam`] | an element between two rigid arms, in terms of the poses that hold them |
 //! | [`GapMembrane`] | the elements of one gap, assembled between two neighbouring scales |
+//! | [`Elastica`] | the limit of infinitely many elements: one spectral element per gap, its energies, gradient and Hessian |
 //!
 //! ```
 //! use membrane::{GapMembrane, Section, Span};

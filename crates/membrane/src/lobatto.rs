@@ -41,7 +41,8 @@ impl Lobatto {
         for i in 0..=n {
             derivative[(i, i)] = -derivative.row(i).sum();
         }
-        let stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
+        let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
+        stiffness.fill_upper_triangle_with_lower_triangle();
         Self { points: x.map(|x| 0.5 * (1.0 + x)), weights, derivative, stiffness, legendre }
     }
 

@@ -73,7 +73,7 @@ fn carlson_rd(mut x: f64, mut y: f64, mut z: f64) -> f64 {
 
 /// `w/L`, `u/L` and the tip rotation from elliptic integrals of modulus `k`, for
 /// `√(PL²/EI) = K(k) − F(φ₁, k)` with `sin φ₁ = 1/(k√2)`.
-fn exact(load: f64) -> [f64; 3] {
+pub fn exact(load: f64) -> [f64; 3] {
     let between = |k: f64| {
         let (complete, lower) = (legendre(1.0, k), legendre(FRAC_1_SQRT_2 / k, k));
         [complete[0] - lower[0], complete[1] - lower[1]]
