@@ -49,6 +49,9 @@ use crate::{InvalidMembrane, RigidArm, Section, Span};
 /// the equations `∂Π/∂ψ = 0` and `∂Π/∂f = 0`; eliminating them leaves the force of the membrane on its right scale. As `f` is
 /// a multiplier, two eigenvalues of the tangent are negative at every stable equilibrium.
 ///
+/// Where no force goes through the gap, `f = 0` and `ψ = 0`. The functions of a state therefore accept one without `ψ` as
+/// well, its last five entries alone, whose gradient and Hessian have five rows: cheap, while scales do not touch.
+///
 /// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (without shear);
 /// S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4, doi 10.1007/0-387-27649-1.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,40 +134,40 @@ impl Elastica {
     /// moment about its node (over `E_m t³`) that hold the right scale.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn gradient(&self, z: &[f64]) -> DVector<f64> {
         let State { psi, force, phi, .. } = State::new(z);
-        let ([axial, bending], n) = (self.stiffness(), self.order());
+        let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
         let mut gradient = DVector::zeros(z.len());
-        let stiffness = self.rule.stiffness.view((1, 1), (n - 1, n - 1));
-        gradient.rows_mut(0, n - 1).gemv(bending, &stiffness, &psi, 0.0);
+        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
+        gradient.rows_mut(0, f).gemv(bending, &stiffness, &psi, 0.0);
         let mut moment = bending * phi + axial * force.dot(&quarter_turn(self.lever(phi)));
         let mut closure = self.base_to_base(z);
         for (i, section) in self.sections(z) {
             let turning = -self.weight(i) * (1.0 + section.strain) * section.shear;
             moment += self.rule.points[i] * turning;
             closure -= self.weight(i) / axial * (1.0 + section.strain) * section.along;
-            if (1..n).contains(&i) {
+            if (1..=f).contains(&i) {
                 gradient[i - 1] += turning;
             }
         }
-        let [f, right] = [axial * closure, axial * force];
-        gradient.rows_mut(n - 1, 5).copy_from_slice(&[f.x, f.y, right.x, right.y, moment]);
+        let [closure, right] = [axial * closure, axial * force];
+        gradient.rows_mut(f, 5).copy_from_slice(&[closure.x, closure.y, right.x, right.y, moment]);
         gradient
     }
 
     /// `∂²Π/∂z²` (M21), symmetric.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn hessian(&self, z: &[f64]) -> DMatrix<f64> {
         let State { force, phi, .. } = State::new(z);
-        let ([axial, bending], n) = (self.stiffness(), self.order());
-        let [f, right, turn] = [n - 1, n + 1, n + 3];
+        let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
+        let [right, turn] = [f + 2, f + 4];
         let lever = self.lever(phi);
         let mut hessian = DMatrix::zeros(z.len(), z.len());
-        let stiffness = self.rule.stiffness.view((1, 1), (n - 1, n - 1));
-        hessian.view_mut((0, 0), (n - 1, n - 1)).copy_from(&(bending * stiffness));
+        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
+        hessian.view_mut((0, 0), (f, f)).copy_from(&(bending * stiffness));
         hessian[(turn, turn)] = bending - axial * force.dot(&lever);
         let mut coupling = axial * quarter_turn(lever);
         for (i, section) in self.sections(z) {
@@ -176,7 +179,7 @@ impl Elastica {
             stretching -= weight * (along * along.transpose());
             hessian[(turn, turn)] += xi * xi * turning;
             coupling += xi * mixed;
-            if (1..n).contains(&i) {
+            if (1..=f).contains(&i) {
                 hessian[(i - 1, i - 1)] += turning;
                 set(&mut hessian, i - 1, turn, xi * turning);
                 set(&mut hessian, i - 1, f, mixed.x);
@@ -193,7 +196,7 @@ impl Elastica {
     /// Energies at a state that satisfies the equations of the gap's own unknowns.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn energies(&self, z: &[f64]) -> GapEnergies {
         let [_, bending] = self.stiffness();
         let curvatures = self.curvatures(z);
@@ -207,7 +210,7 @@ impl Elastica {
     /// The largest strain `|ε| + ½ h |θ'|` at the surface of the membrane, over the points of the gap.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn largest_strain(&self, z: &[f64]) -> f64 {
         let curvatures = self.curvatures(z);
         let bent = |i: usize| 0.5 * self.section.thickness() * curvatures[i].abs();
@@ -217,7 +220,7 @@ impl Elastica {
     /// The deformed axis, from base to base, in `intervals ≥ 1` intervals, measured from the node of the left scale.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
         let angles = self.angles(z);
         let force = State::new(z).force;
@@ -241,14 +244,12 @@ impl Elastica {
     /// The same state seen by a membrane of another order, its direction interpolated.
     ///
     /// # Panics
-    /// If the state `z` does not have [`Self::unknowns`] entries.
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
     pub fn transferred(&self, z: &[f64], to: &Self) -> Vec<f64> {
-        let State { psi, .. } = State::new(z);
-        let mut deviations = DVector::zeros(self.order() + 1);
-        deviations.rows_mut(1, self.order() - 1).copy_from(&psi);
+        let deviations = self.angles(z) - State::new(z).phi * &self.rule.points;
         let points = to.rule.points.iter().skip(1).take(to.order() - 1);
         let psi = points.map(|&xi| self.rule.interpolate(&deviations, xi));
-        psi.chain(z[self.order() - 1..].iter().copied()).collect()
+        psi.chain(z[z.len() - 5..].iter().copied()).collect()
     }
 
     /// `EA` and `EI/d`.
@@ -283,7 +284,7 @@ impl Elastica {
     fn angles(&self, z: &[f64]) -> DVector<f64> {
         let State { psi, phi, .. } = State::new(z);
         let mut angles = phi * &self.rule.points;
-        let mut inner = angles.rows_mut(1, self.order() - 1);
+        let mut inner = angles.rows_mut(1, psi.len());
         inner += psi;
         angles
     }

@@ -123,6 +123,12 @@ proptest! {
         }
     }
 
+}
+
+proptest! {
+    // Each case follows a path of equilibria.
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
     #[test]
     fn the_force_is_the_gradient_of_the_energy((span, end) in pulled()) {
         let gap = elastica(span, 16).unwrap();
@@ -280,6 +286,21 @@ fn a_state_is_transferred_to_another_order() -> Result<(), InvalidMembrane> {
     for (ours, theirs) in coarse.axis(&z, 5).iter().zip(fine.axis(&seen, 5)) {
         assert!((ours - theirs).amax() < 1e-9);
     }
+    Ok(())
+}
+
+/// A state without `ψ` is the state whose `ψ` vanishes.
+#[test]
+fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), InvalidMembrane> {
+    let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;
+    let short = [0.1, -0.2, 0.3, 0.4, 0.5];
+    let whole = [vec![0.0; 5], short.to_vec()].concat();
+    assert_eq!(gap.gradient(&short), gap.gradient(&whole).rows(5, 5));
+    assert_eq!(gap.hessian(&short), gap.hessian(&whole).view((5, 5), (5, 5)));
+    assert_eq!(gap.energies(&short), gap.energies(&whole));
+    assert_eq!(gap.largest_strain(&short), gap.largest_strain(&whole));
+    assert_eq!(gap.axis(&short, 3), gap.axis(&whole, 3));
+    assert_eq!(gap.transferred(&short, &gap), whole);
     Ok(())
 }
 
