@@ -203,7 +203,7 @@ fn entries(u: &DVector<f64>, k: usize) -> Ends {
 }
 
 /// Returns an error if no membrane can bridge `span`.
-fn check(span: &Span) -> Result<(), OutOfRange> {
+pub(crate) fn check(span: &Span) -> Result<(), OutOfRange> {
     let Span { half_base, gap, axis_offset } = *span;
     positive("gap", gap)?;
     OutOfRange::unless(
