@@ -5,8 +5,6 @@ mod scalar;
 
 use std::fmt;
 
-use skin::puncture::RowLength;
-
 use crate::case::Case;
 use crate::decimal::{Decimal, DecimalRange};
 use crate::number;
@@ -39,10 +37,26 @@ impl PartialEq for Parameter {
 /// Which values are right, and where they go.
 #[derive(Debug)]
 pub(crate) enum Kind {
-    Number { noun: &'static str, range: Range, field: fn(&mut Case) -> &mut f64 },
-    Count { range: CountRange, field: fn(&mut Case) -> &mut usize },
-    Word { words: &'static [&'static str], get: fn(&Case) -> usize, set: fn(&mut Case, usize) },
-    RowLength { range: CountRange },
+    Number {
+        noun: &'static str,
+        range: Range,
+        field: fn(&mut Case) -> &mut f64,
+    },
+    Count {
+        range: CountRange,
+        field: fn(&mut Case) -> &mut usize,
+    },
+    Word {
+        words: &'static [&'static str],
+        get: fn(&Case) -> usize,
+        set: fn(&mut Case, usize),
+    },
+    /// A count, or the word `auto`.
+    CountOrAuto {
+        range: CountRange,
+        get: fn(&Case) -> Option<usize>,
+        set: fn(&mut Case, Option<usize>),
+    },
 }
 
 /// Bounds of a number.
@@ -66,8 +80,11 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// The word of `scales` for a row as long as it needs to be.
+/// The word of a count that is to be found.
 const AUTO: &str = "auto";
+
+/// The two ways to say how long a strip is.
+const ALTERNATIVES: [&str; 2] = ["gaps", "membrane_length_over_t"];
 
 /// What is wrong with a value.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -96,6 +113,16 @@ impl Parameter {
         PARAMETERS.iter().find(|parameter| parameter.key == key)
     }
 
+    /// The parameter that says the same in another way: a definition has one of the two.
+    pub(crate) fn alternative(&self) -> Option<&'static Self> {
+        let [first, second] = ALTERNATIVES;
+        match self.key {
+            key if key == first => Self::named(second),
+            key if key == second => Self::named(first),
+            _ => None,
+        }
+    }
+
     /// `section.key`.
     pub fn path(&self) -> String {
         format!("{}.{}", self.section, self.key)
@@ -108,10 +135,7 @@ impl Parameter {
             Kind::Number { field, .. } => Scalar::Number(*field(&mut case)),
             Kind::Count { field, .. } => Scalar::Count(*field(&mut case)),
             Kind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
-            Kind::RowLength { .. } => match case.puncture.scales {
-                RowLength::Auto => Scalar::Word(AUTO),
-                RowLength::Scales(count) => Scalar::Count(count),
-            },
+            Kind::CountOrAuto { get, .. } => get(&case).map_or(Scalar::Word(AUTO), Scalar::Count),
         }
     }
 
@@ -129,10 +153,8 @@ impl Parameter {
                 // `read` takes no other words.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
-            (Kind::RowLength { .. }, Scalar::Count(count)) => {
-                case.puncture.scales = RowLength::Scales(count);
-            }
-            (Kind::RowLength { .. }, Scalar::Word(_)) => case.puncture.scales = RowLength::Auto,
+            (Kind::CountOrAuto { set, .. }, Scalar::Count(count)) => set(case, Some(count)),
+            (Kind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
         case.share();
@@ -145,14 +167,14 @@ impl Parameter {
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
             (Kind::Number { .. }, Value::Number(text)) => text.parse().ok().map(Scalar::Number),
-            (Kind::Count { .. } | Kind::RowLength { .. }, Value::Number(text)) => {
+            (Kind::Count { .. } | Kind::CountOrAuto { .. }, Value::Number(text)) => {
                 let decimal = text.parse::<Decimal>().ok();
                 decimal.and_then(Decimal::to_usize).map(Scalar::Count)
             }
             (Kind::Word { words, .. }, Value::Text(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
-            (Kind::RowLength { .. }, Value::Text(text)) => {
+            (Kind::CountOrAuto { .. }, Value::Text(text)) => {
                 (text == AUTO).then_some(Scalar::Word(AUTO))
             }
             _ => None,
@@ -168,7 +190,7 @@ impl Parameter {
         let decimal = range.value(index);
         match self.kind {
             Kind::Number { .. } | Kind::Word { .. } => Scalar::Number(decimal.to_f64()),
-            Kind::Count { .. } | Kind::RowLength { .. } => {
+            Kind::Count { .. } | Kind::CountOrAuto { .. } => {
                 // Whole and in bounds: `read` has seen both ends and the step.
                 Scalar::Count(decimal.to_usize().unwrap_or(usize::MAX))
             }
@@ -182,7 +204,7 @@ impl Parameter {
 
     /// Whether its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
-        matches!(self.kind, Kind::Count { .. } | Kind::RowLength { .. })
+        matches!(self.kind, Kind::Count { .. } | Kind::CountOrAuto { .. })
     }
 
     /// What is wrong with a value that [`Self::read`] refuses.
@@ -201,7 +223,7 @@ impl Parameter {
     fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
             (Kind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
-            (Kind::Count { range, .. } | Kind::RowLength { range }, Scalar::Count(count)) => {
+            (Kind::Count { range, .. } | Kind::CountOrAuto { range, .. }, Scalar::Count(count)) => {
                 (range.low..=range.high).contains(&count)
             }
             _ => true,
@@ -214,7 +236,7 @@ impl Parameter {
             Kind::Number { noun, range, .. } => format!("{noun} {range}"),
             Kind::Count { range, .. } => format!("a whole number {range}"),
             Kind::Word { words, .. } => any_of(words),
-            Kind::RowLength { range } => format!("a whole number {range} or \"{AUTO}\""),
+            Kind::CountOrAuto { range, .. } => format!("a whole number {range} or \"{AUTO}\""),
         }
     }
 }

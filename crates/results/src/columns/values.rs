@@ -186,8 +186,8 @@ pub(super) static VALUES: &[Value] = &[
         tables: COMPLIANCE,
         name: "gaps",
         unit: "-",
-        meaning: "gaps of the strip",
-        cell: |r| bent(r, |m| (m.gaps > 0).then_some(m.gaps)),
+        meaning: "gaps of the strip, a whole number in a chain alone",
+        cell: |r| bent(r, |m| (m.gaps > 0.0).then_some(m.gaps)),
     },
     Value {
         tables: &[],
@@ -202,6 +202,20 @@ pub(super) static VALUES: &[Value] = &[
         unit: "-",
         meaning: "Newton iterations of the path of bending",
         cell: |r| r.flexure.map(|f| f.iterations).into(),
+    },
+    Value {
+        tables: COMPLIANCE,
+        name: "flexure_error",
+        unit: "-",
+        meaning: "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements",
+        cell: |r| bent(r, |m| m.error),
+    },
+    Value {
+        tables: COMPLIANCE,
+        name: "membrane_strain_max",
+        unit: "-",
+        meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
+        cell: |r| bent(r, |m| m.membrane_strain_max),
     },
     Value {
         tables: &[],

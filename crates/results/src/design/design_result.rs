@@ -90,6 +90,7 @@ impl FlexureRecord {
             measures.first_contact_curvature,
             measures.max_moment,
             measures.axial_energy_share,
+            measures.membrane_strain_max,
         ];
         let few = flexure::Measures { gaps: measures.gaps, ..flexure::Measures::default() };
         let (outcome, measures) = finite_or(finite, flexure.status.into(), measures, few);

@@ -18,8 +18,13 @@ pub struct Measures {
     pub max_moment: Option<f64>,
     /// Part of the axial energy in the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
-    /// Gaps of the strip.
-    pub gaps: usize,
+    /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane, anywhere on the path.
+    pub membrane_strain_max: Option<f64>,
+    /// Largest relative error of the measures that the discretisation of the membrane makes, estimated; `None` for a given
+    /// number of elements.
+    pub error: Option<f64>,
+    /// Gaps `n` of the strip, a whole number in a chain.
+    pub gaps: f64,
 }
 
 impl Measures {

@@ -27,8 +27,10 @@ pub struct PathPoint {
     pub axial_energy: f64,
     /// Energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
-    /// Closed contacts of the whole strip.
+    /// Closed contacts of the strip, rounded to whole gaps.
     pub contacts: usize,
+    /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
+    pub membrane_strain: f64,
 }
 
 /// A contact that opens, closes or passes a corner.
@@ -62,7 +64,8 @@ pub(crate) struct Record {
     row: Arrangement,
     /// Mean pitch `p`.
     pitch: f64,
-    gaps: usize,
+    /// Gaps `n` of the strip.
+    gaps: f64,
     /// `E_m I_m`, over `E_m t⁴`.
     bending_stiffness: f64,
     path: Vec<PathPoint>,
@@ -78,7 +81,7 @@ impl Record {
     pub(crate) fn new(
         path: &mut Path<Strip>,
         row: Arrangement,
-        gaps: usize,
+        gaps: f64,
         bending_stiffness: f64,
     ) -> Self {
         let mut record = Self {
@@ -105,10 +108,10 @@ impl Record {
             Iteration { step, iteration, residual, end_rotation_deg: here.end_rotation_deg }
         }));
         if let Some(solver::Event::Changed(changes)) = &point.event {
-            let strip = path.system();
+            let all_solved = path.system().gaps() == self.whole_gaps();
             self.events.extend(changes.iter().filter_map(|change| {
                 let gap = Contacts::left_of(change.constraint);
-                let gap = (strip.gaps() == self.gaps).then_some(gap);
+                let gap = all_solved.then_some(gap);
                 let corner_edge = Contacts::corner_edge(&point.state.mode, change.constraint)
                     .or_else(|| Contacts::corner_edge(&self.before, change.constraint))?;
                 Some(Event {
@@ -132,8 +135,13 @@ impl Record {
     }
 
     /// Gaps of the strip for each gap that is solved for.
-    fn repeats(&self, strip: &Strip) -> usize {
-        self.gaps / strip.gaps()
+    fn repeats(&self, strip: &Strip) -> f64 {
+        self.gaps / strip.gaps() as f64
+    }
+
+    /// Gaps of the strip, rounded.
+    fn whole_gaps(&self) -> usize {
+        self.gaps.round() as usize
     }
 
     /// From `dM/dΦ` of the gaps that are solved for to `dM*/dκ*`: `M* = M/(E_m I_m)` and
@@ -146,25 +154,44 @@ impl Record {
         let repeats = self.repeats(strip);
         let rotation = strip.rotation(&state.z);
         let [bending_energy, axial_energy, contact_energy] =
-            strip.energies(state).map(|energy| energy * repeats as f64);
+            strip.energies(state).map(|energy| energy * repeats);
         PathPoint {
             curvature: rotation / (strip.gaps() as f64 * self.pitch),
             moment: strip.moment(&state.z) / self.bending_stiffness,
             stiffness: self.normalised(strip, strip.stiffness(direction)),
-            end_rotation_deg: 0.5 * (rotation * repeats as f64).to_degrees(),
+            end_rotation_deg: 0.5 * (rotation * repeats).to_degrees(),
             bending_energy,
             axial_energy,
             contact_energy,
-            contacts: repeats * Contacts::closed(state),
+            contacts: self.whole_gaps() / strip.gaps() * Contacts::closed(state),
+            membrane_strain: strip.largest_strain(state),
         }
     }
 
-    pub(crate) fn finish(self, path: &mut Path<Strip>, status: Status) -> Flexure {
-        let mut measures = self.measures(path);
+    /// The states whose measures the resolution of the membrane changes most: where the moment rises most steeply, and the
+    /// last one.
+    pub(crate) fn decisive_states<'a>(&'a self, path: &'a Path<Strip>) -> Vec<&'a State> {
+        let steepest = self.stiffness.point().map(|point| &point.state);
+        steepest.into_iter().chain([&path.point().state]).collect()
+    }
+
+    /// Whether scales have touched.
+    pub(crate) fn touched(&self) -> bool {
+        self.events.iter().any(|event| event.change == ContactChange::Closed)
+    }
+
+    pub(crate) fn finish(
+        self,
+        path: &mut Path<Strip>,
+        status: Status,
+        error: Option<f64>,
+    ) -> Flexure {
+        let mut measures = Measures { error, ..self.measures(path) };
         if status != Status::Complete {
             measures = measures.without_final_values();
         }
-        let Self { row, gaps, path, events, history, steps, .. } = self;
+        let gaps = self.whole_gaps();
+        let Self { row, path, events, history, steps, .. } = self;
         Flexure { status, measures, path, events, history, gaps, steps, row }
     }
 
@@ -184,6 +211,8 @@ impl Record {
             first_contact_curvature: first.map(|event| event.point.curvature),
             max_moment: self.path.iter().map(|point| point.moment).reduce(f64::max),
             axial_energy_share: share.filter(|share| share.is_finite()),
+            membrane_strain_max: self.path.iter().map(|p| p.membrane_strain).reduce(f64::max),
+            error: None,
             gaps: self.gaps,
         }
     }

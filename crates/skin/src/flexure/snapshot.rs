@@ -2,15 +2,16 @@
 
 use solver::Path;
 
+use super::Parameters;
 use super::frame::Frame;
+use super::set_up::SetUp;
 use super::strip::Strip;
-use super::{Parameters, SetUp};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
 use crate::{Design, InvalidDesign};
 
-/// Points of the membrane's axis that are kept of each element.
+/// Points of the membrane's axis that are kept of each element, or of each gap.
 const INTERVALS: usize = 12;
 
 /// A strip in equilibrium.
@@ -42,11 +43,13 @@ pub fn snapshots(
     parameters: &Parameters,
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let SetUp { row, strip, gaps, bending_stiffness } = SetUp::even(design, parameters)?;
-    let look = Look { row, repeats: gaps / strip.gaps(), bending_stiffness };
+    let set_up = SetUp::even(design, parameters)?;
+    let strip = set_up.resolved_strip()?;
+    let look =
+        Look { gaps: set_up.gaps, bending_stiffness: set_up.bending_stiffness(), row: set_up.row };
     let crossing = |&degrees: &f64| Crossing {
         quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
-        value: 2.0 * degrees.to_radians() / look.repeats as f64,
+        value: 2.0 * degrees.to_radians() / look.gaps * strip.gaps() as f64,
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
     let rest = State::at_rest(&strip);
@@ -59,23 +62,23 @@ pub fn snapshots(
 /// What turns a state of the solved gaps into a snapshot of the whole strip.
 struct Look {
     row: Arrangement,
-    /// Gaps of the strip for each gap that is solved for.
-    repeats: usize,
+    /// Gaps `n` of the strip.
+    gaps: f64,
     bending_stiffness: f64,
 }
 
 impl Look {
     fn at(&self, strip: &Strip, state: &State) -> Snapshot {
-        let (solved, gaps) = (strip.gaps(), strip.gaps() * self.repeats);
+        let (solved, gaps) = (strip.gaps(), self.gaps.round() as usize);
         let rotation = strip.rotation(&state.z);
         let frames = Frame::strip(&strip.steps(&state.z), gaps, &self.row);
         let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, &self.row);
-        let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
+        let axes: Vec<_> = (0..solved).map(|gap| strip.axis(state, gap, INTERVALS)).collect();
         let axis = |(i, frame): (usize, &Frame)| {
             axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
         };
         let contacts = strip.contacts.closed_contacts(state);
-        let copies = (0..self.repeats).flat_map(|copy| {
+        let copies = (0..gaps / solved).flat_map(|copy| {
             let left = move |contact: &Contact| copy * solved + contact.left;
             contacts.iter().map(move |contact| (left(contact), contact))
         });
@@ -83,7 +86,7 @@ impl Look {
         Snapshot {
             curvature: rotation / (solved as f64 * self.row.mean_pitch()),
             moment: strip.moment(&state.z) / self.bending_stiffness,
-            end_rotation_deg: 0.5 * (rotation * self.repeats as f64).to_degrees(),
+            end_rotation_deg: 0.5 * (rotation * self.gaps / solved as f64).to_degrees(),
             scales: frames.iter().enumerate().map(displacement).collect(),
             membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
             contacts: copies.map(placed).collect(),

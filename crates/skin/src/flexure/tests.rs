@@ -3,8 +3,9 @@
 use contact::Law;
 use solver::{Path, Settings};
 
+use super::set_up::SetUp;
 use super::strip::Strip;
-use super::{Method, Parameters, SetUp};
+use super::{Method, Parameters};
 use crate::contacts::{Point, State};
 use crate::{Base, Design};
 
@@ -21,7 +22,7 @@ fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
 fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
-    let strip = SetUp::even(design, parameters).unwrap().strip;
+    let strip = SetUp::even(design, parameters).unwrap().resolved_strip().unwrap();
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, parameters.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);

@@ -5,7 +5,8 @@ use contact::Law;
 use geometry::{Parallelogram, UnevenRow};
 use solver::Settings;
 
-use super::{Flexure, Method, Parameters, SetUp, Status};
+use super::set_up::SetUp;
+use super::{Flexure, Mesh, Method, Parameters, Status};
 use crate::arrangement::Arrangement;
 use crate::{Base, ContactChange, Design};
 
@@ -19,7 +20,8 @@ fn parameters() -> Parameters {
         membrane_length: 6.0,
         membrane_thickness: 0.125,
         membrane_axis_offset: 0.0,
-        elements_per_gap: 2,
+        gaps: None,
+        elements_per_gap: Mesh::Elements(2),
         max_end_rotation_deg: 60.0,
         solver: Settings::default(),
     }
@@ -33,8 +35,9 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
-    let flexure = SetUp::new(&design(0.0), &parameters(), row, gaps.len(), gaps.len()).unwrap();
-    let flexure = flexure.solve(&parameters());
+    let (design, parameters) = (design(0.0), parameters());
+    let set_up = SetUp::new(&design, &parameters, row, gaps.len() as f64, gaps.len()).unwrap();
+    let flexure = set_up.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
     flexure
 }
@@ -81,7 +84,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 #[test]
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
-    let even = SetUp::even(&design(60.0), &parameters()).unwrap().solve(&parameters());
+    let even = SetUp::even(&design(60.0), &parameters()).unwrap().solve().unwrap();
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

@@ -1,7 +1,8 @@
 //! The one list of parameters: it drives validation, messages, axes, columns and documentation.
 
 use skin::Base;
-use skin::flexure::Method;
+use skin::flexure::{Mesh, Method};
+use skin::puncture::RowLength;
 use substrate::Coupling;
 
 use crate::parameter::Bound::{Excluded, Included};
@@ -102,7 +103,16 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "scales in the row",
-        kind: Kind::RowLength { range: CountRange { low: 1, high: 1_000_000 } },
+        kind: Kind::CountOrAuto {
+            range: CountRange { low: 1, high: 1_000_000 },
+            get: |c| match c.puncture.scales {
+                RowLength::Auto => None,
+                RowLength::Scales(count) => Some(count),
+            },
+            set: |c, count| {
+                c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales);
+            },
+        },
     },
     Parameter {
         key: "load_position",
@@ -152,11 +162,22 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "membrane_length_over_t",
         section: "flexure",
         unit: "t",
-        meaning: "length of the membrane, rounded to whole gaps",
+        meaning: "length of the membrane; a chain and imperfect strips round it to whole gaps",
         kind: Kind::Number {
             noun: "a length",
             range: LENGTH,
             field: |c| &mut c.flexure.membrane_length,
+        },
+    },
+    Parameter {
+        key: "gaps",
+        section: "flexure",
+        unit: "-",
+        meaning: "gaps of the strip, the same number for every design, instead of a length",
+        kind: Kind::CountOrAuto {
+            range: CountRange { low: 1, high: 1_000_000 },
+            get: |c| c.flexure.gaps,
+            set: |c, count| c.flexure.gaps = count,
         },
     },
     Parameter {
@@ -185,10 +206,16 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "elements_per_gap",
         section: "flexure",
         unit: "-",
-        meaning: "beam elements of the membrane between two scales",
-        kind: Kind::Count {
+        meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
+        kind: Kind::CountOrAuto {
             range: CountRange { low: 1, high: 1000 },
-            field: |c| &mut c.flexure.elements_per_gap,
+            get: |c| match c.flexure.elements_per_gap {
+                Mesh::Auto => None,
+                Mesh::Elements(count) => Some(count),
+            },
+            set: |c, count| {
+                c.flexure.elements_per_gap = count.map_or(Mesh::Auto, Mesh::Elements);
+            },
         },
     },
     Parameter {

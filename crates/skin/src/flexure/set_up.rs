@@ -1,0 +1,171 @@
+//! The problem of bending a strip, and its solution with a resolution that suffices.
+
+use contact::ContactLaw;
+use membrane::{Section, Span};
+use solver::{Path, Stop};
+
+use super::accuracy::change;
+use super::mesh::Resolution;
+use super::record::Record;
+use super::strip::Strip;
+use super::{Flexure, Method, Parameters, Status, gaps, whole_gaps};
+use crate::arrangement::Arrangement;
+use crate::contacts::{Contacts, State};
+use crate::{Design, InvalidDesign, Sample};
+
+/// Largest relative change of any measure between two resolutions at which the coarser one suffices.
+const TOLERANCE: f64 = 1e-4;
+
+/// What is bent.
+pub(crate) struct SetUp<'a> {
+    parameters: &'a Parameters,
+    pub(crate) row: Arrangement,
+    half_base: f64,
+    section: Section,
+    law: ContactLaw,
+    /// Gaps `n` of the whole strip.
+    pub(crate) gaps: f64,
+    /// Gaps that are solved for.
+    solved: usize,
+}
+
+impl<'a> SetUp<'a> {
+    /// The strip of a design.
+    pub(crate) fn even(design: &Design, parameters: &'a Parameters) -> Result<Self, InvalidDesign> {
+        let row = design.row()?;
+        let (gaps, solved) = match parameters.method {
+            Method::UnitCell => (gaps(&row, parameters), 1),
+            Method::Chain => {
+                let whole = whole_gaps(&row, parameters);
+                (whole as f64, whole)
+            }
+        };
+        Self::new(design, parameters, Arrangement::Even(row), gaps, solved)
+    }
+
+    /// A sample of the strip, with all its gaps.
+    pub(crate) fn sample(
+        design: &Design,
+        parameters: &'a Parameters,
+        sample: &Sample,
+    ) -> Result<Self, InvalidDesign> {
+        let gaps = whole_gaps(&design.row()?, parameters);
+        let row = Arrangement::Uneven(sample.row(0, gaps)?);
+        Self::new(design, parameters, row, gaps as f64, gaps)
+    }
+
+    pub(crate) fn new(
+        design: &Design,
+        parameters: &'a Parameters,
+        row: Arrangement,
+        gaps: f64,
+        solved: usize,
+    ) -> Result<Self, InvalidDesign> {
+        let modulus = parameters.contact_modulus_over_membrane;
+        Ok(Self {
+            parameters,
+            row,
+            half_base: design.half_base(),
+            section: Section::new(design.width, parameters.membrane_thickness)?,
+            law: ContactLaw::new(parameters.law, design.length, design.width, modulus)?,
+            gaps,
+            solved,
+        })
+    }
+
+    /// `E_m I_m`, over `E_m t⁴`.
+    pub(crate) fn bending_stiffness(&self) -> f64 {
+        self.section.bending_stiffness()
+    }
+
+    /// The strip with this resolution.
+    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, InvalidDesign> {
+        let unlike = match &self.row {
+            Arrangement::Even(_) => 1,
+            Arrangement::Uneven(_) => self.solved,
+        };
+        let membrane = |gap: usize| {
+            let (half_base, axis_offset) = (self.half_base, self.parameters.membrane_axis_offset);
+            let span = Span { half_base, gap: self.row.gap(gap), axis_offset };
+            resolution.membrane(self.section, span)
+        };
+        let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
+        let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
+        let rotation = whole * self.solved as f64 / self.gaps;
+        Ok(Strip::new(self.row.clone(), membranes, self.law, self.solved, rotation))
+    }
+
+    /// Bends the strip, with finer and finer resolution until it suffices.
+    pub(crate) fn solve(&self) -> Result<Flexure, InvalidDesign> {
+        Ok(self.resolved()?.0)
+    }
+
+    /// The strip with the resolution that suffices.
+    pub(crate) fn resolved_strip(&self) -> Result<Strip, InvalidDesign> {
+        self.strip(self.resolved()?.1)
+    }
+
+    fn resolved(&self) -> Result<(Flexure, Resolution), InvalidDesign> {
+        let mut resolution = self.parameters.elements_per_gap.coarsest();
+        loop {
+            let flexure = self.bend(resolution)?;
+            let suffices = flexure.measures.error.is_none_or(|error| error <= TOLERANCE);
+            match resolution.finer() {
+                Some(finer) if !suffices && finer.is_usual() => resolution = finer,
+                _ => return Ok((flexure, resolution)),
+            }
+        }
+    }
+
+    fn bend(&self, resolution: Resolution) -> Result<Flexure, InvalidDesign> {
+        let strip = self.strip(resolution)?;
+        let rest = State::at_rest(&strip);
+        let mut path = Path::new(strip, rest, self.parameters.solver);
+        let alike = matches!(self.row, Arrangement::Even(_));
+        let (row, stiffness) = (self.row.clone(), self.bending_stiffness());
+        let mut record = Record::new(&mut path, row, self.gaps, stiffness);
+        let mut flush = false;
+        while let Some(point) = path.next() {
+            // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
+            // other and nothing else moves: the path stands still in all that measures it.
+            flush = alike && Contacts::flush(&point.state);
+            if flush {
+                break;
+            }
+            record.visit(&mut path, &point);
+        }
+        let stop = if flush { Some(Stop::Singular) } else { path.stop() };
+        let status = status(&path, stop);
+        let error = self.error(resolution, &path, &record)?;
+        Ok(record.finish(&mut path, status, error))
+    }
+
+    /// The largest change of any measure with a finer resolution; `None` where there is none.
+    fn error(
+        &self,
+        resolution: Resolution,
+        path: &Path<Strip>,
+        record: &Record,
+    ) -> Result<Option<f64>, InvalidDesign> {
+        let Some(finer) = resolution.finer() else { return Ok(None) };
+        if !record.touched() {
+            // Arcs are exact in every resolution.
+            return Ok(Some(0.0));
+        }
+        let finer = self.strip(finer)?;
+        let change = |state| change(path.system(), &finer, state, &self.parameters.solver);
+        // A state that cannot be solved with the finer resolution is not resolved.
+        let changes = record.decisive_states(path).into_iter().map(change);
+        Ok(changes.map(|change| change.unwrap_or(f64::INFINITY)).reduce(f64::max))
+    }
+}
+
+fn status(path: &Path<Strip>, stop: Option<Stop>) -> Status {
+    let (contacts, end) = (&path.system().contacts, &path.point().state);
+    match stop.unwrap_or(Stop::Reached) {
+        Stop::Reached if contacts.neighbours_interpenetrate(end) => Status::Interpenetration,
+        Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
+        Stop::Reached => Status::Complete,
+        stop => Status::Stopped(stop),
+    }
+}
