@@ -4,8 +4,8 @@ mod accuracy;
 mod frame;
 mod measures;
 mod mesh;
-mod record;
-mod set_up;
+mod point;
+mod problem;
 mod snapshot;
 mod strip;
 #[cfg(test)]
@@ -18,18 +18,19 @@ use std::collections::HashSet;
 use contact::Law;
 use frame::{Frame, Step};
 use geometry::Row;
-use set_up::SetUp;
-use solver::{Settings, Stop};
+use problem::Problem;
+use solver::Settings;
 
 use crate::arrangement::Arrangement;
-use crate::{ContactChange, Design, InvalidDesign, Sample};
+use crate::record::{ContactEvent, Iteration};
+use crate::{ContactChange, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
 pub use mesh::Mesh;
-pub use record::{Event, Iteration, PathPoint};
+pub use point::PathPoint;
 pub use snapshot::{Snapshot, snapshots};
 
-/// How the strip is solved.
+/// The part of a strip that is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// One gap: in pure bending every gap deforms alike.
@@ -38,7 +39,7 @@ pub enum Method {
     Chain,
 }
 
-/// What bending depends on besides the design.
+/// Parameters of bending besides the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Contact law between scales.
@@ -82,30 +83,17 @@ impl Default for Parameters {
     }
 }
 
-/// How bending ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// The ends reached the largest rotation, and the audit has no objection.
-    Complete,
-    /// The path stopped before.
-    Stopped(Stop),
-    /// Two scales overlap by more than their contact law allows.
-    Interpenetration,
-    /// A contact carries beyond the end of its edge.
-    OffEdge,
-}
-
 /// A strip that was bent.
 #[derive(Clone, Debug)]
 pub struct Flexure {
-    /// How it ended.
+    /// How the path ended, and whether its end can be trusted.
     pub status: Status,
-    /// What it measured.
+    /// The measures of the bending.
     pub measures: Measures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PathPoint>,
     /// Every contact event, in order.
-    pub events: Vec<Event>,
+    pub events: Vec<ContactEvent<PathPoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
     /// Gaps of the strip, rounded to a whole number.
@@ -121,7 +109,7 @@ impl Flexure {
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
         let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
-        let first = closings.filter(|event| closed.insert(event.gap));
+        let first = closings.filter(|event| closed.insert(event.left_scale));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;
         Some(curvatures.last().unwrap_or(start) - start)
@@ -156,10 +144,10 @@ pub fn whole_gaps(row: &Row, parameters: &Parameters) -> usize {
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
 pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, InvalidDesign> {
-    SetUp::even(design, parameters)?.solve()
+    Problem::even(design, parameters)?.solve()
 }
 
-/// The same for an imperfect strip: gaps and slants are those of `sample`. Its gaps deform each in
+/// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
 /// its own way, so the chain of all is solved, whatever [`Parameters::method`] says. There are as many
 /// gaps as in the chain of the design, and the curvature counts over the length that they
 /// have.
@@ -171,5 +159,5 @@ pub fn solve_sample(
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Flexure, InvalidDesign> {
-    SetUp::sample(design, parameters, sample)?.solve()
+    Problem::sample(design, parameters, sample)?.solve()
 }

@@ -14,7 +14,7 @@ const STEEPEST_DEG: f64 = 89.0;
 /// Draws after which a scale that would stand clear of its neighbour is no longer looked for.
 const DRAWS: usize = 100_000;
 
-/// How far gaps and slants of a row scatter.
+/// Scatter of the gaps and slants of a row.
 ///
 /// With independent standard normal numbers `z`, a gap and a slant are
 ///

@@ -1,7 +1,7 @@
 //! Puncture of a row of scales on an elastic half-space.
 
 mod measures;
-mod record;
+mod point;
 mod snapshot;
 mod system;
 #[cfg(test)]
@@ -9,17 +9,18 @@ mod tests;
 
 use contact::{ContactLaw, Law};
 use geometry::{OutOfRange, Row};
+use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, State};
-use crate::{Design, InvalidDesign, Sample};
+use crate::record::{ContactEvent, Iteration, Record};
+use crate::{Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
-use record::Record;
-pub use record::{Event, Iteration, PathPoint, ScaleState};
+pub use point::{PathPoint, ScaleState};
 pub use snapshot::{At, Snapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
@@ -28,7 +29,7 @@ pub const LONGEST_ROW: usize = 4001;
 /// An end scale of a row that is long enough has moved by less than this (over `t`; radians).
 const STILL: f64 = 1e-6;
 
-/// How many scales stand in the row.
+/// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
     /// As many as the deformation needs: on the whole path no end scale touches its neighbour
@@ -38,7 +39,7 @@ pub enum RowLength {
     Scales(usize),
 }
 
-/// What a puncture depends on besides the design and its substrate.
+/// Parameters of a puncture besides the design and its substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Poisson's ratio `ν` of the substrate.
@@ -72,32 +73,17 @@ impl Default for Parameters {
     }
 }
 
-/// How a puncture ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// The critical tilt was reached, on a row that is long enough, and the audit has no objection.
-    Complete,
-    /// The path stopped before the critical tilt.
-    Stopped(Stop),
-    /// `auto` needs a longer row than it may take.
-    RowLimit,
-    /// Two scales overlap by more than their contact law allows.
-    Interpenetration,
-    /// A contact carries beyond the end of its edge.
-    OffEdge,
-}
-
 /// A solved puncture.
 #[derive(Clone, Debug)]
 pub struct Puncture {
-    /// How it ended.
+    /// How the path ended, and whether its end can be trusted.
     pub status: Status,
-    /// What it measured.
+    /// The measures of the puncture.
     pub measures: Measures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PathPoint>,
     /// Every contact event, in order.
-    pub events: Vec<Event>,
+    pub events: Vec<ContactEvent<PathPoint>>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -118,8 +104,8 @@ pub fn solve(
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), parameters)?.solve()
 }
 
-/// The same for an imperfect row: gaps and slants are those of `sample`. The substrate stays that of the
-/// design.
+/// Follows the puncture of an imperfect row as [`solve`] does: gaps and slants are those of `sample`, the substrate stays
+/// that of the design.
 ///
 /// # Errors
 /// As [`solve`], or if the scales cannot be made to stand clear of each other.
@@ -132,7 +118,7 @@ pub fn solve_sample(
     Problem::new(Rows::Sample(sample), design, substrate.into(), parameters)?.solve()
 }
 
-/// Where rows of any length come from.
+/// Source of rows of any length.
 #[derive(Clone, Copy)]
 enum Rows<'a> {
     Even(Row),
@@ -254,13 +240,10 @@ impl<'a> Problem<'a> {
         layout: Layout,
         give_up: impl Fn(Reached) -> bool,
     ) -> Result<(Puncture, Reached), InvalidDesign> {
-        let tilt = self.parameters.critical_tilt_deg.to_radians();
-        let position = self.parameters.load_position;
-        let row = self.rows.row(layout)?;
-        let chain = Chain::new(row, &self.stiffness, self.law, layout, position, tilt);
+        let chain = self.chain(layout)?;
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
-        let mut record = Record::new(&mut path, self.design.length);
+        let mut record = Record::new(&path);
         let mut reached = Reached::default();
         while let Some(point) = path.next() {
             record.visit(&mut path, &point);
@@ -269,15 +252,29 @@ impl<'a> Problem<'a> {
                 break;
             }
         }
-        let stop = path.stop().unwrap_or(Stop::Reached);
-        let (contacts, end) = (&path.system().contacts, &path.point().state);
-        let status = match stop {
-            Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
-            Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
-            Stop::Reached => Status::Complete,
-            stop => Status::Stopped(stop),
+        let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
+        Ok((self.puncture(record, &mut path, status), reached))
+    }
+
+    /// The system of a row.
+    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let Self { stiffness, law, parameters, .. } = self;
+        let row = self.rows.row(layout)?;
+        let tilt = parameters.critical_tilt_deg.to_radians();
+        let length = self.design.length;
+        Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
+    }
+
+    fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
+        let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
+        let measures = Measures::new(&record, path, modulus);
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
         };
-        Ok((record.finish(&mut path, status, self.parameters.poisson_ratio), reached))
+        let scales = scales(path.system(), &path.point().state);
+        let Record { path, events, history, .. } = record;
+        Puncture { status, measures, path, events, scales, history }
     }
 }
 

@@ -204,6 +204,13 @@ pub(super) static VALUES: &[Value] = &[
         cell: |r| r.flexure.map(|f| f.iterations).into(),
     },
     Value {
+        tables: &[],
+        name: "settings",
+        unit: "-",
+        meaning: "settings of a design that was solved again with others than the sweep's own",
+        cell: |r| r.settings.clone().into(),
+    },
+    Value {
         tables: COMPLIANCE,
         name: "flexure_error",
         unit: "-",
@@ -216,13 +223,6 @@ pub(super) static VALUES: &[Value] = &[
         unit: "-",
         meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
         cell: |r| bent(r, |m| m.membrane_strain_max),
-    },
-    Value {
-        tables: &[],
-        name: "settings",
-        unit: "-",
-        meaning: "settings of a design that was solved again with others than the sweep's own",
-        cell: |r| r.settings.clone().into(),
     },
 ];
 

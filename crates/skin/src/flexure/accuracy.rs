@@ -1,9 +1,11 @@
 //! How far the measures of a bent strip are from those of a strip that is resolved better.
 
+use membrane::GapEnergies;
 use solver::{Newton, Settings};
 
 use super::strip::Strip;
 use crate::contacts::State;
+use crate::record::Skin;
 
 /// A quantity below this, in its own unit, counts as this much where its relative change is taken: it is round-off.
 const NEGLIGIBLE: f64 = 1e-9;
@@ -21,10 +23,11 @@ impl Quantities {
     fn at(strip: &Strip, mut state: State, settings: &Settings) -> Option<Self> {
         let condition = strip.same_rotation(&state);
         let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;
-        let [bending, axial, contact] = strip.energies(&state);
+        let GapEnergies { axial, bending } = strip.membrane_energy(&state);
+        let contact = strip.contacts.energy(&state);
         Some(Self {
             moment: strip.moment(&state.z),
-            stiffness: strip.stiffness(&direction),
+            stiffness: strip.stiffness(&state, &direction),
             axial_energy_share: axial / (bending + axial + contact),
             strain: strip.largest_strain(&state),
         })

@@ -2,14 +2,14 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
-use membrane::{GapEnergies, Membrane};
+use membrane::{GapEnergies, Membrane, Section};
 use solver::{BandMatrix, Change, Condition, Control, Residual, System};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, Part, State};
 
-/// Where the unknowns of a strip of `n` gaps stand. The first scale is held.
+/// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
 /// ```text
 /// λ λ' λ" λ λ' λ" · interior · x y φ | … | λ λ' λ" λ λ' λ" · interior · x y φ · M
@@ -58,6 +58,17 @@ impl Layout {
     }
 }
 
+/// The part of a strip that is solved for, and the rotation to which it is bent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Gaps that are solved for.
+    pub(crate) gaps: usize,
+    /// Gaps `n` of the whole strip for each gap that is solved for, a whole number in a chain alone.
+    pub(crate) repeats: f64,
+    /// Rotation (radians) of the ends of what is solved for against each other at which the bending ends.
+    pub(crate) rotation: f64,
+}
+
 /// A strip of gaps in pure bending, the first scale held, a moment on the last.
 ///
 /// One gap is the unit cell: every cut of a strip in pure bending carries the same moment and no
@@ -69,19 +80,25 @@ pub(crate) struct Strip {
     /// The membrane of each gap, or one for all where they are alike.
     membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
+    /// Gaps of the whole strip for each gap that is solved for.
+    repeats: f64,
+    /// Mean pitch `p` of the scales.
+    pitch: f64,
+    /// `E_m I_m`, over `E_m t⁴`.
+    bending_stiffness: f64,
     controls: [Control; 3],
     units: Vec<f64>,
 }
 
 impl Strip {
-    /// A strip of `gaps` gaps, to be bent until its ends have turned by `rotation` (radians) against each other.
-    /// `membranes` are those of the gaps, all of equally many unknowns, or one for all.
+    /// A strip of a membrane of this `section`, of the given extent. `membranes` are those of the gaps, all of equally many
+    /// unknowns, or one for all.
     pub(crate) fn new(
         row: Arrangement,
         membranes: Vec<Membrane>,
         law: ContactLaw,
-        gaps: usize,
-        rotation: f64,
+        section: Section,
+        Extent { gaps, repeats, rotation }: Extent,
     ) -> Self {
         let layout = Layout { gaps, interior: membranes[0].interior() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
@@ -97,6 +114,9 @@ impl Strip {
         Self {
             layout,
             membranes,
+            repeats,
+            pitch: row.mean_pitch(),
+            bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::relative(row, law, scales, forces),
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
@@ -118,9 +138,29 @@ impl Strip {
         z[self.layout.moment()]
     }
 
-    /// `dM/dΦ` along a direction of the path.
-    pub(crate) fn stiffness(&self, direction: &[f64]) -> f64 {
-        direction[self.layout.moment()] / direction[self.controls[0].index]
+    /// Gaps of the whole strip for each gap that is solved for.
+    pub(crate) fn repeats(&self) -> f64 {
+        self.repeats
+    }
+
+    /// Gaps of the whole strip, rounded.
+    pub(crate) fn whole_gaps(&self) -> usize {
+        (self.repeats * self.layout.gaps as f64).round() as usize
+    }
+
+    /// `κ*`, from the rotation and the length of the gaps that are solved for.
+    pub(crate) fn curvature(&self, z: &[f64]) -> f64 {
+        self.rotation(z) / (self.layout.gaps as f64 * self.pitch)
+    }
+
+    /// `M*`.
+    pub(crate) fn normalised_moment(&self, z: &[f64]) -> f64 {
+        self.moment(z) / self.bending_stiffness
+    }
+
+    /// `dM*/dκ*` from `dM/dΦ` of the gaps that are solved for: `M* = M/(E_m I_m)` and `κ* = Φ/(n p)`, in units of `t`.
+    pub(crate) fn normalised_stiffness(&self, stiffness: f64) -> f64 {
+        stiffness * self.layout.gaps as f64 * self.pitch / self.bending_stiffness
     }
 
     /// Displacement and rotation of the right scale of each gap, seen from the left one.
@@ -129,16 +169,15 @@ impl Strip {
         poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
     }
 
-    /// Bending and axial energy of the membrane and energy of the contacts, over `E_m t³`.
-    pub(crate) fn energies(&self, state: &State) -> [f64; 3] {
-        let mut energies = [0.0, 0.0, self.contacts.energy(state)];
+    /// Energy of the membrane of the gaps that are solved for.
+    pub(crate) fn membrane_energy(&self, state: &State) -> GapEnergies {
+        let mut energy = GapEnergies { axial: 0.0, bending: 0.0 };
         for gap in 0..self.layout.gaps {
-            let GapEnergies { axial, bending } =
-                self.membrane(gap).energies(&self.acting(state, gap));
-            energies[0] += bending;
-            energies[1] += axial;
+            let of_gap = self.membrane(gap).energies(&self.acting(state, gap));
+            energy.axial += of_gap.axial;
+            energy.bending += of_gap.bending;
         }
-        energies
+        energy
     }
 
     /// The largest strain at the surface of the membrane of any gap.

@@ -5,10 +5,10 @@ use contact::Law;
 use geometry::{Parallelogram, UnevenRow};
 use solver::Settings;
 
-use super::set_up::SetUp;
-use super::{Flexure, Mesh, Method, Parameters, Status};
+use super::problem::Problem;
+use super::{Flexure, Mesh, Method, Parameters};
 use crate::arrangement::Arrangement;
-use crate::{Base, ContactChange, Design};
+use crate::{Base, ContactChange, Design, Status};
 
 const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
 
@@ -36,8 +36,8 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
     let (design, parameters) = (design(0.0), parameters());
-    let set_up = SetUp::new(&design, &parameters, row, gaps.len() as f64, gaps.len()).unwrap();
-    let flexure = set_up.solve().unwrap();
+    let problem = Problem::new(&design, &parameters, row, gaps.len() as f64, gaps.len()).unwrap();
+    let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
     flexure
 }
@@ -52,7 +52,7 @@ fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
         flexure.events.iter().filter(|event| event.change == ContactChange::Closed).collect();
     assert_eq!(closed.len(), GAPS.len());
     for event in closed {
-        let (gap, elements) = (GAPS[event.gap.unwrap()], 2.0);
+        let (gap, elements) = (GAPS[event.left_scale.unwrap() as usize], 2.0);
         let moment = 2.0 * elements / gap * (gap / (2.0 * elements)).asin();
         assert_relative_eq!(event.point.moment, moment, max_relative = 1e-9);
         let (free, whole) = (GAPS.iter().sum::<f64>(), GAPS.iter().sum::<f64>() + 6.0);
@@ -84,7 +84,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 #[test]
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
-    let even = SetUp::even(&design(60.0), &parameters()).unwrap().solve().unwrap();
+    let even = Problem::even(&design(60.0), &parameters()).unwrap().solve().unwrap();
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

@@ -53,8 +53,8 @@ fn the_ends_of_automatic_rows_are_at_rest() {
             assert!(end.displacement.iter().all(|u| u.abs() <= 1e-6));
             assert!(end.rotation_deg.to_radians().abs() <= 1e-6);
         }
-        let last = puncture.scales.last().unwrap().scale - 1;
-        let first = puncture.scales[0].scale;
+        let last = Some(puncture.scales.last().unwrap().scale - 1);
+        let first = Some(puncture.scales[0].scale);
         assert!(puncture.events.iter().all(|e| e.left_scale != last && e.left_scale != first));
     }
 }

@@ -6,18 +6,18 @@ use solver::{Path, Stop};
 
 use super::accuracy::change;
 use super::mesh::Resolution;
-use super::record::Record;
-use super::strip::Strip;
-use super::{Flexure, Method, Parameters, Status, gaps, whole_gaps};
+use super::strip::{Extent, Strip};
+use super::{Flexure, Measures, Method, Parameters, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, State};
-use crate::{Design, InvalidDesign, Sample};
+use crate::record::Record;
+use crate::{Design, InvalidDesign, Sample, Status};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
 const TOLERANCE: f64 = 1e-4;
 
-/// What is bent.
-pub(crate) struct SetUp<'a> {
+/// A strip to be bent.
+pub(crate) struct Problem<'a> {
     parameters: &'a Parameters,
     pub(crate) row: Arrangement,
     half_base: f64,
@@ -29,7 +29,7 @@ pub(crate) struct SetUp<'a> {
     solved: usize,
 }
 
-impl<'a> SetUp<'a> {
+impl<'a> Problem<'a> {
     /// The strip of a design.
     pub(crate) fn even(design: &Design, parameters: &'a Parameters) -> Result<Self, InvalidDesign> {
         let row = design.row()?;
@@ -73,11 +73,6 @@ impl<'a> SetUp<'a> {
         })
     }
 
-    /// `E_m I_m`, over `E_m t⁴`.
-    pub(crate) fn bending_stiffness(&self) -> f64 {
-        self.section.bending_stiffness()
-    }
-
     /// The strip with this resolution.
     pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, InvalidDesign> {
         let unlike = match &self.row {
@@ -91,8 +86,9 @@ impl<'a> SetUp<'a> {
         };
         let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
         let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
-        let rotation = whole * self.solved as f64 / self.gaps;
-        Ok(Strip::new(self.row.clone(), membranes, self.law, self.solved, rotation))
+        let repeats = self.gaps / self.solved as f64;
+        let extent = Extent { gaps: self.solved, repeats, rotation: whole / repeats };
+        Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
     }
 
     /// Bends the strip, with finer and finer resolution until it suffices.
@@ -120,10 +116,10 @@ impl<'a> SetUp<'a> {
     fn bend(&self, resolution: Resolution) -> Result<Flexure, InvalidDesign> {
         let strip = self.strip(resolution)?;
         let rest = State::at_rest(&strip);
-        let mut path = Path::new(strip, rest, self.parameters.solver);
         let alike = matches!(self.row, Arrangement::Even(_));
-        let (row, stiffness) = (self.row.clone(), self.bending_stiffness());
-        let mut record = Record::new(&mut path, row, self.gaps, stiffness);
+        let mut steps = vec![strip.steps(&rest.z)];
+        let mut path = Path::new(strip, rest, self.parameters.solver);
+        let mut record = Record::new(&path);
         let mut flush = false;
         while let Some(point) = path.next() {
             // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
@@ -133,11 +129,19 @@ impl<'a> SetUp<'a> {
                 break;
             }
             record.visit(&mut path, &point);
+            steps.push(path.system().steps(&point.state.z));
         }
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
-        let status = status(&path, stop);
+        let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
         let error = self.error(resolution, &path, &record)?;
-        Ok(record.finish(&mut path, status, error))
+        let measures = Measures { error, ..Measures::new(&record, &mut path) };
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
+        let Record { path, events, history, .. } = record;
+        Ok(Flexure { status, measures, path, events, history, gaps, steps, row })
     }
 
     /// The largest change of any measure with a finer resolution; `None` where there is none.
@@ -145,27 +149,19 @@ impl<'a> SetUp<'a> {
         &self,
         resolution: Resolution,
         path: &Path<Strip>,
-        record: &Record,
+        record: &Record<Strip>,
     ) -> Result<Option<f64>, InvalidDesign> {
         let Some(finer) = resolution.finer() else { return Ok(None) };
-        if !record.touched() {
+        if record.first_contact().is_none() {
             // Arcs are exact in every resolution.
             return Ok(Some(0.0));
         }
         let finer = self.strip(finer)?;
-        let change = |state| change(path.system(), &finer, state, &self.parameters.solver);
+        let settings = &self.parameters.solver;
         // A state that cannot be solved with the finer resolution is not resolved.
-        let changes = record.decisive_states(path).into_iter().map(change);
-        Ok(changes.map(|change| change.unwrap_or(f64::INFINITY)).reduce(f64::max))
-    }
-}
-
-fn status(path: &Path<Strip>, stop: Option<Stop>) -> Status {
-    let (contacts, end) = (&path.system().contacts, &path.point().state);
-    match stop.unwrap_or(Stop::Reached) {
-        Stop::Reached if contacts.neighbours_interpenetrate(end) => Status::Interpenetration,
-        Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
-        Stop::Reached => Status::Complete,
-        stop => Status::Stopped(stop),
+        let change =
+            |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
+        let states = record.stiffest().into_iter().chain([path.point()]);
+        Ok(states.map(|point| change(&point.state)).reduce(f64::max))
     }
 }
