@@ -80,3 +80,29 @@ fn elements_converge_to_it_with_the_square_of_their_length() {
         assert!((order - 2.0).abs() < 0.1, "{:?}: order {order}", reference.design);
     }
 }
+
+/// One element per gap, which was the default once, on whole gaps: `(d, L, gaps, C_f*, M* at the end)` of designs with the slant 75°.
+const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
+    (0.2, 0.6, 125, 0.000_043_226_402_372_231_1, 896.124_183_604_776_7),
+    (0.4, 0.2, 167, 0.000_567_246_544_534_441_5, 26.581_881_174_697_386),
+    (0.5, 1.0, 67, 0.000_210_895_191_527_959_16, 113.739_556_933_393_17),
+    (0.7, 0.6, 77, 0.001_305_626_566_627_645_5, 15.851_157_264_131_654),
+    (0.9, 0.2, 91, 0.004_274_812_920_842_926, 0.308_281_634_480_729_1),
+    (1.0, 1.0, 50, 0.002_491_288_740_449_56, 8.490_746_709_756_941),
+];
+
+#[test]
+fn one_element_gives_the_numbers_of_the_first_tables() {
+    for (gap, length, gaps, compliance, end_moment) in ONE_ELEMENT {
+        let design = Design { gap, length, slant_deg: 75.0, base: Base::L, width: 1.0 };
+        let parameters = Parameters {
+            gaps: Some(gaps),
+            elements_per_gap: Mesh::Elements(1),
+            ..Parameters::default()
+        };
+        let measures = solve(&design, &parameters).unwrap().measures;
+        assert_relative_eq!(measures.compliance.unwrap(), compliance, max_relative = 1e-9);
+        assert_relative_eq!(measures.max_moment.unwrap(), end_moment, max_relative = 1e-9);
+        assert_eq!(measures.error, None);
+    }
+}
