@@ -113,7 +113,9 @@ impl<S: System> Path<S> {
                 continue;
             }
             if slope < 0.0 {
-                direction.iter_mut().for_each(|x| *x = -*x);
+                for x in &mut direction {
+                    *x = -*x;
+                }
             }
             *state = trial;
             return Ok(direction);
