@@ -216,6 +216,6 @@ fn angle_from(e: Vec2, phi: f64) -> f64 {
 }
 
 /// Returns the vector turned counter-clockwise by 90°.
-fn quarter_turn(v: Vec2) -> Vec2 {
+pub(crate) fn quarter_turn(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }

@@ -4,7 +4,7 @@ use geometry::{OutOfRange, Vec2};
 use nalgebra::{DMatrix, DVector};
 
 use crate::section::positive;
-use crate::{CorotationalBeam, Ends, Local, OffsetBeam, Response, RigidArm, Section};
+use crate::{CorotationalBeam, Ends, GapEnergies, Local, OffsetBeam, Response, RigidArm, Section};
 
 /// The undeformed span of the membrane in a gap; lengths over `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +41,7 @@ pub struct Span {
 /// displacements, added to their distance at rest: the place of the gap in a long row costs no digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GapMembrane {
+    section: Section,
     beam: CorotationalBeam,
     elements: usize,
     span: Span,
@@ -74,7 +75,7 @@ impl GapMembrane {
             section.axial_stiffness(),
             section.bending_stiffness(),
         )?;
-        Ok(Self { beam, elements, span })
+        Ok(Self { section, beam, elements, span })
     }
 
     /// Returns the number `m` of elements.
@@ -137,6 +138,38 @@ impl GapMembrane {
             sum.add(3 * k, &self.element_response(k, &entries(u, k)));
         }
         sum
+    }
+
+    /// Returns the forces and moments that those on the interior nodes and on the right scale are to be compared with, three
+    /// for each. A finer mesh is stiffer, and rounds off as much more.
+    pub fn units(&self) -> DVector<f64> {
+        let axial = self.section.axial_stiffness() / self.beam.length();
+        let bending = self.section.bending_stiffness() / self.beam.length();
+        let unit = |k: usize| if k % 3 == 2 { bending } else { axial };
+        DVector::from_iterator(3 * self.elements, (0..3 * self.elements).map(unit))
+    }
+
+    /// Returns the energies of the gap.
+    ///
+    /// # Panics
+    /// If `u` is shorter than [`Self::unknowns`].
+    pub fn energies(&self, u: &DVector<f64>) -> GapEnergies {
+        let GapResponse { axial_energy: axial, bending_energy: bending, .. } = self.response(u);
+        GapEnergies { axial, bending }
+    }
+
+    /// Returns the largest strain `|N|/EA + h max(|M₁|, |M₂|)/2EI` at the surface of any element.
+    ///
+    /// # Panics
+    /// If `u` is shorter than [`Self::unknowns`].
+    pub fn largest_strain(&self, u: &DVector<f64>) -> f64 {
+        let half_thickness = 0.5 * self.section.thickness();
+        let strain = |local: Local| {
+            let curvature = local.moments[0].abs().max(local.moments[1].abs())
+                / self.section.bending_stiffness();
+            local.axial_force.abs() / self.section.axial_stiffness() + half_thickness * curvature
+        };
+        self.local(u).into_iter().map(strain).fold(0.0, f64::max)
     }
 
     /// Returns the deformations and forces of all elements, in the frames of their chords.
@@ -203,7 +236,7 @@ fn entries(u: &DVector<f64>, k: usize) -> Ends {
 }
 
 /// Returns an error if no membrane can bridge `span`.
-fn check(span: &Span) -> Result<(), OutOfRange> {
+pub(crate) fn check(span: &Span) -> Result<(), OutOfRange> {
     let Span { half_base, gap, axis_offset } = *span;
     positive("gap", gap)?;
     OutOfRange::unless(

@@ -22,6 +22,8 @@
 //! | [`RigidArm`] | kinematics of a point that is rigidly attached to a pose |
 //! | [`OffsetBeam`] | an element between two rigid arms, in terms of the poses that hold them |
 //! | [`GapMembrane`] | the elements of one gap, assembled between two neighbouring scales |
+//! | [`Elastica`] | the limit of infinitely many elements: one spectral element per gap, its energies, gradient and Hessian |
+//! | [`Membrane`] | either of the two, behind one interface |
 //!
 //! ```
 //! use membrane::{GapMembrane, Section, Span};
@@ -38,12 +40,17 @@
 //! ```
 
 mod corotational_beam;
+mod elastica;
 mod gap;
+mod lobatto;
+mod membrane;
 mod rigid_arm;
 mod section;
 
 pub use corotational_beam::{CorotationalBeam, Ends, Local, Response, Stiffness};
+pub use elastica::{Elastica, GapEnergies};
 pub use gap::{GapMembrane, GapResponse, Span};
+pub use membrane::Membrane;
 pub use rigid_arm::{OffsetBeam, RigidArm};
 pub use section::Section;
 

@@ -34,6 +34,11 @@ impl Section {
         })
     }
 
+    /// Returns the thickness `h`, over `t`.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
     /// Returns the axial stiffness `EA` (M1), over `E_m t²`.
     pub fn axial_stiffness(&self) -> f64 {
         self.depth * self.thickness

@@ -73,11 +73,12 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
     Column::new("design", "-", "position of the design in the grid of its sweep", cell)
 }
 
-/// The header of the column of a parameter: its key, but for that of the row, which is also a
-/// value, because a row may have more scales than were asked for.
+/// The header of the column of a parameter: its key, but for those that are also values. A row may have more scales than
+/// were asked for, and a strip as many gaps as its length holds.
 fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",
+        "gaps" => "gaps_asked",
         key => key,
     }
 }

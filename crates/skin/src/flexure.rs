@@ -1,8 +1,11 @@
 //! Pure bending of a membrane that carries scales.
 
+mod accuracy;
 mod frame;
 mod measures;
+mod mesh;
 mod point;
+mod problem;
 mod snapshot;
 mod strip;
 #[cfg(test)]
@@ -12,19 +15,16 @@ mod uneven_tests;
 
 use std::collections::HashSet;
 
-use contact::ContactLaw;
 use frame::{Frame, Step};
 use geometry::Row;
-use membrane::{GapMembrane, Section, Span};
-use solver::{Path, Settings, Stop};
-use strip::{Extent, Strip};
+use problem::Problem;
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, State};
-use crate::record::{ContactEvent, Iteration, Record};
+use crate::record::{ContactEvent, Iteration};
 use crate::{Common, ContactChange, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
+pub use mesh::Mesh;
 pub use point::PathPoint;
 pub use snapshot::{Snapshot, snapshots};
 
@@ -44,14 +44,16 @@ pub struct Parameters {
     pub contact_modulus_over_membrane: f64,
     /// One gap or all.
     pub method: Method,
-    /// Length `L_whole/t` of the strip.
+    /// Length `L_whole/t` of the strip, unless its gaps are given.
     pub membrane_length: f64,
+    /// Number of gaps of the strip; `None` for as many as its length holds.
+    pub gaps: Option<usize>,
     /// Thickness `h/t` of the membrane.
     pub membrane_thickness: f64,
     /// Depth of the membrane's axis below the bases of the scales, over `t`.
     pub membrane_axis_offset: f64,
-    /// Beam elements per gap.
-    pub elements_per_gap: usize,
+    /// How the membrane of a gap is resolved.
+    pub elements_per_gap: Mesh,
     /// Rotation of each end at which bending ends, degrees.
     pub max_end_rotation_deg: f64,
 }
@@ -64,9 +66,10 @@ impl Default for Parameters {
             contact_modulus_over_membrane: 667.0,
             method: Method::UnitCell,
             membrane_length: 100.0,
+            gaps: None,
             membrane_thickness: 0.125,
             membrane_axis_offset: 0.0,
-            elements_per_gap: 1,
+            elements_per_gap: Mesh::Auto,
             max_end_rotation_deg: 180.0,
         }
     }
@@ -85,7 +88,7 @@ pub struct Flexure {
     pub events: Vec<ContactEvent<PathPoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
-    /// Gaps of the strip.
+    /// Gaps of the strip, rounded to a whole number.
     pub gaps: usize,
     /// The gaps that were solved for, at every point of the path.
     steps: Vec<Vec<Step>>,
@@ -113,10 +116,19 @@ impl Flexure {
     }
 }
 
-/// Number of gaps `n = round(L_whole/p)` of a strip, at least 1.
-pub fn gaps(row: &Row, membrane_length: f64) -> usize {
+/// Returns the number of gaps `n = L_whole/p` of a strip, or the number that is given; at least 1.
+///
+/// In pure bending every gap turns by the same angle, so the unit cell needs no whole number: the angle between its scales is
+/// `2 Φ/n`. A chain, and a strip of imperfect gaps, has [`whole_gaps`].
+pub fn gaps(row: &Row, parameters: &Parameters) -> f64 {
+    let by_length = parameters.membrane_length / row.pitch();
+    parameters.gaps.map_or(by_length, |gaps| gaps as f64).max(1.0)
+}
+
+/// Returns the number of gaps of a chain: [`gaps`], rounded.
+pub fn whole_gaps(row: &Row, parameters: &Parameters) -> usize {
     // Saturates; a strip with more gaps than a machine word counts does not exist.
-    ((membrane_length / row.pitch()).round() as usize).max(1)
+    gaps(row, parameters).round() as usize
 }
 
 /// Bends the strip of a `design` from rest until its ends have turned by the largest rotation.
@@ -128,12 +140,12 @@ pub fn solve(
     common: &Common,
     parameters: &Parameters,
 ) -> Result<Flexure, InvalidDesign> {
-    Ok(Problem::even(design, common, parameters)?.solve())
+    Problem::even(design, common, parameters)?.solve()
 }
 
 /// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
 /// its own way, so the chain of all is solved, whatever [`Parameters::method`] says. There are as many
-/// gaps as in the strip of the design, and the curvature counts over the length that they
+/// gaps as in the chain of the design, and the curvature counts over the length that they
 /// have.
 ///
 /// # Errors
@@ -144,101 +156,5 @@ pub fn solve_sample(
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Flexure, InvalidDesign> {
-    Ok(Problem::sample(design, common, parameters, sample)?.solve())
-}
-
-/// A strip to be bent.
-struct Problem {
-    row: Arrangement,
-    strip: Strip,
-    settings: Settings,
-}
-
-impl Problem {
-    /// The strip of a design.
-    fn even(
-        design: &Design,
-        common: &Common,
-        parameters: &Parameters,
-    ) -> Result<Self, InvalidDesign> {
-        let row = design.row()?;
-        let gaps = gaps(&row, parameters.membrane_length);
-        let solved = match parameters.method {
-            Method::UnitCell => 1,
-            Method::Chain => gaps,
-        };
-        Self::new(design, common, parameters, Arrangement::Even(row), [gaps, solved])
-    }
-
-    /// A sample of the strip, with all its gaps.
-    fn sample(
-        design: &Design,
-        common: &Common,
-        parameters: &Parameters,
-        sample: &Sample,
-    ) -> Result<Self, InvalidDesign> {
-        let gaps = gaps(&design.row()?, parameters.membrane_length);
-        let row = Arrangement::Uneven(sample.row(0, gaps)?);
-        Self::new(design, common, parameters, row, [gaps; 2])
-    }
-
-    /// A strip of so many gaps, of which so many are solved for.
-    fn new(
-        design: &Design,
-        common: &Common,
-        parameters: &Parameters,
-        row: Arrangement,
-        [gaps, solved]: [usize; 2],
-    ) -> Result<Self, InvalidDesign> {
-        let section = Section::new(design.width, parameters.membrane_thickness)?;
-        let membrane = |gap: usize| {
-            let span = Span {
-                half_base: design.half_base(),
-                gap: row.gap(gap),
-                axis_offset: parameters.membrane_axis_offset,
-            };
-            GapMembrane::new(section, span, parameters.elements_per_gap)
-        };
-        let unlike = match &row {
-            Arrangement::Even(_) => 1,
-            Arrangement::Uneven(_) => solved,
-        };
-        let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
-        let modulus = parameters.contact_modulus_over_membrane;
-        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
-        let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
-        let rotation = whole * solved as f64 / gaps as f64;
-        let extent = Extent { gaps: solved, repeats: gaps / solved, rotation };
-        let strip = Strip::new(row.clone(), membranes, law, section, extent);
-        Ok(Self { row, strip, settings: common.solver })
-    }
-
-    fn solve(self) -> Flexure {
-        let Self { row, strip, settings } = self;
-        let rest = State::at_rest(&strip);
-        let alike = matches!(row, Arrangement::Even(_));
-        let mut steps = vec![strip.steps(&rest.z)];
-        let mut path = Path::new(strip, rest, settings);
-        let mut record = Record::new(&path);
-        let mut flush = false;
-        while let Some(point) = path.next() {
-            // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
-            // other and nothing else moves: the path stands still in all that measures it.
-            flush = alike && Contacts::flush(&point.state);
-            if flush {
-                break;
-            }
-            record.visit(&mut path, &point);
-            steps.push(path.system().steps(&point.state.z));
-        }
-        let stop = if flush { Some(Stop::Singular) } else { path.stop() };
-        let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
-        let measures = Measures::new(&record, &mut path);
-        let measures = match status {
-            Status::Complete => measures,
-            _ => measures.without_final_values(),
-        };
-        let Record { path, events, history, .. } = record;
-        Flexure { status, measures, path, events, history, gaps: measures.gaps, steps, row }
-    }
+    Problem::sample(design, common, parameters, sample)?.solve()
 }

@@ -125,6 +125,11 @@ impl<S: Skin> Record<S> {
         self.events.iter().find(closed).map(|event| &event.point)
     }
 
+    /// The point of the largest stiffness of those that were recorded.
+    pub(crate) fn stiffest(&self) -> Option<&Point> {
+        self.stiffness.point()
+    }
+
     /// The stiffness at the beginning of the path.
     pub(crate) fn initial_stiffness(&self) -> f64 {
         self.initial_stiffness

@@ -1,7 +1,7 @@
 //! Rows and strips with random gaps and slants.
 
 use approx::assert_relative_eq;
-use skin::flexure::{self, Flexure, Method};
+use skin::flexure::{self, Flexure, Mesh, Method};
 use skin::puncture::{self, RowLength};
 use skin::{Base, Common, ContactChange, Design, Imperfection, Sample, Status};
 use substrate::calibrate;
@@ -15,7 +15,8 @@ fn strip() -> flexure::Parameters {
         membrane_length: 22.0,
         membrane_thickness: 0.125,
         membrane_axis_offset: 0.0,
-        elements_per_gap: 1,
+        gaps: None,
+        elements_per_gap: Mesh::Auto,
         max_end_rotation_deg: 40.0,
     }
 }

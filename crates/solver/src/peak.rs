@@ -66,6 +66,11 @@ impl<M> Peak<M> {
         self.last = Some(here);
     }
 
+    /// The point with the largest value of those visited. `None` if none was.
+    pub fn point(&self) -> Option<&Point<M>> {
+        self.best.as_ref().map(|best| &*best.point)
+    }
+
     /// The largest value on the path, the segments next to the best of the points visited included. `None` if none was
     /// visited. Steps must be small enough for the highest maximum to show at a point beside it.
     pub fn refined<S>(

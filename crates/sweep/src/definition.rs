@@ -87,10 +87,21 @@ impl Sweep {
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
-    /// The parameters that all designs share, with their values.
+    /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        let shared = |parameter: &&Parameter| self.grid.axis(parameter.key).is_none();
+        let shared = |parameter: &&Parameter| {
+            self.grid.axis(parameter.key).is_none()
+                && !parameter.alternative().is_some_and(|other| self.gives_alone(other))
+        };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
+    }
+}
+
+impl Sweep {
+    /// Whether the definition gives this parameter, so that it leaves nothing to the other way to say the same.
+    fn gives_alone(&self, parameter: &Parameter) -> bool {
+        let value = parameter.get(self.grid.base());
+        self.grid.axis(parameter.key).is_some() || matches!(value, Scalar::Count(_))
     }
 }
 

@@ -5,8 +5,6 @@ mod scalar;
 
 use std::fmt;
 
-use skin::puncture::RowLength;
-
 use crate::case::Case;
 use crate::decimal::Decimal;
 use crate::number;
@@ -39,10 +37,26 @@ impl PartialEq for Parameter {
 /// The values that the parameter takes, and the field of a case that it sets.
 #[derive(Debug)]
 pub(crate) enum ParameterKind {
-    Number { noun: &'static str, range: Range, field: fn(&mut Case) -> &mut f64 },
-    Count { range: CountRange, field: fn(&mut Case) -> &mut usize },
-    Word { words: &'static [&'static str], get: fn(&Case) -> usize, set: fn(&mut Case, usize) },
-    RowLength { range: CountRange },
+    Number {
+        noun: &'static str,
+        range: Range,
+        field: fn(&mut Case) -> &mut f64,
+    },
+    Count {
+        range: CountRange,
+        field: fn(&mut Case) -> &mut usize,
+    },
+    Word {
+        words: &'static [&'static str],
+        get: fn(&Case) -> usize,
+        set: fn(&mut Case, usize),
+    },
+    /// A count, or the word `auto`.
+    CountOrAuto {
+        range: CountRange,
+        get: fn(&Case) -> Option<usize>,
+        set: fn(&mut Case, Option<usize>),
+    },
 }
 
 /// Bounds of a number.
@@ -66,8 +80,11 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// The word of `scales` for a row as long as it needs to be.
+/// The word of a count that is to be found.
 const AUTO: &str = "auto";
+
+/// The two ways to say how long a strip is.
+const ALTERNATIVES: [&str; 2] = ["gaps", "membrane_length_over_t"];
 
 /// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -96,6 +113,16 @@ impl Parameter {
         PARAMETERS.iter().find(|parameter| parameter.key == key)
     }
 
+    /// The parameter that says the same in another way: a definition has one of the two.
+    pub(crate) fn alternative(&self) -> Option<&'static Self> {
+        let [first, second] = ALTERNATIVES;
+        match self.key {
+            key if key == first => Self::named(second),
+            key if key == second => Self::named(first),
+            _ => None,
+        }
+    }
+
     /// `section.key`.
     pub fn path(&self) -> String {
         format!("{}.{}", self.section, self.key)
@@ -108,10 +135,9 @@ impl Parameter {
             ParameterKind::Number { field, .. } => Scalar::Number(*field(&mut case)),
             ParameterKind::Count { field, .. } => Scalar::Count(*field(&mut case)),
             ParameterKind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
-            ParameterKind::RowLength { .. } => match case.puncture.scales {
-                RowLength::Auto => Scalar::Word(AUTO),
-                RowLength::Scales(count) => Scalar::Count(count),
-            },
+            ParameterKind::CountOrAuto { get, .. } => {
+                get(&case).map_or(Scalar::Word(AUTO), Scalar::Count)
+            }
         }
     }
 
@@ -129,12 +155,10 @@ impl Parameter {
                 // `read` takes no other words.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
-            (ParameterKind::RowLength { .. }, Scalar::Count(count)) => {
-                case.puncture.scales = RowLength::Scales(count);
+            (ParameterKind::CountOrAuto { set, .. }, Scalar::Count(count)) => {
+                set(case, Some(count))
             }
-            (ParameterKind::RowLength { .. }, Scalar::Word(_)) => {
-                case.puncture.scales = RowLength::Auto;
-            }
+            (ParameterKind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
@@ -149,7 +173,7 @@ impl Parameter {
                 text.parse().ok().map(Scalar::Number)
             }
             (
-                ParameterKind::Count { .. } | ParameterKind::RowLength { .. },
+                ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. },
                 Value::Number(text),
             ) => {
                 let decimal = text.parse::<Decimal>().ok();
@@ -158,7 +182,7 @@ impl Parameter {
             (ParameterKind::Word { words, .. }, Value::Text(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
-            (ParameterKind::RowLength { .. }, Value::Text(text)) => {
+            (ParameterKind::CountOrAuto { .. }, Value::Text(text)) => {
                 (text == AUTO).then_some(Scalar::Word(AUTO))
             }
             _ => None,
@@ -175,7 +199,7 @@ impl Parameter {
             ParameterKind::Number { .. } | ParameterKind::Word { .. } => {
                 Scalar::Number(number.to_f64())
             }
-            ParameterKind::Count { .. } | ParameterKind::RowLength { .. } => {
+            ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. } => {
                 // Whole and in bounds: whoever reads a range has seen both ends and the step.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
@@ -189,7 +213,7 @@ impl Parameter {
 
     /// Whether its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
-        matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::RowLength { .. })
+        matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. })
     }
 
     /// The error of a value that [`Self::read`] refuses.
@@ -209,7 +233,7 @@ impl Parameter {
         match (&self.kind, value) {
             (ParameterKind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
             (
-                ParameterKind::Count { range, .. } | ParameterKind::RowLength { range },
+                ParameterKind::Count { range, .. } | ParameterKind::CountOrAuto { range, .. },
                 Scalar::Count(count),
             ) => (range.low..=range.high).contains(&count),
             _ => true,
@@ -222,7 +246,9 @@ impl Parameter {
             ParameterKind::Number { noun, range, .. } => format!("{noun} {range}"),
             ParameterKind::Count { range, .. } => format!("a whole number {range}"),
             ParameterKind::Word { words, .. } => any_of(words),
-            ParameterKind::RowLength { range } => format!("a whole number {range} or \"{AUTO}\""),
+            ParameterKind::CountOrAuto { range, .. } => {
+                format!("a whole number {range} or \"{AUTO}\"")
+            }
         }
     }
 }

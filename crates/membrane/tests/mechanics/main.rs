@@ -1,6 +1,7 @@
 //! The element and the gap against finite differences, symmetries and closed forms.
 
 mod cantilever;
+mod elastica;
 mod finite_differences;
 mod gap;
 mod mattiasson_elastica;

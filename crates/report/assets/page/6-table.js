@@ -3,7 +3,7 @@
 
 (() => {
   const FIRST = 200;
-  const shown = ["design", ...squama.axes, "coverage", "critical_force", "penetration", "compliance", "peak_force", "max_stiffness", "contacts", "flexure_contact", "puncture_status", "flexure_status"];
+  const shown = ["design", ...squama.axes, "coverage", "critical_force", "penetration", "compliance", "peak_force", "max_stiffness", "contacts", "flexure_contact", "membrane_strain_max", "puncture_status", "flexure_status"];
   const columns = [...new Set(shown)].filter((name) => squama.column(name) >= 0);
   const filters = new Map();
   let sort = { name: "design", down: false };

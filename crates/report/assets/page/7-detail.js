@@ -93,6 +93,7 @@
     document.getElementById("detail-parameters").replaceChildren(...axes.flatMap(({ name, unit, meaning }) => fact(name, squama.cell(row, name), unit, meaning)));
     const values = squama.columns.filter(({ name }) => name !== "design" && !squama.axes.includes(name));
     document.getElementById("detail-values").replaceChildren(...values.flatMap(({ name, unit, meaning }) => fact(name, squama.cell(row, name), unit, meaning)));
+    document.getElementById("detail-range").hidden = !(squama.cell(row, "membrane_strain_max") > 0.2);
     const definition = `${squama.folder}/run.toml`;
     document.getElementById("detail-commands").replaceChildren(
       squama.element("h3", {}, "Run it again"),

@@ -78,7 +78,12 @@ pub static FLEXURE_PATH: &[Column<flexure::PathPoint>] = &[
         p.axial_energy.into()
     }),
     Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| p.contact_energy.into()),
-    Column::new("contacts", "-", "closed contacts of the strip", |p| p.contacts.into()),
+    Column::new("contacts", "-", "closed contacts of the strip, rounded to whole gaps", |p| {
+        p.contacts.into()
+    }),
+    Column::new("membrane_strain", "-", "largest strain at the surface of the membrane", |p| {
+        p.membrane_strain.into()
+    }),
 ];
 
 /// The columns of `flexure_events.csv`.

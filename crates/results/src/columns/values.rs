@@ -186,8 +186,8 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         tables: COMPLIANCE,
         name: "gaps",
         unit: "-",
-        meaning: "gaps of the strip",
-        cell: |r| bent(r, |m| (m.gaps > 0).then_some(m.gaps)),
+        meaning: "gaps of the strip, a whole number in a chain alone",
+        cell: |r| bent(r, |m| (m.gaps > 0.0).then_some(m.gaps)),
     },
     MeasuredValue {
         tables: &[],
@@ -209,6 +209,20 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         unit: "-",
         meaning: "settings of a design that was solved again with others than the sweep's own",
         cell: |r| r.result.settings.clone().into(),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "flexure_error",
+        unit: "-",
+        meaning: "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements",
+        cell: |r| bent(r, |m| m.error),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "membrane_strain_max",
+        unit: "-",
+        meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
+        cell: |r| bent(r, |m| m.membrane_strain_max),
     },
 ];
 

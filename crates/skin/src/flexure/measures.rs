@@ -25,8 +25,13 @@ pub struct Measures {
     pub max_moment: Option<f64>,
     /// Part of the axial energy in the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
-    /// Gaps of the strip.
-    pub gaps: usize,
+    /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane, anywhere on the path.
+    pub membrane_strain_max: Option<f64>,
+    /// Largest relative error of the measures that the discretisation of the membrane makes, estimated; `None` for a given
+    /// number of elements.
+    pub error: Option<f64>,
+    /// Gaps `n` of the strip, a whole number in a chain.
+    pub gaps: f64,
 }
 
 impl Measures {
@@ -36,6 +41,7 @@ impl Measures {
         let strip = path.system();
         let first = record.first_contact();
         let share = record.path.last().map(axial_energy_share);
+        let strains = record.path.iter().map(|point| point.membrane_strain);
         Self {
             compliance: stiffest.map(|stiffness| strip.normalised_stiffness(stiffness).recip()),
             initial_compliance: record.path.first().map(|start| start.stiffness.recip()),
@@ -43,7 +49,9 @@ impl Measures {
             first_contact_curvature: first.map(|point| point.curvature),
             max_moment: record.path.iter().map(|point| point.moment).reduce(f64::max),
             axial_energy_share: share.filter(|share| share.is_finite()),
-            gaps: strip.gaps() * strip.repeats(),
+            membrane_strain_max: strains.reduce(f64::max),
+            error: None,
+            gaps: strip.gaps() as f64 * strip.repeats(),
         }
     }
 

@@ -21,8 +21,10 @@ pub struct PathPoint {
     pub axial_energy: f64,
     /// Energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
-    /// Closed contacts of the whole strip.
+    /// Closed contacts of the strip, rounded to whole gaps.
     pub contacts: usize,
+    /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
+    pub membrane_strain: f64,
 }
 
 impl Skin for Strip {
@@ -34,7 +36,7 @@ impl Skin for Strip {
 
     fn path_point(&self, point: &Point) -> PathPoint {
         let state = &point.state;
-        let repeats = self.repeats() as f64;
+        let repeats = self.repeats();
         let membrane = self.membrane_energy(state);
         PathPoint {
             curvature: self.curvature(&state.z),
@@ -44,12 +46,13 @@ impl Skin for Strip {
             bending_energy: membrane.bending * repeats,
             axial_energy: membrane.axial * repeats,
             contact_energy: self.contacts.energy(state) * repeats,
-            contacts: self.repeats() * Contacts::closed(state),
+            contacts: self.whole_gaps() / self.gaps() * Contacts::closed(state),
+            membrane_strain: self.largest_strain(state),
         }
     }
 
     fn angle_deg(&self, state: &State) -> f64 {
-        0.5 * (self.rotation(&state.z) * self.repeats() as f64).to_degrees()
+        0.5 * (self.rotation(&state.z) * self.repeats()).to_degrees()
     }
 
     /// `dM/dΦ` of the gaps that are solved for.
@@ -58,7 +61,7 @@ impl Skin for Strip {
     }
 
     fn number(&self, scale: usize) -> Option<i64> {
-        (self.repeats() == 1).then_some(scale as i64)
+        (self.whole_gaps() == self.gaps()).then_some(scale as i64)
     }
 
     /// A strip that is bent to a ring may meet its own other end: neighbours count alone.

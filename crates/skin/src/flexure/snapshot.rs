@@ -2,16 +2,17 @@
 
 use solver::Path;
 
+use super::Parameters;
 use super::frame::Frame;
+use super::problem::Problem;
 use super::strip::Strip;
-use super::{Parameters, Problem};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
 use crate::{Common, Design, InvalidDesign};
 
-/// Points of the membrane's axis that are kept of each element.
+/// Points of the membrane's axis that are kept of each element, or of each gap.
 const INTERVALS: usize = 12;
 
 /// A strip in equilibrium.
@@ -44,30 +45,31 @@ pub fn snapshots(
     parameters: &Parameters,
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let Problem { row, strip, settings } = Problem::even(design, common, parameters)?;
+    let problem = Problem::even(design, common, parameters)?;
+    let (row, strip) = (&problem.row, problem.resolved_strip()?);
     let crossing = |&degrees: &f64| Crossing {
         quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
-        value: 2.0 * degrees.to_radians() / strip.repeats() as f64,
+        value: 2.0 * degrees.to_radians() / strip.repeats(),
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
     let rest = State::at_rest(&strip);
-    let mut path = Path::new(strip, rest, settings);
+    let mut path = Path::new(strip, rest, common.solver);
     let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<State>| Some(snapshot(&row, path.system(), &state?));
+    let snapshot = |state: Option<State>| Some(snapshot(row, path.system(), &state?));
     Ok(states.into_iter().map(snapshot).collect())
 }
 
 /// The whole strip, from a state of the gaps that are solved for.
 fn snapshot(row: &Arrangement, strip: &Strip, state: &State) -> Snapshot {
-    let (solved, gaps) = (strip.gaps(), strip.gaps() * strip.repeats());
+    let (solved, gaps) = (strip.gaps(), strip.whole_gaps());
     let frames = Frame::strip(&strip.steps(&state.z), gaps, row);
     let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, row);
-    let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
+    let axes: Vec<_> = (0..solved).map(|gap| strip.axis(state, gap, INTERVALS)).collect();
     let axis = |(i, frame): (usize, &Frame)| {
         axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
     };
     let contacts = strip.contacts.closed_contacts(state);
-    let copies = (0..strip.repeats()).flat_map(|copy| {
+    let copies = (0..gaps / solved).flat_map(|copy| {
         let left = move |contact: &Contact| copy * solved + contact.left;
         contacts.iter().map(move |contact| (left(contact), contact))
     });

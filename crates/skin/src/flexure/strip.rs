@@ -2,32 +2,32 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
-use membrane::{Ends, GapMembrane, Response, Section};
-use nalgebra::DVector;
-use solver::{BandMatrix, Change, Control, Residual, System};
+use membrane::{GapEnergies, Membrane, Section};
+use solver::{BandMatrix, Change, Condition, Control, Residual, System};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, Part, State};
 
-/// The order of the unknowns of a strip of `n` gaps of `m` elements. The first scale is held.
+/// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
 /// ```text
-/// λ λ' λ" λ λ' λ" · node 1 … node m−1 · x y φ | … | λ λ' λ" λ λ' λ" · nodes · x y φ · M
-/// └─────────── gap 0 and scale 1 ───────────┘     └─────── gap n − 1 and scale n ─────┘
+/// λ λ' λ" λ λ' λ" · interior · x y φ | … | λ λ' λ" λ λ' λ" · interior · x y φ · M
+/// └──────── gap 0 and scale 1 ───────┘     └──── gap n − 1 and scale n ────┘
 /// ```
 ///
-/// Positions `x y`, and the nodes, are those in the frame of the scale to the left of the gap; the
-/// rotation `φ` of a scale is counted from the first scale.
+/// The interior are the unknowns of the gap's membrane. They and the positions `x y` are those in the frame of the scale to
+/// the left of the gap; the rotation `φ` of a scale is counted from the first scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Layout {
     gaps: usize,
-    elements: usize,
+    /// Unknowns of the membrane of a gap.
+    interior: usize,
 }
 
 impl Layout {
     fn block(self) -> usize {
-        PAIR_FORCES + 3 * self.elements
+        PAIR_FORCES + self.interior + 3
     }
 
     fn size(self) -> usize {
@@ -44,10 +44,9 @@ impl Layout {
         Some(self.scale(scale)? + 2)
     }
 
-    /// First unknown of the `i`-th pose of a gap's membrane: its interior nodes, its right scale. The
-    /// left scale is the frame, and has none.
-    fn node(self, gap: usize, i: usize) -> Option<usize> {
-        Some(self.block() * gap + PAIR_FORCES + 3 * i.checked_sub(1)?)
+    /// First unknown of a gap's membrane.
+    fn membrane(self, gap: usize) -> usize {
+        self.block() * gap + PAIR_FORCES
     }
 
     fn force(self, force: usize) -> usize {
@@ -64,17 +63,10 @@ impl Layout {
 pub(crate) struct Extent {
     /// Gaps that are solved for.
     pub(crate) gaps: usize,
-    /// Gaps of the whole strip for each gap that is solved for.
-    pub(crate) repeats: usize,
+    /// Gaps `n` of the whole strip for each gap that is solved for, a whole number in a chain alone.
+    pub(crate) repeats: f64,
     /// Rotation (radians) of the ends of what is solved for against each other at which the bending ends.
     pub(crate) rotation: f64,
-}
-
-/// Elastic energy of a membrane, over `E_m t³`.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct MembraneEnergy {
-    pub(crate) bending: f64,
-    pub(crate) axial: f64,
 }
 
 /// A strip of gaps in pure bending, the first scale held, a moment on the last.
@@ -86,10 +78,10 @@ pub(crate) struct MembraneEnergy {
 pub(crate) struct Strip {
     layout: Layout,
     /// The membrane of each gap, or one for all where they are alike.
-    membranes: Vec<GapMembrane>,
+    membranes: Vec<Membrane>,
     pub(crate) contacts: Contacts,
     /// Gaps of the whole strip for each gap that is solved for.
-    repeats: usize,
+    repeats: f64,
     /// Mean pitch `p` of the scales.
     pitch: f64,
     /// `E_m I_m`, over `E_m t⁴`.
@@ -99,26 +91,22 @@ pub(crate) struct Strip {
 }
 
 impl Strip {
-    /// A strip of a membrane of this `section`, of the given extent. `membranes` are those of the gaps, all of equally many elements, or one for all.
+    /// A strip of a membrane of this `section`, of the given extent. `membranes` are those of the gaps, all of equally many
+    /// unknowns, or one for all.
     pub(crate) fn new(
         row: Arrangement,
-        membranes: Vec<GapMembrane>,
+        membranes: Vec<Membrane>,
         law: ContactLaw,
         section: Section,
         Extent { gaps, repeats, rotation }: Extent,
     ) -> Self {
-        let layout = Layout { gaps, elements: membranes[0].elements() };
+        let layout = Layout { gaps, interior: membranes[0].interior() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..PAIR_FORCES * gaps).map(|force| layout.force(force)).collect();
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
-            // Forces of an element: a finer mesh is stiffer, and rounds off as much more.
-            let element = row.gap(gap) / layout.elements as f64;
-            let axial = section.axial_stiffness() / element;
-            let bending = section.bending_stiffness() / element;
-            for node in (1..=layout.elements).filter_map(|node| layout.node(gap, node)) {
-                units[node..node + 3].copy_from_slice(&[axial, axial, bending]);
-            }
+            let of_gap = membranes[gap.min(membranes.len() - 1)].units();
+            units[layout.membrane(gap)..][..of_gap.len()].copy_from_slice(of_gap.as_slice());
         }
         let last = layout.moment() - 3;
         let control = |k: usize, scale| Control { index: last + k, scale };
@@ -151,8 +139,13 @@ impl Strip {
     }
 
     /// Gaps of the whole strip for each gap that is solved for.
-    pub(crate) fn repeats(&self) -> usize {
+    pub(crate) fn repeats(&self) -> f64 {
         self.repeats
+    }
+
+    /// Gaps of the whole strip, rounded.
+    pub(crate) fn whole_gaps(&self) -> usize {
+        (self.repeats * self.layout.gaps as f64).round() as usize
     }
 
     /// `κ*`, from the rotation and the length of the gaps that are solved for.
@@ -177,63 +170,87 @@ impl Strip {
     }
 
     /// Energy of the membrane of the gaps that are solved for.
-    pub(crate) fn membrane_energy(&self, state: &State) -> MembraneEnergy {
-        let mut energy = MembraneEnergy::default();
-        for (gap, element) in self.all_elements() {
-            let response = self.response(&state.z, gap, element);
-            energy.bending += response.bending_energy;
-            energy.axial += response.axial_energy;
+    pub(crate) fn membrane_energy(&self, state: &State) -> GapEnergies {
+        let mut energy = GapEnergies { axial: 0.0, bending: 0.0 };
+        for gap in 0..self.layout.gaps {
+            let of_gap = self.membrane(gap).energies(&self.acting(state, gap));
+            energy.axial += of_gap.axial;
+            energy.bending += of_gap.bending;
         }
         energy
     }
 
-    /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
-    /// left scale and seen from it.
-    pub(crate) fn axis(&self, z: &[f64], gap: usize, intervals: usize) -> Vec<Vec2> {
-        let membrane = self.membrane(gap);
-        let mut state = DVector::zeros(membrane.unknowns());
-        for element in 0..self.layout.elements {
-            state.fixed_rows_mut::<6>(3 * element).copy_from(&self.ends(z, gap, element));
-        }
-        membrane.axis(&state, intervals)
+    /// The largest strain at the surface of the membrane of any gap.
+    pub(crate) fn largest_strain(&self, state: &State) -> f64 {
+        let strain = |gap: usize| self.membrane(gap).largest_strain(&self.acting(state, gap));
+        (0..self.layout.gaps).map(strain).fold(0.0, f64::max)
     }
 
-    fn membrane(&self, gap: usize) -> &GapMembrane {
+    /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
+    /// left scale and seen from it.
+    pub(crate) fn axis(&self, state: &State, gap: usize, intervals: usize) -> Vec<Vec2> {
+        self.membrane(gap).axis(&self.acting(state, gap), intervals)
+    }
+
+    /// Returns a state of this strip as a state of `finer`, the same strip with more unknowns in each gap. `None` if their
+    /// membranes are elements, which have no other resolution.
+    pub(crate) fn transferred(&self, state: &State, finer: &Self) -> Option<State> {
+        let mut z = Vec::with_capacity(finer.layout.size());
+        for gap in 0..self.layout.gaps {
+            let start = self.layout.membrane(gap);
+            let membrane = &state.z[start..start + self.layout.interior + 3];
+            z.extend_from_slice(&state.z[start - PAIR_FORCES..start]);
+            z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
+        }
+        z.push(state.z[self.layout.moment()]);
+        Some(State { z, active: state.active.clone(), mode: state.mode.clone() })
+    }
+
+    /// The condition that the ends have turned against each other as they have in `state`.
+    pub(crate) fn same_rotation(&self, state: &State) -> Condition {
+        Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
+    }
+
+    fn membrane(&self, gap: usize) -> &Membrane {
         match self.membranes.as_slice() {
             [membrane] => membrane,
             membranes => &membranes[gap],
         }
     }
 
-    fn all_elements(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let elements = self.layout.elements;
-        (0..self.layout.gaps).flat_map(move |gap| (0..elements).map(move |element| (gap, element)))
+    /// Number of leading unknowns of a gap's membrane that vanish. Where no contact force acts in a gap no force goes
+    /// through its membrane, for none goes through any cut of a strip in pure bending, and it bends to an arc.
+    fn vanishing(&self, active: &[bool], gap: usize) -> usize {
+        let forces = &active[PAIR_FORCES * gap..][..PAIR_FORCES];
+        if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
-    fn response(&self, z: &[f64], gap: usize, element: usize) -> Response {
-        self.membrane(gap).element_response(element, &self.ends(z, gap, element))
-    }
-
-    /// Displacements of the ends of an element.
-    fn ends(&self, z: &[f64], gap: usize, element: usize) -> Ends {
-        let mut ends = Ends::zeros();
-        for Part { unknown, coordinate, sign } in self.parts(gap, element).into_iter().flatten() {
-            ends[coordinate] += sign * z[unknown];
+    /// The state of a gap's membrane, seen from its left scale, without the unknowns that vanish.
+    fn acting(&self, state: &State, gap: usize) -> Vec<f64> {
+        let start = self.layout.membrane(gap);
+        let end = start + self.layout.interior + 3;
+        let first = start + self.vanishing(&state.active, gap);
+        let mut seen = state.z[first..end].to_vec();
+        if let (Some(frame), Some(rotation)) = (self.layout.rotation(gap), seen.last_mut()) {
+            *rotation -= state.z[frame];
         }
-        ends
+        seen
     }
 
-    /// The unknowns that the six displacements of an element are made of: those of its nodes and, where it
-    /// ends at the right scale, the rotation of the left one.
-    fn parts(&self, gap: usize, element: usize) -> [Option<Part>; 7] {
-        let layout = self.layout;
-        let [first, second] = [element, element + 1].map(|node| layout.node(gap, node));
-        let frame = layout.rotation(gap).filter(|_| element + 1 == layout.elements);
-        std::array::from_fn(|k| match k {
-            0..3 => Some(Part::new(first? + k, k)),
-            3..6 => Some(Part::new(second? + k - 3, k)),
-            _ => Some(Part::new(frame?, 5).opposite()),
-        })
+    /// What the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
+    /// the left one.
+    fn parts(&self, active: &[bool], gap: usize) -> impl Iterator<Item = Part> + Clone + use<> {
+        let start = self.layout.membrane(gap) + self.vanishing(active, gap);
+        let count = self.layout.membrane(gap) + self.layout.interior + 3 - start;
+        let frame = self.layout.rotation(gap);
+        let of_frame = frame.map(|frame| Part::new(frame, count - 1).opposite());
+        (0..count).map(move |k| Part::new(start + k, k)).chain(of_frame)
+    }
+
+    /// The unknowns of a gap's membrane that vanish.
+    fn pinned(&self, active: &[bool], gap: usize) -> std::ops::Range<usize> {
+        let start = self.layout.membrane(gap);
+        start..start + self.vanishing(active, gap)
     }
 }
 
@@ -266,26 +283,28 @@ impl System for Strip {
     }
 
     fn residual(&self, state: &State, residual: &mut Residual) {
-        let z = &state.z;
         residual.clear(&self.units);
-        for (gap, element) in self.all_elements() {
-            let force = self.response(z, gap, element).force;
-            for Part { unknown, coordinate, sign } in self.parts(gap, element).into_iter().flatten()
-            {
+        for gap in 0..self.layout.gaps {
+            for unknown in self.pinned(&state.active, gap) {
+                residual.add(unknown, self.units[unknown] * state.z[unknown]);
+            }
+            let force = self.membrane(gap).gradient(&self.acting(state, gap));
+            for Part { unknown, coordinate, sign } in self.parts(&state.active, gap) {
                 residual.add(unknown, sign * force[coordinate]);
             }
         }
-        residual.add(self.controls[0].index, -z[self.layout.moment()]);
+        residual.add(self.controls[0].index, -state.z[self.layout.moment()]);
         self.contacts.add_residual(state, residual);
     }
 
     fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
-        let z = &state.z;
-        for (gap, element) in self.all_elements() {
-            let tangent = self.response(z, gap, element).tangent;
-            let entries = self.parts(gap, element);
-            for row in entries.iter().flatten() {
-                for column in entries.iter().flatten() {
+        for gap in 0..self.layout.gaps {
+            for unknown in self.pinned(&state.active, gap) {
+                matrix.add(unknown, unknown, self.units[unknown]);
+            }
+            let tangent = self.membrane(gap).hessian(&self.acting(state, gap));
+            for row in self.parts(&state.active, gap) {
+                for column in self.parts(&state.active, gap) {
                     let value = tangent[(row.coordinate, column.coordinate)];
                     matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
                 }

@@ -3,8 +3,9 @@
 use contact::Law;
 use solver::{Path, Settings};
 
+use super::problem::Problem;
 use super::strip::Strip;
-use super::{Method, Parameters, Problem};
+use super::{Method, Parameters};
 use crate::contacts::{Point, State};
 use crate::{Base, Common, Design};
 
@@ -21,7 +22,7 @@ fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
 fn balance(design: &Design, common: &Common, parameters: &Parameters) -> [f64; 3] {
-    let strip = Problem::even(design, common, parameters).unwrap().strip;
+    let strip = Problem::even(design, common, parameters).unwrap().resolved_strip().unwrap();
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, common.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);

@@ -3,7 +3,8 @@
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
 
-use super::{Flexure, Method, Parameters, Problem};
+use super::problem::Problem;
+use super::{Flexure, Mesh, Method, Parameters};
 use crate::arrangement::Arrangement;
 use crate::{Base, Common, ContactChange, Design, Status};
 
@@ -16,7 +17,8 @@ fn parameters() -> Parameters {
         membrane_length: 6.0,
         membrane_thickness: 0.125,
         membrane_axis_offset: 0.0,
-        elements_per_gap: 2,
+        gaps: None,
+        elements_per_gap: Mesh::Elements(2),
         max_end_rotation_deg: 60.0,
     }
 }
@@ -29,10 +31,10 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
-    let flexure =
-        Problem::new(&design(0.0), &Common::default(), &parameters(), row, [gaps.len(); 2])
-            .unwrap();
-    let flexure = flexure.solve();
+    let (design, parameters, common) = (design(0.0), parameters(), Common::default());
+    let gaps = gaps.len();
+    let problem = Problem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
+    let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
     flexure
 }
@@ -79,7 +81,8 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 #[test]
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
-    let even = Problem::even(&design(60.0), &Common::default(), &parameters()).unwrap().solve();
+    let (common, parameters) = (Common::default(), parameters());
+    let even = Problem::even(&design(60.0), &common, &parameters).unwrap().solve().unwrap();
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

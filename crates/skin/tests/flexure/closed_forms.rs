@@ -4,7 +4,7 @@ use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,
 };
 use approx::assert_relative_eq;
-use skin::flexure::{Flexure, Parameters, solve};
+use skin::flexure::{Flexure, Mesh, Parameters, solve};
 use skin::{Base, Common, ContactChange};
 
 use crate::samples::{design, forty};
@@ -27,8 +27,8 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
     assert!(compared > 400, "{compared}");
 }
 
-/// Upright blocks on a strip so short that they meet, with this many elements in each gap.
-fn blocks(gap: f64, length: f64, elements_per_gap: usize) -> Flexure {
+/// Upright blocks on a strip so short that they meet, with this mesh in each gap.
+fn blocks(gap: f64, length: f64, elements_per_gap: Mesh) -> Flexure {
     let parameters = Parameters { membrane_length: 4.0, elements_per_gap, ..Parameters::default() };
     solve(&design(gap, length, 0.0, Base::L), &Common::default(), &parameters).unwrap()
 }
@@ -36,13 +36,13 @@ fn blocks(gap: f64, length: f64, elements_per_gap: usize) -> Flexure {
 #[test]
 fn upright_blocks_meet_at_a_moment_of_one() {
     for (gap, length) in [(0.1, 1.0), (0.1, 0.2), (0.3, 0.5), (0.5, 1.0)] {
-        let flexure = blocks(gap, length, 128);
+        let flexure = blocks(gap, length, Mesh::Auto);
         let first = flexure.events[0];
         assert_eq!(first.change, ContactChange::Closed);
-        assert_relative_eq!(first.point.moment, CONTACT_MOMENT, max_relative = 1e-6);
+        assert_relative_eq!(first.point.moment, CONTACT_MOMENT, max_relative = 1e-9);
         let curvature = flexure.measures.first_contact_curvature.unwrap();
         let expected = contact_curvature(gap, gap + length);
-        assert_relative_eq!(curvature, expected, max_relative = 1e-6);
+        assert_relative_eq!(curvature, expected, max_relative = 1e-9);
     }
 }
 
@@ -50,7 +50,7 @@ fn upright_blocks_meet_at_a_moment_of_one() {
 fn with_few_elements_they_meet_where_the_polygon_says() {
     for elements in [1, 2, 3, 8] {
         for gap in [0.1, 0.5, 1.0] {
-            let first = blocks(gap, 1.0, elements).events[0];
+            let first = blocks(gap, 1.0, Mesh::Elements(elements)).events[0];
             let expected = contact_moment_of_polygon(gap, elements);
             assert_relative_eq!(first.point.moment, expected, max_relative = 1e-9);
         }

@@ -3,12 +3,14 @@
 //! | File | Against |
 //! |---|---|
 //! | `closed_forms` | the strip before contact, and the first contact of upright blocks |
+//! | `elastica` | strips of an extensible elastica, solved by another method |
 //! | `chain` | the assembled chain against the unit cell |
 //! | `steps` | the same path with steps a tenth as long |
 //! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
 
 mod chain;
 mod closed_forms;
+mod elastica;
 mod robustness;
 #[path = "../samples/mod.rs"]
 mod samples;

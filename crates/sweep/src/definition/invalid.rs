@@ -75,6 +75,14 @@ pub enum Problem {
         /// Place of the other key.
         place: Place,
     },
+    /// Two parameters that say the same in two ways.
+    #[error("stands beside {other} at {place}, expected one of the two")]
+    Alternative {
+        /// The other key.
+        other: String,
+        /// Where that stands.
+        place: Place,
+    },
     /// Steps that no path can follow.
     #[error("{value} is larger than {other}, expected at most that")]
     StepOrder {

@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::definition::Sweep;
 use crate::grid::{Axis, Grid};
 use crate::number;
-use crate::parameter::{Parameter, WrongValue};
+use crate::parameter::{Parameter, Scalar, WrongValue};
 use crate::toml_source::{KeyValue, Place, Value};
 
 /// A reader of definitions, with the keys that it has understood so far.
@@ -77,6 +77,7 @@ impl Reader {
     /// The sweep, once every key of `file` is understood.
     pub fn finish(self, file: &Place) -> Result<Sweep, InvalidDefinition> {
         self.check_contradictions()?;
+        self.check_alternatives()?;
         self.check_steps(file)?;
         let expected = "the name of the sweep, e.g. name = \"paper\"";
         let missing = || refuse(file, "name", Problem::Missing { expected });
@@ -101,6 +102,40 @@ impl Reader {
             }
         }
         Ok(())
+    }
+
+    /// Refuses a number of gaps besides the length of the strip.
+    fn check_alternatives(&self) -> Result<(), InvalidDefinition> {
+        for (parameter, place) in &self.shared {
+            let gives = !matches!(parameter.get(&self.case), Scalar::Word(_));
+            self.check_alternative(parameter, place, gives)?;
+        }
+        for written in &self.axes {
+            self.check_alternative(written.axis.parameter(), &written.place, true)?;
+        }
+        Ok(())
+    }
+
+    /// Refuses a parameter that `gives` a value if its alternative does too.
+    fn check_alternative(
+        &self,
+        parameter: &Parameter,
+        place: &Place,
+        gives: bool,
+    ) -> Result<(), InvalidDefinition> {
+        let other = parameter.alternative().filter(|other| gives && !self.leaves_open(other));
+        let Some((other, there)) = other.and_then(|other| Some((other, self.place(other.key)?)))
+        else {
+            return Ok(());
+        };
+        let problem = Problem::Alternative { other: other.path(), place: there.clone() };
+        Err(refuse(place, &parameter.path(), problem))
+    }
+
+    /// Whether every design has the word `auto` for a parameter.
+    fn leaves_open(&self, parameter: &Parameter) -> bool {
+        let is_axis = self.axes.iter().any(|written| written.axis.parameter() == parameter);
+        !is_axis && matches!(parameter.get(&self.case), Scalar::Word(_))
     }
 
     /// Refuses a smallest step above the first or the largest one, for any design of the grid.

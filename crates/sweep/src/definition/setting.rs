@@ -97,19 +97,27 @@ impl Setting {
         KeyValue { key: key.to_owned(), value, place: self.place.clone() }
     }
 
-    /// A parameter stands in its section or among the axes. What the file says in the other of the
-    /// two gives way; what another setting says there stays, and is refused as a contradiction.
+    /// A parameter stands in its section or among the axes, and some parameters exclude each other. What the file says in
+    /// the other places gives way; what another setting says there stays, and is refused as a contradiction.
     fn supersede(&self, table: &mut KeyValues) {
-        let Some(parameter) = self.parameter().filter(|parameter| parameter.section != "designs")
-        else {
-            return;
-        };
-        let other = if self.path[0] == "designs" { parameter.section } else { "designs" };
-        for entry in table.iter_mut().filter(|entry| entry.key == other) {
-            if let Value::Table(entries) = &mut entry.value {
-                let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
-                entries.retain(|entry| entry.key != parameter.key || !is_file(entry));
-            }
+        let Some(parameter) = self.parameter() else { return };
+        let elsewhere = if self.path[0] == "designs" { parameter.section } else { "designs" };
+        if parameter.section != "designs" {
+            drop_from_file(table, elsewhere, parameter.key);
+        }
+        if let Some(other) = parameter.alternative() {
+            drop_from_file(table, "designs", other.key);
+            drop_from_file(table, other.section, other.key);
+        }
+    }
+}
+
+/// Removes what the file says about a key of a section.
+fn drop_from_file(table: &mut KeyValues, section: &str, key: &str) {
+    let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
+    for entry in table.iter_mut().filter(|entry| entry.key == section) {
+        if let Value::Table(entries) = &mut entry.value {
+            entries.retain(|entry| entry.key != key || !is_file(entry));
         }
     }
 }
@@ -153,6 +161,14 @@ mod tests {
         assert_eq!(
             set("designs.c1 = [1, 2]", &["contact.c1=3"]),
             "{ designs = {}, contact = { c1 = 3 } }"
+        );
+        assert_eq!(
+            set("flexure.membrane_length_over_t = 50", &["flexure.gaps=42"]),
+            "{ flexure = { gaps = 42 } }"
+        );
+        assert_eq!(
+            set("flexure.gaps = 42", &["designs.membrane_length_over_t=[50, 100]"]),
+            "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }"
         );
         assert_eq!(
             set("", &["contact.c1=3", "designs.c1=[1, 2]"]),

@@ -1,7 +1,8 @@
 //! The one list of parameters: it drives validation, messages, axes, columns and documentation.
 
 use skin::Base;
-use skin::flexure::Method;
+use skin::flexure::{Mesh, Method};
+use skin::puncture::RowLength;
 use substrate::Coupling;
 
 use crate::parameter::Bound::{Excluded, Included};
@@ -118,7 +119,16 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "scales in the row",
-        kind: ParameterKind::RowLength { range: CountRange { low: 1, high: 1_000_000 } },
+        kind: ParameterKind::CountOrAuto {
+            range: CountRange { low: 1, high: 1_000_000 },
+            get: |c| match c.puncture.scales {
+                RowLength::Auto => None,
+                RowLength::Scales(count) => Some(count),
+            },
+            set: |c, count| {
+                c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales);
+            },
+        },
     },
     Parameter {
         key: "load_position",
@@ -168,11 +178,22 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "membrane_length_over_t",
         section: "flexure",
         unit: "t",
-        meaning: "length of the membrane, rounded to whole gaps",
+        meaning: "length of the membrane; a chain and imperfect strips round it to whole gaps",
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
             field: |c| &mut c.flexure.membrane_length,
+        },
+    },
+    Parameter {
+        key: "gaps",
+        section: "flexure",
+        unit: "-",
+        meaning: "gaps of the strip, the same number for every design, instead of a length",
+        kind: ParameterKind::CountOrAuto {
+            range: CountRange { low: 1, high: 1_000_000 },
+            get: |c| c.flexure.gaps,
+            set: |c, count| c.flexure.gaps = count,
         },
     },
     Parameter {
@@ -201,10 +222,16 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "elements_per_gap",
         section: "flexure",
         unit: "-",
-        meaning: "beam elements of the membrane between two scales",
-        kind: ParameterKind::Count {
+        meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
+        kind: ParameterKind::CountOrAuto {
             range: CountRange { low: 1, high: 1000 },
-            field: |c| &mut c.flexure.elements_per_gap,
+            get: |c| match c.flexure.elements_per_gap {
+                Mesh::Auto => None,
+                Mesh::Elements(count) => Some(count),
+            },
+            set: |c, count| {
+                c.flexure.elements_per_gap = count.map_or(Mesh::Auto, Mesh::Elements);
+            },
         },
     },
     Parameter {

@@ -1,0 +1,346 @@
+//! The membrane of a gap as an extensible elastica.
+
+use std::sync::Arc;
+
+use geometry::{OutOfRange, Vec2};
+use nalgebra::{DMatrix, DVector, DVectorView};
+
+use crate::corotational_beam::quarter_turn;
+use crate::gap::check;
+use crate::lobatto::Lobatto;
+use crate::{RigidArm, Section, Span};
+
+/// The membrane between two neighbouring scales: one spectral element for the extensible elastica.
+///
+/// Between two rigid bases the membrane carries no load, so one force `F` goes through all of the gap. With
+/// the arc length `S` at rest, the direction `θ(S)` of the axis, `t = (cos θ, sin θ)` and `n` its quarter turn, the
+/// membrane is a beam that neither shears nor, in its section, deforms:
+///
+/// ```text
+/// r' = (1 + ε) t,   N = F·t = EA ε,   M = EI θ',   EI θ" = −(1 + ε) F·n         (M18)
+/// ```
+///
+/// This is the limit of co-rotational elements of vanishing length. With the force in units of its axial
+/// stiffness, `F = EA f`, and the vector `Δ` from the end at the left base to that at the right one, the equations
+/// make stationary
+///
+/// ```text
+/// Π(θ, f) = ∫ ½ EI θ'² dS − EA ∫ (f·t + ½ (f·t)²) dS + EA f·Δ                   (M19)
+/// ```
+///
+/// whose stationary value is the energy `∫ ½ (EI θ'² + EA ε²) dS`. The direction is a polynomial through the
+/// Gauss–Lobatto–Legendre points of the gap, whose rule also integrates: to order `n`,
+///
+/// ```text
+/// θᵢ = φ ξᵢ + ψᵢ,   ψ₀ = ψₙ = 0,   εᵢ = f·tᵢ                                    (M20)
+/// Π = EI/2d (φ² + Σᵢⱼ ψᵢ Kᵢⱼ ψⱼ) − EA d Σᵢ wᵢ (εᵢ + ½ εᵢ²) + EA f·Δ             (M21)
+/// ```
+///
+/// so pure bending, `ψ = 0` and `f = 0`, is exact. The error falls faster than any power of `1/n` once the points
+/// resolve the layers of length `√(EI/(N (1+ε)))` at the bases, which they do from `n² ≈ d/length` on.
+///
+/// The state of a gap of order `n` has [`Self::unknowns`] entries, in the frame of the left scale:
+///
+/// ```text
+/// z = (ψ₁ … ψₙ₋₁, f₁, f₂, uₓ, u_y, φ)                                           (M22)
+/// ```
+///
+/// `(uₓ, u_y, φ)` being the displacement and the rotation of the right scale. Unknowns `ψ` and `f` belong to the gap, with
+/// the equations `∂Π/∂ψ = 0` and `∂Π/∂f = 0`; eliminating them leaves the force of the membrane on its right scale. As `f` is
+/// a multiplier, two eigenvalues of the tangent are negative at every stable equilibrium.
+///
+/// Where no force goes through the gap, `f = 0` and `ψ = 0`. The functions of a state therefore accept one without `ψ` as
+/// well, its last five entries alone, whose gradient and Hessian have five rows: cheap, while scales do not touch.
+///
+/// Sources: E. Reissner, *Z. Angew. Math. Phys.* 23 (1972) 795, doi 10.1007/BF01602645 (without shear);
+/// S. S. Antman, *Nonlinear Problems of Elasticity*, 2nd ed., Springer (2005), ch. 4, doi 10.1007/0-387-27649-1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elastica {
+    section: Section,
+    span: Span,
+    rule: Arc<Lobatto>,
+}
+
+/// Energies of the membrane in a gap, over `E_m t³`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GapEnergies {
+    /// Stretching energy `∫ ½ EA ε² dS`.
+    pub axial: f64,
+    /// Bending energy `∫ ½ EI θ'² dS`.
+    pub bending: f64,
+}
+
+/// Orders that [`Elastica::new`] accepts: a polynomial bends from 2 on, and more than 128 points are a mistake.
+const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
+
+impl Elastica {
+    /// The membrane of a section over a span, its direction a polynomial of degree `order`.
+    ///
+    /// # Errors
+    /// If the gap is not positive and finite, the half-base negative, the offset not finite, or the order not
+    /// among 2 … 128.
+    pub fn new(section: Section, span: Span, order: usize) -> Result<Self, OutOfRange> {
+        check(&span)?;
+        let accepted = ORDERS.contains(&order);
+        OutOfRange::unless(accepted, "order of the membrane", order as f64, "2 to 128")?;
+        Ok(Self { section, span, rule: Arc::new(Lobatto::new(order)) })
+    }
+
+    /// The same membrane over another span.
+    ///
+    /// # Errors
+    /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
+    pub fn over(&self, span: Span) -> Result<Self, OutOfRange> {
+        check(&span)?;
+        Ok(Self { span, ..self.clone() })
+    }
+
+    /// The order `n`.
+    pub fn order(&self) -> usize {
+        self.rule.order()
+    }
+
+    /// Number of unknowns that belong to the gap itself, `ψ` and `f`: the first `n + 1` of the state.
+    pub fn interior(&self) -> usize {
+        self.order() + 1
+    }
+
+    /// Number of entries `n + 4` of the state (M22).
+    pub fn unknowns(&self) -> usize {
+        self.interior() + 3
+    }
+
+    /// Distance `2a + d` between the nodes of the scales at rest.
+    pub fn pitch(&self) -> f64 {
+        2.0 * self.span.half_base + self.span.gap
+    }
+
+    /// What the entries of [`Self::gradient`] are to be compared with, in the order of the state.
+    pub fn units(&self) -> DVector<f64> {
+        let [axial, bending] = self.stiffness();
+        let mut units = DVector::from_element(self.unknowns(), bending);
+        let f = self.order() - 1;
+        units.rows_mut(f, 2).fill(axial * self.span.gap);
+        units.rows_mut(f + 2, 2).fill(axial / self.span.gap);
+        units
+    }
+
+    /// `∂Π/∂z` (M21): the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over `E_m t²`) and the
+    /// moment about its node (over `E_m t³`) that hold the right scale.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn gradient(&self, z: &[f64]) -> DVector<f64> {
+        let State { psi, force, phi, .. } = State::new(z);
+        let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
+        let mut gradient = DVector::zeros(z.len());
+        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
+        gradient.rows_mut(0, f).gemv(bending, &stiffness, &psi, 0.0);
+        let mut moment = bending * phi + axial * force.dot(&quarter_turn(self.lever(phi)));
+        let mut closure = self.base_to_base(z);
+        for (i, section) in self.sections(z) {
+            let turning = -self.weight(i) * (1.0 + section.strain) * section.shear;
+            moment += self.rule.points[i] * turning;
+            closure -= self.weight(i) / axial * (1.0 + section.strain) * section.along;
+            if (1..=f).contains(&i) {
+                gradient[i - 1] += turning;
+            }
+        }
+        let [closure, right] = [axial * closure, axial * force];
+        gradient.rows_mut(f, 5).copy_from_slice(&[closure.x, closure.y, right.x, right.y, moment]);
+        gradient
+    }
+
+    /// `∂²Π/∂z²` (M21), symmetric.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn hessian(&self, z: &[f64]) -> DMatrix<f64> {
+        let State { force, phi, .. } = State::new(z);
+        let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
+        let [right, turn] = [f + 2, f + 4];
+        let lever = self.lever(phi);
+        let mut hessian = DMatrix::zeros(z.len(), z.len());
+        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
+        hessian.view_mut((0, 0), (f, f)).copy_from(&(bending * stiffness));
+        hessian[(turn, turn)] = bending - axial * force.dot(&lever);
+        let mut coupling = axial * quarter_turn(lever);
+        for (i, section) in self.sections(z) {
+            let (weight, xi) = (self.weight(i), self.rule.points[i]);
+            let Direction { along, across, strain, shear } = section;
+            let turning = -weight * (shear * shear - (1.0 + strain) * strain);
+            let mixed = -weight * ((1.0 + strain) * across + shear * along);
+            let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
+            stretching -= weight * (along * along.transpose());
+            hessian[(turn, turn)] += xi * xi * turning;
+            coupling += xi * mixed;
+            if (1..=f).contains(&i) {
+                hessian[(i - 1, i - 1)] += turning;
+                set(&mut hessian, i - 1, turn, xi * turning);
+                set(&mut hessian, i - 1, f, mixed.x);
+                set(&mut hessian, i - 1, f + 1, mixed.y);
+            }
+        }
+        for axis in 0..2 {
+            set(&mut hessian, f + axis, right + axis, axial);
+            set(&mut hessian, f + axis, turn, coupling[axis]);
+        }
+        hessian
+    }
+
+    /// Energies at a state that satisfies the equations of the gap's own unknowns.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn energies(&self, z: &[f64]) -> GapEnergies {
+        let [_, bending] = self.stiffness();
+        let curvatures = self.curvatures(z);
+        let density =
+            |(i, section): (usize, Direction)| 0.5 * self.weight(i) * section.strain.powi(2);
+        let bending = curvatures.component_mul(&curvatures).dot(&self.rule.weights)
+            * (0.5 * bending * self.span.gap.powi(2));
+        GapEnergies { axial: self.sections(z).map(density).sum(), bending }
+    }
+
+    /// The largest strain `|ε| + ½ h |θ'|` at the surface of the membrane, over the points of the gap.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn largest_strain(&self, z: &[f64]) -> f64 {
+        let curvatures = self.curvatures(z);
+        let bent = |i: usize| 0.5 * self.section.thickness() * curvatures[i].abs();
+        self.sections(z).map(|(i, section)| section.strain.abs() + bent(i)).fold(0.0, f64::max)
+    }
+
+    /// The deformed axis, from base to base, in `intervals ≥ 1` intervals, measured from the node of the left scale.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn axis(&self, z: &[f64], intervals: usize) -> Vec<Vec2> {
+        let angles = self.angles(z);
+        let force = State::new(z).force;
+        let tangent = |xi: f64| {
+            let section = Direction::new(self.rule.interpolate(&angles, xi), force);
+            (1.0 + section.strain) * section.along
+        };
+        let width = 1.0 / intervals as f64;
+        let interval = |k: usize| {
+            let within = self.rule.points.iter().zip(&self.rule.weights);
+            within.map(|(xi, w)| *w * width * tangent((k as f64 + xi) * width)).sum::<Vec2>()
+        };
+        let start = self.arms()[0].lever(0.0);
+        let steps = (0..intervals).scan(start, |point, k| {
+            *point += self.span.gap * interval(k);
+            Some(*point)
+        });
+        std::iter::once(start).chain(steps).collect()
+    }
+
+    /// The same state seen by a membrane of another order, its direction interpolated.
+    ///
+    /// # Panics
+    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
+    pub fn transferred(&self, z: &[f64], to: &Self) -> Vec<f64> {
+        let deviations = self.angles(z) - State::new(z).phi * &self.rule.points;
+        let points = to.rule.points.iter().skip(1).take(to.order() - 1);
+        let psi = points.map(|&xi| self.rule.interpolate(&deviations, xi));
+        psi.chain(z[z.len() - 5..].iter().copied()).collect()
+    }
+
+    /// `EA` and `EI/d`.
+    fn stiffness(&self) -> [f64; 2] {
+        [self.section.axial_stiffness(), self.section.bending_stiffness() / self.span.gap]
+    }
+
+    /// `EA d wᵢ`.
+    fn weight(&self, i: usize) -> f64 {
+        self.section.axial_stiffness() * self.span.gap * self.rule.weights[i]
+    }
+
+    /// Arms from the nodes of the scales to the ends of the membrane.
+    fn arms(&self) -> [RigidArm; 2] {
+        let Span { half_base, axis_offset, .. } = self.span;
+        [half_base, -half_base].map(|x| RigidArm::new(Vec2::new(x, -axis_offset)))
+    }
+
+    /// From the node of the right scale to the end of the membrane.
+    fn lever(&self, phi: f64) -> Vec2 {
+        self.arms()[1].lever(phi)
+    }
+
+    /// `Δ`.
+    fn base_to_base(&self, z: &[f64]) -> Vec2 {
+        let State { displacement, phi, .. } = State::new(z);
+        let node = Vec2::new(self.pitch(), 0.0) + displacement;
+        node + self.lever(phi) - self.arms()[0].lever(0.0)
+    }
+
+    /// Directions `θᵢ` at the points (M20).
+    fn angles(&self, z: &[f64]) -> DVector<f64> {
+        let State { psi, phi, .. } = State::new(z);
+        let mut angles = phi * &self.rule.points;
+        let mut inner = angles.rows_mut(1, psi.len());
+        inner += psi;
+        angles
+    }
+
+    /// Curvatures `θ'` at the points.
+    fn curvatures(&self, z: &[f64]) -> DVector<f64> {
+        &self.rule.derivative * self.angles(z) / self.span.gap
+    }
+
+    /// The sections at the points, in order.
+    fn sections<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, Direction)> + 'a {
+        let State { psi, force, phi, .. } = State::new(z);
+        (0..=self.order()).map(move |i| {
+            let deviation = if (1..=psi.len()).contains(&i) { psi[i - 1] } else { 0.0 };
+            (i, Direction::new(phi * self.rule.points[i] + deviation, force))
+        })
+    }
+}
+
+/// The parts of a state (M22).
+struct State<'a> {
+    psi: DVectorView<'a, f64>,
+    force: Vec2,
+    displacement: Vec2,
+    phi: f64,
+}
+
+impl<'a> State<'a> {
+    fn new(z: &'a [f64]) -> Self {
+        let (psi, rest) = z.split_at(z.len() - 5);
+        Self {
+            psi: DVectorView::from_slice(psi, psi.len()),
+            force: Vec2::new(rest[0], rest[1]),
+            displacement: Vec2::new(rest[2], rest[3]),
+            phi: rest[4],
+        }
+    }
+}
+
+/// A section of the membrane under a force `f`.
+struct Direction {
+    /// `t`.
+    along: Vec2,
+    /// `n`.
+    across: Vec2,
+    /// `ε = f·t`.
+    strain: f64,
+    /// `f·n`.
+    shear: f64,
+}
+
+impl Direction {
+    fn new(angle: f64, force: Vec2) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let (along, across) = (Vec2::new(cos, sin), Vec2::new(-sin, cos));
+        Self { along, across, strain: force.dot(&along), shear: force.dot(&across) }
+    }
+}
+
+/// Sets an entry of a symmetric matrix.
+fn set(matrix: &mut DMatrix<f64>, row: usize, column: usize, value: f64) {
+    matrix[(row, column)] = value;
+    matrix[(column, row)] = value;
+}

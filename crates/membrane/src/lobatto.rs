@@ -1,0 +1,131 @@
+//! Polynomials through the Gauss–Lobatto–Legendre points.
+
+use nalgebra::{DMatrix, DVector};
+
+/// The Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`: `n + 1` points, both ends among them.
+///
+/// With the Legendre polynomial `Pₙ`, the points are `ξᵢ = (1 + xᵢ)/2` with `x₀ = −1`, `xₙ = 1` and the roots of
+/// `Pₙ'` between them, and
+///
+/// ```text
+/// wᵢ = 1/(n (n+1) Pₙ(xᵢ)²)                              weights, exact to degree 2n − 1   (M15)
+/// Dᵢⱼ = 2 Pₙ(xᵢ)/[Pₙ(xⱼ) (xᵢ − xⱼ)],   Dᵢᵢ = −Σⱼ Dᵢⱼ     derivative at the points          (M16)
+/// Kᵢⱼ = Σₖ wₖ Dₖᵢ Dₖⱼ = ∫ ℓᵢ' ℓⱼ' dξ                      stiffness of the polynomials ℓᵢ   (M17)
+/// ```
+///
+/// Source: C. Canuto, M. Y. Hussaini, A. Quarteroni, T. A. Zang, *Spectral Methods: Fundamentals in Single
+/// Domains*, Springer (2006), §2.3, doi 10.1007/978-3-540-30726-6.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Lobatto {
+    /// Points `ξᵢ`, ascending from 0 to 1.
+    pub(crate) points: DVector<f64>,
+    /// Weights `wᵢ`, of sum 1.
+    pub(crate) weights: DVector<f64>,
+    /// `D`: values at the points to derivatives at the points.
+    pub(crate) derivative: DMatrix<f64>,
+    /// `K`.
+    pub(crate) stiffness: DMatrix<f64>,
+    /// `Pₙ(xᵢ)`, whose inverses are the barycentric weights of the points.
+    legendre: DVector<f64>,
+}
+
+impl Lobatto {
+    /// The rule of order `n ≥ 1`.
+    pub(crate) fn new(n: usize) -> Self {
+        let x = DVector::from_iterator(n + 1, (0..=n).map(|i| point(n, i)));
+        let legendre = x.map(|x| legendre(n, x)[1]);
+        let weights = legendre.map(|p| 1.0 / ((n * (n + 1)) as f64 * p * p));
+        let mut derivative = DMatrix::from_fn(n + 1, n + 1, |i, j| {
+            if i == j { 0.0 } else { 2.0 * legendre[i] / (legendre[j] * (x[i] - x[j])) }
+        });
+        for i in 0..=n {
+            derivative[(i, i)] = -derivative.row(i).sum();
+        }
+        let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;
+        stiffness.fill_upper_triangle_with_lower_triangle();
+        Self { points: x.map(|x| 0.5 * (1.0 + x)), weights, derivative, stiffness, legendre }
+    }
+
+    /// The order `n`.
+    pub(crate) fn order(&self) -> usize {
+        self.points.len() - 1
+    }
+
+    /// Value at `ξ` of the polynomial with these values at the points, by the barycentric formula.
+    pub(crate) fn interpolate(&self, values: &DVector<f64>, xi: f64) -> f64 {
+        let (mut above, mut below) = (0.0, 0.0);
+        for i in 0..values.len() {
+            let distance = xi - self.points[i];
+            if distance == 0.0 {
+                return values[i];
+            }
+            let weight = 1.0 / (self.legendre[i] * distance);
+            above += weight * values[i];
+            below += weight;
+        }
+        above / below
+    }
+}
+
+/// `Pₙ₋₁(x)` and `Pₙ(x)`, `n ≥ 1`, by the recurrence of three terms.
+fn legendre(n: usize, x: f64) -> [f64; 2] {
+    (2..=n).map(|k| k as f64).fold([1.0, x], |[before, last], k| {
+        [last, ((2.0 * k - 1.0) * x * last - (k - 1.0) * before) / k]
+    })
+}
+
+/// The point `xᵢ`: Newton's method on `(1 − x²) Pₙ' = n (Pₙ₋₁ − x Pₙ)`, whose derivative is `−n (n+1) Pₙ`, from the
+/// point of Chebyshev. The points of the right half mirror those of the left one.
+fn point(n: usize, i: usize) -> f64 {
+    match (2 * i).cmp(&n) {
+        std::cmp::Ordering::Equal => return 0.0,
+        std::cmp::Ordering::Greater => return -point(n, n - i),
+        std::cmp::Ordering::Less => {}
+    }
+    let mut x = -(std::f64::consts::PI * i as f64 / n as f64).cos();
+    for _ in 0..NEWTON {
+        let [before, last] = legendre(n, x);
+        x += (before - x * last) / ((n + 1) as f64 * last);
+    }
+    x
+}
+
+/// Iterations that bring every point to round-off: Newton's method doubles the digits from two on.
+const NEWTON: usize = 6;
+
+#[cfg(test)]
+mod tests {
+    use super::Lobatto;
+
+    /// The rule of order 4 in closed form.
+    #[test]
+    fn five_points() {
+        let rule = Lobatto::new(4);
+        let inner = 0.5 * (1.0 - (3.0_f64 / 7.0).sqrt());
+        let points = [0.0, inner, 0.5, 1.0 - inner, 1.0];
+        let weights = [1.0 / 20.0, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 1.0 / 20.0];
+        for i in 0..5 {
+            assert!((rule.points[i] - points[i]).abs() < 1e-15);
+            assert!((rule.weights[i] - weights[i]).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn exact_for_polynomials() {
+        for n in 1..=64 {
+            let rule = Lobatto::new(n);
+            assert_eq!(rule.order(), n);
+            let degree = 2 * n as i32 - 1;
+            let integral = rule.points.map(|x| x.powi(degree)).dot(&rule.weights);
+            assert!((integral * f64::from(degree + 1) - 1.0).abs() < 1e-13, "{n}: {integral}");
+            let values = rule.points.map(|x| x.powi(n as i32));
+            let slope = &rule.derivative * &values;
+            let exact = rule.points.map(|x| n as f64 * x.powi(n as i32 - 1));
+            assert!((slope - exact).amax() < 1e-12 * (n * n) as f64, "{n}");
+            assert!((rule.interpolate(&values, 0.7) - 0.7_f64.powi(n as i32)).abs() < 1e-14);
+            let energy = values.dot(&(&rule.stiffness * &values));
+            let exact = (n * n) as f64 / (2 * n - 1) as f64;
+            assert!((energy - exact).abs() < 1e-11 * exact, "{n}: {energy}");
+        }
+    }
+}

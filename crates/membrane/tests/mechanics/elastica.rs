@@ -1,0 +1,324 @@
+//! The elastica of a gap: derivatives, closed forms, symmetries, and the elements whose limit it is.
+
+use analytical::elastica::tip;
+use geometry::OutOfRange;
+use membrane::{Elastica, GapMembrane, Section, Span};
+use nalgebra::{DVector, Vector2, Vector3};
+use proptest::prelude::*;
+
+use crate::cantilever;
+
+const THICKNESS: f64 = 0.125;
+const AXIAL: f64 = THICKNESS;
+const BENDING: f64 = THICKNESS * THICKNESS * THICKNESS / 12.0;
+
+fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
+    Elastica::new(Section::new(1.0, THICKNESS)?, span, order)
+}
+
+/// What is known of the right scale.
+#[derive(Clone, Copy)]
+enum Right {
+    /// Displacement, seen from the left end, and rotation of the right end of the membrane.
+    End(Span, Vector3<f64>),
+    /// Force and moment on it.
+    Load(Vector3<f64>),
+}
+
+/// The state of a gap from rest to `right` in equal steps, each from a straight continuation of the last two.
+fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
+    let mut last = DVector::zeros(gap.unknowns());
+    let mut z = last.clone();
+    for step in 1..=steps {
+        let part = f64::from(step) / f64::from(steps);
+        let mut start: DVector<f64> = 2.0 * &z - &last;
+        let (free, load) = match right {
+            Right::End(span, end) => {
+                start.rows_mut(gap.interior(), 3).copy_from(&held(span, part * end));
+                (gap.interior(), Vector3::zeros())
+            }
+            Right::Load(load) => (gap.unknowns(), part * load),
+        };
+        last = std::mem::replace(&mut z, newton(gap, start, free, load));
+    }
+    z.as_slice().to_vec()
+}
+
+fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) -> DVector<f64> {
+    for _ in 0..60 {
+        let mut residual: DVector<f64> = -gap.gradient(z.as_slice());
+        let mut right = residual.fixed_rows_mut::<3>(gap.interior());
+        right += load;
+        let tangent = gap.hessian(z.as_slice()).view((0, 0), (free, free)).into_owned();
+        let change = tangent.lu().solve(&residual.rows(0, free)).expect("the tangent is regular");
+        let mut moved = z.rows_mut(0, free);
+        moved += &change;
+        if change.amax() < 1e-11 {
+            return z;
+        }
+    }
+    panic!("no equilibrium under {load:?}");
+}
+
+/// Displacement and rotation of the scale that holds the right end of the membrane.
+fn held(span: Span, end: Vector3<f64>) -> Vector3<f64> {
+    let (arm, (sin, cos)) = (Vector2::new(-span.half_base, -span.axis_offset), end[2].sin_cos());
+    let turned = Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y) - arm;
+    Vector3::new(end[0] - turned.x, end[1] - turned.y, end[2])
+}
+
+/// Displacement and rotation of the right scale.
+fn pose(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
+    Vector3::from_column_slice(&z[gap.interior()..])
+}
+
+/// Force and moment on the right scale.
+fn load(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
+    gap.gradient(z).fixed_rows::<3>(gap.interior()).into_owned()
+}
+
+fn energy(gap: &Elastica, z: &[f64]) -> f64 {
+    let energies = gap.energies(z);
+    energies.axial + energies.bending
+}
+
+fn span() -> impl Strategy<Value = Span> {
+    (0.0..1.0, 0.2..1.0, -0.3..0.3).prop_map(|(half_base, gap, axis_offset)| Span {
+        half_base,
+        gap,
+        axis_offset,
+    })
+}
+
+/// A gap and any state of it, in equilibrium or not.
+fn any_state() -> impl Strategy<Value = (Elastica, Vec<f64>)> {
+    (span(), 2_usize..9, prop::collection::vec(-2.0..2.0, 12)).prop_map(|(span, order, mut z)| {
+        let gap = elastica(span, order).unwrap();
+        z.truncate(gap.unknowns());
+        (gap, z)
+    })
+}
+
+/// A span and a displacement and rotation of its right end that pull the membrane far.
+fn pulled() -> impl Strategy<Value = (Span, Vector3<f64>)> {
+    (span(), 0.2..2.0, -0.6..0.6, -0.9..0.9).prop_map(|(span, stretch, shift, phi)| {
+        (span, Vector3::new(span.gap * stretch, span.gap * shift, phi))
+    })
+}
+
+proptest! {
+    #[test]
+    fn the_hessian_is_the_derivative_of_the_gradient((gap, z) in any_state()) {
+        let hessian = gap.hessian(&z);
+        prop_assert!(hessian == hessian.transpose());
+        for i in 0..z.len() {
+            let at = |shift: f64| {
+                let mut moved = z.clone();
+                moved[i] += shift;
+                gap.gradient(&moved)
+            };
+            let h = 2e-4;
+            let slope = (at(-2.0 * h) - 8.0 * at(-h) + 8.0 * at(h) - at(2.0 * h)) / (12.0 * h);
+            let error = (slope - hessian.column(i)).amax() / hessian.amax();
+            prop_assert!(error < 1e-9, "{i}: {error:e}");
+        }
+    }
+
+}
+
+proptest! {
+    // Each case follows a path of equilibria.
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn the_force_is_the_gradient_of_the_energy((span, end) in pulled()) {
+        let gap = elastica(span, 16).unwrap();
+        let z = equilibrium(&gap, Right::End(span, end), 30);
+        let force = load(&gap, &z);
+        for i in 0..3 {
+            let at = |shift: f64| {
+                let mut moved = DVector::from_column_slice(&z);
+                moved[gap.interior() + i] += shift;
+                energy(&gap, newton(&gap, moved, gap.interior(), Vector3::zeros()).as_slice())
+            };
+            let h = 1e-3 * span.gap;
+            let slope = (at(-2.0 * h) - 8.0 * at(-h) + 8.0 * at(h) - at(2.0 * h)) / (12.0 * h);
+            let error = (slope - force[i]).abs() / force.amax();
+            prop_assert!(error < 1e-8, "{i}: {error:e}");
+        }
+    }
+
+    /// Seen from the right scale, and turned by half a turn, the gap is one whose axis lies on the other side: it stores
+    /// the same energies and bears the same force.
+    #[test]
+    fn a_half_turn_exchanges_the_scales((span, end) in pulled()) {
+        let gap = elastica(span, 16).unwrap();
+        let other = elastica(Span { axis_offset: -span.axis_offset, ..span }, 16).unwrap();
+        let back = |v: Vector2<f64>| {
+            let (sin, cos) = end[2].sin_cos();
+            Vector2::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x)
+        };
+        let rest = Vector2::new(span.gap, 0.0);
+        let seen = back(rest + end.xy()) - rest;
+        let ours = equilibrium(&gap, Right::End(span, end), 30);
+        let turned = Vector3::new(seen.x, seen.y, -end[2]);
+        let mirrored = Span { axis_offset: -span.axis_offset, ..span };
+        let theirs = equilibrium(&other, Right::End(mirrored, turned), 30);
+        let [a, b] = [gap.energies(&ours), other.energies(&theirs)];
+        prop_assert!((a.axial - b.axial).abs() < 1e-10 * a.axial);
+        prop_assert!((a.bending - b.bending).abs() < 1e-10 * a.axial);
+        prop_assert!((gap.largest_strain(&ours) - other.largest_strain(&theirs)).abs() < 1e-9);
+        let [force, there] = [load(&gap, &ours), load(&other, &theirs)];
+        prop_assert!((there.xy() - back(force.xy())).amax() < 1e-10 * force.amax());
+    }
+}
+
+/// The limit of the co-rotational elements is this elastica: their error falls by 4 when they are halved, and what is
+/// left after extrapolation is far smaller. A gap under a strong oblique pull and a moment.
+#[test]
+fn the_elements_converge_to_it_with_the_square_of_their_length() -> Result<(), OutOfRange> {
+    let span = Span { half_base: 0.2, gap: 0.5, axis_offset: 0.0 };
+    let section = Section::new(1.0, THICKNESS)?;
+    let applied = Vector3::new(0.05, 0.001, 0.0004);
+    let limit = elastica(span, 24)?;
+    let limit = pose(&limit, &equilibrium(&limit, Right::Load(applied), 100));
+    let error = |elements: usize| -> Result<Vector3<f64>, OutOfRange> {
+        let gap = GapMembrane::new(section, span, elements)?;
+        let u = cantilever::equilibrium(&gap, applied, 100);
+        Ok(u.fixed_rows::<3>(3 * elements) - limit)
+    };
+    let [coarse, middle, fine] = [error(32)?, error(64)?, error(128)?];
+    for [coarse, fine] in [[coarse, middle], [middle, fine]] {
+        let order = (coarse.norm() / fine.norm()).log2();
+        assert!((order - 2.0).abs() < 0.01, "order {order}");
+    }
+    assert!(fine.amax() > 1e-6, "{fine}");
+    let extrapolated = (fine - (middle - fine) / 3.0).amax();
+    assert!(extrapolated < 1e-8, "{extrapolated:e}");
+    Ok(())
+}
+
+/// A moment bends the free length to an arc, here to a full circle: exact at every order that integrates its position.
+#[test]
+fn pure_bending_is_a_circle() -> Result<(), OutOfRange> {
+    for (order, tolerance) in [(12, 1e-5), (20, 1e-13)] {
+        let gap = elastica(Span { half_base: 0.3, gap: 1.0, axis_offset: 0.1 }, order)?;
+        let angle = std::f64::consts::TAU;
+        let z = equilibrium(&gap, Right::Load(Vector3::new(0.0, 0.0, BENDING * angle)), 10);
+        let end = pose(&gap, &z);
+        assert!((end - Vector3::new(-1.0, 0.0, angle)).amax() < tolerance, "{end}");
+        let energies = gap.energies(&z);
+        assert!((energies.bending - 0.5 * BENDING * angle * angle).abs() < 1e-13);
+        assert!(energies.axial < 1e-25);
+        assert!((gap.largest_strain(&z) - 0.5 * THICKNESS * angle).abs() < 1e-11);
+        let axis = gap.axis(&z, 4);
+        let radius = 1.0 / angle;
+        let points = [[0.3, -0.1], [0.3 + radius, -0.1 + radius], [0.3, -0.1 + 2.0 * radius]];
+        for (point, expected) in axis.iter().zip(points) {
+            assert!((point - Vector2::from(expected)).amax() < 1e-12, "{point}");
+        }
+        assert!((axis[4] - axis[0]).amax() < 1e-12 && axis.len() == 5);
+    }
+    Ok(())
+}
+
+/// A pull along the axis stretches it evenly, whatever the stretch; below the bases it needs a couple `N e`.
+#[test]
+fn pure_stretching_is_even() -> Result<(), OutOfRange> {
+    let (stretch, axis_offset) = (3.0, 0.0625);
+    let gap = elastica(Span { half_base: 0.5, gap: 0.1, axis_offset }, 2)?;
+    let tension = AXIAL * stretch;
+    let z = equilibrium(&gap, Right::Load(Vector3::new(tension, 0.0, tension * axis_offset)), 2);
+    assert!((pose(&gap, &z) - Vector3::new(0.1 * stretch, 0.0, 0.0)).amax() < 1e-13);
+    let energies = gap.energies(&z);
+    assert!((energies.axial - 0.5 * tension * 0.1 * stretch).abs() < 1e-14);
+    assert!(energies.bending < 1e-25);
+    assert!((gap.largest_strain(&z) - stretch).abs() < 1e-12);
+    let axis = gap.axis(&z, 2);
+    assert!((axis[1] - Vector2::new(0.5 + 0.05 * (1.0 + stretch), -axis_offset)).amax() < 1e-13);
+    Ok(())
+}
+
+/// A thin cantilever with a load across its tip: the elliptic integrals that Mattiasson tabulates.
+#[test]
+fn mattiasson_elastica() -> Result<(), OutOfRange> {
+    let thickness = 1e-4_f64;
+    let section = Section::new(12.0 / thickness.powi(3), thickness)?;
+    let gap = Elastica::new(section, Span { half_base: 0.0, gap: 1.0, axis_offset: 0.0 }, 20)?;
+    for force in (1..=10).map(f64::from) {
+        let z = equilibrium(&gap, Right::Load(Vector3::new(0.0, force, 0.0)), 20);
+        let [x, y, phi] = pose(&gap, &z).into();
+        let error = (Vector3::new(y, -x, phi) - Vector3::from(tip(force).values())).amax();
+        assert!(error < 1e-7, "PL²/EI = {force}: {error:e}");
+    }
+    Ok(())
+}
+
+/// A pull that makes layers of a thirtieth of the gap at the bases: each two orders more bring the error down by a
+/// factor that grows, to round-off.
+#[test]
+fn the_error_falls_faster_than_any_power() -> Result<(), OutOfRange> {
+    let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
+    let turned = Right::End(span, Vector3::new(0.5, -0.5, 0.4));
+    let limit = elastica(span, 64)?;
+    let exact = load(&limit, &equilibrium(&limit, turned, 10));
+    let error = |order: usize| -> Result<f64, OutOfRange> {
+        let gap = elastica(span, order)?;
+        Ok((load(&gap, &equilibrium(&gap, turned, 10)) - exact).norm() / exact.norm())
+    };
+    let errors = [error(8)?, error(12)?, error(16)?, error(24)?, error(36)?];
+    for (error, bound) in errors.into_iter().zip([1e-3, 1e-4, 2e-6, 4e-9, 1e-12]) {
+        assert!(error < bound, "{errors:?}");
+    }
+    Ok(())
+}
+
+/// A state seen by a higher order is the same polynomial: the energies and the axis stay.
+#[test]
+fn a_state_is_transferred_to_another_order() -> Result<(), OutOfRange> {
+    let span = Span { half_base: 0.5, gap: 1.0, axis_offset: 0.0 };
+    let [coarse, fine] = [elastica(span, 32)?, elastica(span, 40)?];
+    let z = equilibrium(&coarse, Right::End(span, Vector3::new(0.5, -0.5, 0.4)), 10);
+    let seen = coarse.transferred(&z, &fine);
+    assert_eq!(seen.len(), fine.unknowns());
+    let [a, b] = [coarse.energies(&z), fine.energies(&seen)];
+    assert!((a.axial - b.axial).abs() < 1e-9 * a.axial, "{a:?} {b:?}");
+    assert!((a.bending - b.bending).abs() < 1e-9 * a.bending, "{a:?} {b:?}");
+    for (ours, theirs) in coarse.axis(&z, 5).iter().zip(fine.axis(&seen, 5)) {
+        assert!((ours - theirs).amax() < 1e-9);
+    }
+    Ok(())
+}
+
+/// A state without `ψ` is the state whose `ψ` vanishes.
+#[test]
+fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), OutOfRange> {
+    let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;
+    let short = [0.1, -0.2, 0.3, 0.4, 0.5];
+    let whole = [vec![0.0; 5], short.to_vec()].concat();
+    assert_eq!(gap.gradient(&short), gap.gradient(&whole).rows(5, 5));
+    assert_eq!(gap.hessian(&short), gap.hessian(&whole).view((5, 5), (5, 5)));
+    assert_eq!(gap.energies(&short), gap.energies(&whole));
+    assert_eq!(gap.largest_strain(&short), gap.largest_strain(&whole));
+    assert_eq!(gap.axis(&short, 3), gap.axis(&whole, 3));
+    assert_eq!(gap.transferred(&short, &gap), whole);
+    Ok(())
+}
+
+#[test]
+fn what_no_elastica_can_be() -> Result<(), OutOfRange> {
+    let span = Span { half_base: 0.5, gap: 0.1, axis_offset: 0.0 };
+    let message = |span, order| elastica(span, order).err().map(|error| error.to_string());
+    let order = "order of the membrane is 1, expected 2 to 128";
+    assert_eq!(message(span, 1).as_deref(), Some(order));
+    assert!(message(span, 129).is_some() && message(span, 128).is_none());
+    let bare = Span { gap: 0.0, ..span };
+    let gap = "gap is 0, expected a positive finite number";
+    assert_eq!(message(bare, 4).as_deref(), Some(gap));
+    let whole = elastica(span, 4)?;
+    assert_eq!(whole.over(bare).err().map(|error| error.to_string()).as_deref(), Some(gap));
+    let other = Span { gap: 0.2, ..span };
+    assert_eq!(whole.over(other)?, elastica(other, 4)?);
+    assert_eq!((whole.order(), whole.interior(), whole.unknowns()), (4, 5, 8));
+    Ok(())
+}

@@ -1,0 +1,175 @@
+//! The problem of bending a strip, and its solution with a resolution that suffices.
+
+use contact::ContactLaw;
+use membrane::{Section, Span};
+use solver::{Path, Stop};
+
+use super::accuracy::change;
+use super::mesh::Resolution;
+use super::strip::{Extent, Strip};
+use super::{Flexure, Measures, Method, Parameters, gaps, whole_gaps};
+use crate::arrangement::Arrangement;
+use crate::contacts::{Contacts, State};
+use crate::record::Record;
+use crate::{Common, Design, InvalidDesign, Sample, Status};
+
+/// Largest relative change of any measure between two resolutions at which the coarser one suffices.
+const TOLERANCE: f64 = 1e-4;
+
+/// A strip to be bent.
+pub(crate) struct Problem<'a> {
+    common: &'a Common,
+    parameters: &'a Parameters,
+    pub(crate) row: Arrangement,
+    half_base: f64,
+    section: Section,
+    law: ContactLaw,
+    /// Gaps `n` of the whole strip.
+    pub(crate) gaps: f64,
+    /// Gaps that are solved for.
+    solved: usize,
+}
+
+impl<'a> Problem<'a> {
+    /// The strip of a design.
+    pub(crate) fn even(
+        design: &Design,
+        common: &'a Common,
+        parameters: &'a Parameters,
+    ) -> Result<Self, InvalidDesign> {
+        let row = design.row()?;
+        let (gaps, solved) = match parameters.method {
+            Method::UnitCell => (gaps(&row, parameters), 1),
+            Method::Chain => {
+                let whole = whole_gaps(&row, parameters);
+                (whole as f64, whole)
+            }
+        };
+        Self::new(design, common, parameters, Arrangement::Even(row), gaps, solved)
+    }
+
+    /// A sample of the strip, with all its gaps.
+    pub(crate) fn sample(
+        design: &Design,
+        common: &'a Common,
+        parameters: &'a Parameters,
+        sample: &Sample,
+    ) -> Result<Self, InvalidDesign> {
+        let gaps = whole_gaps(&design.row()?, parameters);
+        let row = Arrangement::Uneven(sample.row(0, gaps)?);
+        Self::new(design, common, parameters, row, gaps as f64, gaps)
+    }
+
+    pub(crate) fn new(
+        design: &Design,
+        common: &'a Common,
+        parameters: &'a Parameters,
+        row: Arrangement,
+        gaps: f64,
+        solved: usize,
+    ) -> Result<Self, InvalidDesign> {
+        let modulus = parameters.contact_modulus_over_membrane;
+        Ok(Self {
+            common,
+            parameters,
+            row,
+            half_base: design.half_base(),
+            section: Section::new(design.width, parameters.membrane_thickness)?,
+            law: ContactLaw::new(common.law, design.length, design.width, modulus)?,
+            gaps,
+            solved,
+        })
+    }
+
+    /// The strip with this resolution.
+    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, InvalidDesign> {
+        let unlike = match &self.row {
+            Arrangement::Even(_) => 1,
+            Arrangement::Uneven(_) => self.solved,
+        };
+        let membrane = |gap: usize| {
+            let (half_base, axis_offset) = (self.half_base, self.parameters.membrane_axis_offset);
+            let span = Span { half_base, gap: self.row.gap(gap), axis_offset };
+            resolution.membrane(self.section, span)
+        };
+        let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
+        let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
+        let repeats = self.gaps / self.solved as f64;
+        let extent = Extent { gaps: self.solved, repeats, rotation: whole / repeats };
+        Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
+    }
+
+    /// Bends the strip, with finer and finer resolution until it suffices.
+    pub(crate) fn solve(&self) -> Result<Flexure, InvalidDesign> {
+        Ok(self.resolved()?.0)
+    }
+
+    /// The strip with the resolution that suffices.
+    pub(crate) fn resolved_strip(&self) -> Result<Strip, InvalidDesign> {
+        self.strip(self.resolved()?.1)
+    }
+
+    fn resolved(&self) -> Result<(Flexure, Resolution), InvalidDesign> {
+        let mut resolution = self.parameters.elements_per_gap.coarsest();
+        loop {
+            let flexure = self.bend(resolution)?;
+            let suffices = flexure.measures.error.is_none_or(|error| error <= TOLERANCE);
+            match resolution.finer() {
+                Some(finer) if !suffices && finer.is_usual() => resolution = finer,
+                _ => return Ok((flexure, resolution)),
+            }
+        }
+    }
+
+    fn bend(&self, resolution: Resolution) -> Result<Flexure, InvalidDesign> {
+        let strip = self.strip(resolution)?;
+        let rest = State::at_rest(&strip);
+        let alike = matches!(self.row, Arrangement::Even(_));
+        let mut steps = vec![strip.steps(&rest.z)];
+        let mut path = Path::new(strip, rest, self.common.solver);
+        let mut record = Record::new(&path);
+        let mut flush = false;
+        while let Some(point) = path.next() {
+            // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
+            // other and nothing else moves: the path stands still in all that measures it.
+            flush = alike && Contacts::flush(&point.state);
+            if flush {
+                break;
+            }
+            record.visit(&mut path, &point);
+            steps.push(path.system().steps(&point.state.z));
+        }
+        let stop = if flush { Some(Stop::Singular) } else { path.stop() };
+        let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
+        let error = self.error(resolution, &path, &record)?;
+        let measures = Measures { error, ..Measures::new(&record, &mut path) };
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
+        let Record { path, events, history, .. } = record;
+        Ok(Flexure { status, measures, path, events, history, gaps, steps, row })
+    }
+
+    /// The largest change of any measure with a finer resolution; `None` where there is none.
+    fn error(
+        &self,
+        resolution: Resolution,
+        path: &Path<Strip>,
+        record: &Record<Strip>,
+    ) -> Result<Option<f64>, InvalidDesign> {
+        let Some(finer) = resolution.finer() else { return Ok(None) };
+        if record.first_contact().is_none() {
+            // Arcs are exact in every resolution.
+            return Ok(Some(0.0));
+        }
+        let finer = self.strip(finer)?;
+        let settings = &self.common.solver;
+        // A state that cannot be solved with the finer resolution is not resolved.
+        let change =
+            |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
+        let states = record.stiffest().into_iter().chain([path.point()]);
+        Ok(states.map(|point| change(&point.state)).reduce(f64::max))
+    }
+}

@@ -1,0 +1,108 @@
+//! Bending against strips whose membrane is an extensible elastica, solved by collocation.
+//!
+//! `tests/reference/elastica.csv` holds the values and tells how they were made.
+
+use approx::assert_relative_eq;
+use rayon::prelude::*;
+use skin::flexure::{Measures, Mesh, Parameters, solve};
+use skin::{Base, Common, Design, Status};
+
+/// A design with the values of the reference.
+struct Reference {
+    design: Design,
+    gaps: f64,
+    compliance: f64,
+    end_moment: f64,
+    first_contact_curvature: f64,
+    max_strain: f64,
+}
+
+fn references() -> Vec<Reference> {
+    let table = include_str!("../reference/elastica.csv");
+    let rows = table.lines().filter(|line| !line.starts_with('#')).skip(1);
+    rows.map(reference).collect()
+}
+
+fn reference(line: &str) -> Reference {
+    let cells: Vec<&str> = line.split(',').collect();
+    let number = |k: usize| cells[k].parse::<f64>().unwrap();
+    let base = if cells[0] == "L" { Base::L } else { Base::TwoL };
+    let design =
+        Design { gap: number(1), length: number(2), slant_deg: number(3), base, width: 1.0 };
+    Reference {
+        design,
+        gaps: number(4),
+        compliance: number(5),
+        end_moment: number(6),
+        first_contact_curvature: number(7),
+        max_strain: number(8),
+    }
+}
+
+impl Reference {
+    fn measures(&self, elements_per_gap: Mesh) -> Measures {
+        let membrane_length = self.gaps * self.design.row().unwrap().pitch();
+        let parameters = Parameters { membrane_length, elements_per_gap, ..Parameters::default() };
+        let flexure = solve(&self.design, &Common::default(), &parameters).unwrap();
+        assert_eq!(flexure.status, Status::Complete, "{:?}", self.design);
+        flexure.measures
+    }
+}
+
+#[test]
+fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
+    let references = references();
+    assert_eq!(references.len(), 60 + 10);
+    references.par_iter().for_each(|reference| {
+        let ours = reference.measures(Mesh::Auto);
+        let error = ours.error.unwrap();
+        assert!(error <= 1e-4, "{:?}: {error:e}", reference.design);
+        let close = |ours: Option<f64>, theirs: f64, tolerance: f64| {
+            assert_relative_eq!(ours.unwrap(), theirs, max_relative = tolerance);
+        };
+        close(ours.compliance, reference.compliance, 1e-5);
+        close(ours.max_moment, reference.end_moment, 1e-5);
+        close(ours.first_contact_curvature, reference.first_contact_curvature, 1e-8);
+        close(ours.membrane_strain_max, reference.max_strain, 1e-4);
+    });
+}
+
+/// The error of the elements falls with the square of their length.
+#[test]
+fn elements_converge_to_it_with_the_square_of_their_length() {
+    for reference in references().iter().step_by(7) {
+        let error = |elements: usize| {
+            let ours = reference.measures(Mesh::Elements(elements));
+            ours.max_moment.unwrap() / reference.end_moment - 1.0
+        };
+        let [coarse, fine] = [error(32), error(64)];
+        let order = (coarse / fine).log2();
+        assert!((order - 2.0).abs() < 0.1, "{:?}: order {order}", reference.design);
+    }
+}
+
+/// One element per gap, which was the default once, on whole gaps: `(d, L, gaps, C_f*, M* at the end)` of designs with the slant 75°.
+const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
+    (0.2, 0.6, 125, 0.000_043_226_402_372_231_1, 896.124_183_604_776_7),
+    (0.4, 0.2, 167, 0.000_567_246_544_534_441_5, 26.581_881_174_697_386),
+    (0.5, 1.0, 67, 0.000_210_895_191_527_959_16, 113.739_556_933_393_17),
+    (0.7, 0.6, 77, 0.001_305_626_566_627_645_5, 15.851_157_264_131_654),
+    (0.9, 0.2, 91, 0.004_274_812_920_842_926, 0.308_281_634_480_729_1),
+    (1.0, 1.0, 50, 0.002_491_288_740_449_56, 8.490_746_709_756_941),
+];
+
+#[test]
+fn one_element_gives_the_numbers_of_the_first_tables() {
+    for (gap, length, gaps, compliance, end_moment) in ONE_ELEMENT {
+        let design = Design { gap, length, slant_deg: 75.0, base: Base::L, width: 1.0 };
+        let parameters = Parameters {
+            gaps: Some(gaps),
+            elements_per_gap: Mesh::Elements(1),
+            ..Parameters::default()
+        };
+        let measures = solve(&design, &Common::default(), &parameters).unwrap().measures;
+        assert_relative_eq!(measures.compliance.unwrap(), compliance, max_relative = 1e-9);
+        assert_relative_eq!(measures.max_moment.unwrap(), end_moment, max_relative = 1e-9);
+        assert_eq!(measures.error, None);
+    }
+}
