@@ -54,6 +54,8 @@
 //! assert!(loads.last().is_some_and(|load| load.abs() < 1e-12));
 //! ```
 
+mod block_elimination;
+mod block_matrix;
 mod check;
 mod event;
 mod linear;
@@ -65,6 +67,8 @@ mod step;
 mod stop;
 mod system;
 
+pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
+pub use block_matrix::{BlockMatrix, Blocks, LINK};
 pub use check::{WrongDerivative, check_tangent};
 pub use event::{Change, Event};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
