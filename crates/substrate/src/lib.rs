@@ -41,6 +41,7 @@
 
 pub mod boundary_element;
 mod calibrations;
+mod far_field;
 mod footprint;
 pub mod half_space;
 pub mod mesh;
@@ -49,6 +50,7 @@ mod springs;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
+pub use far_field::FarField;
 pub use footprint::{Footprint, InvalidFootprint};
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
