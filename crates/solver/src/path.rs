@@ -168,7 +168,7 @@ impl<S: System> Path<S> {
     }
 
     /// The driving coordinate over its scale: 1 at the target.
-    fn progress(&self, z: &[f64]) -> f64 {
+    pub(crate) fn progress(&self, z: &[f64]) -> f64 {
         z[self.driver().index] / self.driver().scale
     }
 
@@ -232,7 +232,7 @@ impl<S: System> Path<S> {
 
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
     /// in which the path left.
-    fn turns_sharply(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    pub(crate) fn turns_sharply(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;
@@ -280,18 +280,31 @@ impl<S: System> Path<S> {
         }
     }
 
-    /// A step of the given distance, cut short at the first event within it.
+    /// A step that ends at the event that is predicted within the given distance. Where none is, or the prediction fails, a
+    /// step of this distance, cut short at the first event within it.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
-        let mut candidate = self.trial(&from, distance)?;
-        if self.progress(&candidate.state.z) > 1.0 {
-            candidate = self.target(&from, &candidate)?;
-        }
-        candidate = self.first_event(&from, candidate)?;
+        let mut candidate = match self.predicted_event(&from, distance) {
+            Some(candidate) => candidate,
+            None => self.plain_step(&from, distance)?,
+        };
         if self.turns(&from, &candidate) {
             candidate = self.extremum(&from, &candidate)?;
         }
         Ok(candidate)
+    }
+
+    /// A step of the given distance, cut short at the first event within it.
+    fn plain_step(
+        &mut self,
+        from: &Point<S::Mode>,
+        distance: f64,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let mut candidate = self.trial(from, distance)?;
+        if self.progress(&candidate.state.z) > 1.0 {
+            candidate = self.target(from, &candidate)?;
+        }
+        self.first_event(from, candidate)
     }
 
     /// The point between two where the driver is at its target.

@@ -10,7 +10,7 @@ const FLAT: f64 = 1e-10;
 
 /// A search ends where the place of the maximum is known to this part of the first bracket: near a maximum the value
 /// is then off by the square of it.
-const CLOSE: f64 = 1e-5;
+const CLOSE: f64 = 2e-6;
 
 /// A search ends after this many evaluations. Brent's method rarely needs half as many.
 const EVALUATIONS: usize = 40;
