@@ -73,6 +73,11 @@ impl Contacts {
         Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
+    /// How the scales stand at rest.
+    pub(crate) fn arrangement(&self) -> &Arrangement {
+        &self.arrangement
+    }
+
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces

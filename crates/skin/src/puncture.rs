@@ -4,6 +4,7 @@ mod measures;
 mod record;
 mod snapshot;
 mod system;
+mod window;
 #[cfg(test)]
 mod tests;
 
@@ -12,9 +13,10 @@ use geometry::Row;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
+use window::{FIRST_SCALES, Reach, STILL};
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, State};
+use crate::contacts::{Point, State};
 use crate::{Design, InvalidDesign, Sample};
 
 pub use measures::Measures;
@@ -24,9 +26,6 @@ pub use snapshot::{At, Snapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
-
-/// An end scale of a row that is long enough has moved by less than this (over `t`; radians).
-const STILL: f64 = 1e-6;
 
 /// How many scales stand in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,19 +182,6 @@ impl Parameters {
     }
 }
 
-/// The ends of a row that the deformation has reached.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Reached {
-    left: bool,
-    right: bool,
-}
-
-impl Reached {
-    fn any(self) -> bool {
-        self.left || self.right
-    }
-}
-
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
@@ -222,36 +208,25 @@ impl<'a> Problem<'a> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                let layout = Layout { left, right: scales - 1 - left };
-                Ok(self.follow(layout, |_| false)?.0)
+                self.follow(Layout { left, right: scales - 1 - left }, None)
             }
             RowLength::Auto => self.grow(LONGEST_ROW),
         }
     }
 
-    /// Lengthens the row on the sides that the deformation reaches until it reaches neither, or the
-    /// row is as long as the `longest`.
+    /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        let mut layout = self.first_layout();
-        loop {
-            let (mut puncture, reached) = self.follow(layout, Reached::any)?;
-            if !reached.any() {
-                return Ok(puncture);
-            }
-            let longer = layout.doubled(reached.left, reached.right, longest);
-            if longer == layout {
-                puncture.status = Status::RowLimit;
-                puncture.measures = puncture.measures.without_final_values();
-                return Ok(puncture);
-            }
-            layout = longer;
-        }
+        let Layout { left, right } = self.first_layout();
+        self.follow(Layout { left, right }, Some(longest))
     }
 
-    /// The row that suffices while no scales touch: a displacement of the punctured scale decays
-    /// along the chain by the root below 1 of `β (r + 1/r) = α`, where `β` stands for all neighbours
-    /// on a side.
+    /// The row with which a path begins. Without a closed form of what lies beyond its ends it is the one that suffices while
+    /// no scales touch: a displacement of the punctured scale decays along the chain by the root below 1 of
+    /// `β (r + 1/r) = α`, where `β` stands for all neighbours on a side.
     fn first_layout(&self) -> Layout {
+        if self.stiffness.far_field().is_some() && matches!(self.rows, Rows::Even(_)) {
+            return Layout { left: FIRST_SCALES, right: FIRST_SCALES };
+        }
         let RowStiffness { direct, neighbours, .. } = &self.stiffness;
         let side = |k: usize| neighbours.iter().map(|n| n.direct[k] / direct[k]).sum::<f64>();
         let slowest = (0..3).map(|k| 2.0 * side(k).abs()).fold(0.0, f64::max);
@@ -262,45 +237,68 @@ impl<'a> Problem<'a> {
         Layout { left: side, right: side }
     }
 
-    /// Follows the path on a given row until it ends, or until `give_up` says so of the ends reached.
-    fn follow(
-        &self,
-        layout: Layout,
-        give_up: impl Fn(Reached) -> bool,
-    ) -> Result<(Puncture, Reached), InvalidDesign> {
+    fn chain(&self, layout: Layout, endless: bool) -> Result<Chain, InvalidDesign> {
         let tilt = self.parameters.critical_tilt_deg.to_radians();
         let position = self.parameters.load_position;
         let row = self.rows.row(layout)?;
         let chain = Chain::new(row, &self.stiffness, self.law, layout, position, tilt);
+        Ok(if endless { chain.endless(&self.stiffness) } else { chain })
+    }
+
+    /// Follows the path until it ends, on a row that may grow up to the `longest`, or may not.
+    fn follow(&self, layout: Layout, longest: Option<usize>) -> Result<Puncture, InvalidDesign> {
+        let chain = self.chain(layout, longest.is_some())?;
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
         let mut record = Record::new(&mut path, self.design.length);
-        let mut reached = Reached::default();
-        while let Some(point) = path.next() {
-            record.visit(&mut path, &point);
-            reached = reached_ends(path.system(), &point.state);
-            if give_up(reached) {
-                break;
+        let mut within = true;
+        while within {
+            let before = path.point_shared();
+            let Some(point) = path.next() else { break };
+            let Some(longest) = longest else {
+                record.visit(&mut path, &point);
+                continue;
+            };
+            let reach = path.system().reach(&point.state);
+            let beyond = reach.contains(&Reach::Beyond);
+            if !beyond {
+                record.visit(&mut path, &point);
+            }
+            if reach != [Reach::Short; 2] {
+                within = self.lengthen(&mut path, &mut record, if beyond { &before } else { &point }, reach, longest)?;
             }
         }
         let stop = path.stop().unwrap_or(Stop::Reached);
         let (contacts, end) = (&path.system().contacts, &path.point().state);
         let status = match stop {
+            _ if !within => Status::RowLimit,
             Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
             Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
             Stop::Reached => Status::Complete,
             stop => Status::Stopped(stop),
         };
-        Ok((record.finish(&mut path, status, self.parameters.poisson_ratio), reached))
+        Ok(record.finish(&mut path, status, self.parameters.poisson_ratio))
+    }
+
+    /// Lets the path go on from `point` on a longer row. `false` if it may not grow any more.
+    fn lengthen(
+        &self,
+        path: &mut Path<Chain>,
+        record: &mut Record,
+        point: &Point,
+        reach: [Reach; 2],
+        longest: usize,
+    ) -> Result<bool, InvalidDesign> {
+        let layout = path.system().layout;
+        let longer = layout.grown(reach, longest);
+        if longer == layout {
+            return Ok(false);
+        }
+        let chain = self.chain(longer, true)?;
+        let point = chain.extended_point(path.system(), point);
+        record.extend(|point| chain.extended_point(path.system(), point), &point);
+        path.go_on(chain, point);
+        Ok(true)
     }
 }
 
-fn reached_ends(chain: &Chain, state: &State) -> Reached {
-    let last = chain.layout.scales() - 1;
-    let moved = |scale| chain.displacement(&state.z, scale).iter().any(|u| u.abs() > STILL);
-    let touching: Vec<bool> = Contacts::touching(state).collect();
-    Reached {
-        left: moved(0) || touching.first() == Some(&true),
-        right: moved(last) || touching.last() == Some(&true),
-    }
-}

@@ -97,6 +97,27 @@ impl<S: System> Path<S> {
         &self.point
     }
 
+    /// The point that the path has reached, shared.
+    pub fn point_shared(&self) -> Arc<Point<S::Mode>> {
+        Arc::clone(&self.point)
+    }
+
+    /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
+    /// it left `point`, whose state need be an equilibrium of the system to first order only.
+    pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) {
+        let history = std::mem::take(&mut self.newton.history);
+        self.newton = Newton::new(&system);
+        self.system = system;
+        self.stop = None;
+        let condition = self.condition(&point);
+        match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
+            Ok(direction) => point.leaving = self.normalised(direction),
+            Err(failure) => self.stop = Some(Stop::from(failure)),
+        }
+        self.newton.history = history;
+        self.stand(point);
+    }
+
     /// Why the path ended; `None` while it has not.
     pub fn stop(&self) -> Option<Stop> {
         self.stop

@@ -66,6 +66,16 @@ impl<M> Peak<M> {
         self.last = Some(here);
     }
 
+    /// Replaces the points that are kept, where the path has gone on with another system.
+    pub fn replace_points(&mut self, new: impl Fn(&Point<M>) -> Point<M>) {
+        let best = self.best.iter_mut().flat_map(|best| {
+            [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
+        });
+        for point in best.chain(&mut self.last) {
+            *point = Arc::new(new(point));
+        }
+    }
+
     /// The largest value on the path, the segments next to the best of the points visited included. `None` if none was
     /// visited. Steps must be small enough for the highest maximum to show at a point beside it.
     pub fn refined<S>(

@@ -122,6 +122,12 @@ impl Record {
         self.before.clone_from(&point.state.mode);
     }
 
+    /// Takes the points that are kept to those of a longer row.
+    pub(crate) fn extend(&mut self, extended: impl Fn(&Point) -> Point, here: &Point) {
+        self.stiffness.replace_points(extended);
+        self.before.clone_from(&here.state.mode);
+    }
+
     fn point(&self, chain: &Chain, state: &State) -> PathPoint {
         let z = &state.z;
         let (substrate_energy, contact_energy) = chain.energies(state);

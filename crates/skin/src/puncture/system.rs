@@ -3,7 +3,7 @@
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
 use solver::{BandMatrix, Change, Control, Residual, System};
-use substrate::{Neighbour, RowStiffness};
+use substrate::{FarField, Neighbour, RowStiffness};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, State};
@@ -35,15 +35,8 @@ impl Layout {
         (scale.cast_signed() - self.left.cast_signed()) as i64
     }
 
-    /// Twice as many scales on the given sides, as far as a row of the `longest` length has room.
-    pub(crate) fn doubled(self, left: bool, right: bool, longest: usize) -> Self {
-        let room = longest.saturating_sub(self.scales());
-        let more_right = if right { self.right.min(room) } else { 0 };
-        let more_left = if left { self.left.min(room - more_right) } else { 0 };
-        Self { left: self.left + more_left, right: self.right + more_right }
-    }
-
-    fn size(self) -> usize {
+    /// Number of unknowns.
+    pub(crate) fn size(self) -> usize {
         BLOCK * self.scales() - PAIR_FORCES + 1
     }
 
@@ -58,7 +51,7 @@ impl Layout {
 
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
-    fn force(self, force: usize) -> usize {
+    pub(crate) fn force(self, force: usize) -> usize {
         let left = force / PAIR_FORCES;
         BLOCK * left + 3 + force % PAIR_FORCES + usize::from(left >= self.left)
     }
@@ -77,6 +70,8 @@ pub(crate) struct Chain {
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
     neighbours: Vec<Neighbour>,
+    /// The scales beyond both ends, if the row is endless; forces as above.
+    far_field: Option<FarField>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
@@ -116,10 +111,38 @@ impl Chain {
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
+            far_field: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
             units,
+        }
+    }
+
+    /// The same row with endless rows of free scales beyond its ends, if they have a closed form.
+    pub(crate) fn endless(self, stiffness: &RowStiffness) -> Self {
+        let powers = [self.half_base, self.half_base, self.half_base.powi(3)];
+        let far_field = stiffness.far_field().map(|far| FarField {
+            relief: std::array::from_fn(|k| powers[k] * far.relief[k]),
+            ..far
+        });
+        Self { far_field, ..self }
+    }
+
+    /// The scales beyond both ends; `None` if the row ends there.
+    pub(crate) fn far_field(&self) -> Option<&FarField> {
+        self.far_field.as_ref()
+    }
+
+    /// The three displacements of a scale, which may lie beyond an end of the row.
+    pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
+        let last = self.layout.scales().cast_signed() - 1;
+        let nearest = scale.clamp(0, last);
+        let displacement = self.displacement(z, nearest.cast_unsigned());
+        match (&self.far_field, scale.abs_diff(nearest)) {
+            (_, 0) => displacement,
+            (Some(far), distance) => far.displacement(displacement, distance),
+            (None, _) => [0.0; 3],
         }
     }
 
@@ -152,14 +175,11 @@ impl Chain {
     /// the `F_x, F_y, M` of Eq. (1), or of (S9).
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let own = self.displacement(z, scale);
-        let at = |neighbour: Option<usize>| {
-            let neighbour = neighbour.filter(|&i| i < self.layout.scales());
-            neighbour.map_or([0.0; 3], |i| self.displacement(z, i))
-        };
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
         for (before, neighbour) in self.neighbours.iter().enumerate() {
-            let distance = before + 1;
-            let (left, right) = (at(scale.checked_sub(distance)), at(Some(scale + distance)));
+            let [distance, scale] = [before + 1, scale].map(usize::cast_signed);
+            let left = self.displacement_anywhere(z, scale - distance);
+            let right = self.displacement_anywhere(z, scale + distance);
             for k in 0..3 {
                 reaction[k] -= neighbour.direct[k] * (left[k] + right[k]);
             }
@@ -175,6 +195,12 @@ impl Chain {
             let at = self.layout.scale(i);
             for k in 0..3 {
                 entry(at + k, at + k, self.direct[k]);
+            }
+            if let Some(far) = &self.far_field {
+                let ends = [0, self.layout.scales() - 1].iter().filter(|end| **end == i).count();
+                for k in 0..3 {
+                    entry(at + k, at + k, -(ends as f64) * far.relief[k]);
+                }
             }
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
