@@ -73,11 +73,6 @@ impl Contacts {
         Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
-    /// How the scales stand at rest.
-    pub(crate) fn arrangement(&self) -> &Arrangement {
-        &self.arrangement
-    }
-
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces
@@ -136,6 +131,15 @@ impl Contacts {
     pub(crate) fn touching(state: &State) -> impl Iterator<Item = bool> + '_ {
         let pairs = state.mode.chunks(LEVELS.len());
         pairs.map(|contacts| contacts.iter().any(|contact| *contact != CornerContact::Open))
+    }
+
+    /// Whether the scales of the first and those of the last pair touch.
+    pub(crate) fn touching_at_ends(state: &State) -> [bool; 2] {
+        let (first, last) = (state.mode.first_chunk::<2>(), state.mode.last_chunk::<2>());
+        let touch = |contacts: &[CornerContact; 2]| {
+            contacts.iter().any(|contact| *contact != CornerContact::Open)
+        };
+        [first, last].map(|pair| pair.is_some_and(touch))
     }
 
     /// Whether a side and a neighbour's end lie flush anywhere.
@@ -262,7 +266,7 @@ impl Contacts {
     }
 
     /// The contacts of the pair whose left scale is `left`.
-    fn contacts_of(left: usize) -> std::ops::Range<usize> {
+    pub(crate) fn contacts_of(left: usize) -> std::ops::Range<usize> {
         LEVELS.len() * left..LEVELS.len() * (left + 1)
     }
 

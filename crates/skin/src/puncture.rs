@@ -4,16 +4,16 @@ mod measures;
 mod record;
 mod snapshot;
 mod system;
-mod window;
 #[cfg(test)]
 mod tests;
+mod window;
 
 use contact::{ContactLaw, Law};
 use geometry::Row;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
-use window::{FIRST_SCALES, Reach, STILL};
+use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
@@ -208,7 +208,7 @@ impl<'a> Problem<'a> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                self.follow(Layout { left, right: scales - 1 - left }, None)
+                self.follow(self.chain(Layout { left, right: scales - 1 - left })?, scales)
             }
             RowLength::Auto => self.grow(LONGEST_ROW),
         }
@@ -216,76 +216,53 @@ impl<'a> Problem<'a> {
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        let Layout { left, right } = self.first_layout();
-        self.follow(Layout { left, right }, Some(longest))
+        self.follow(self.part(Layout::first(&self.stiffness))?, longest)
     }
 
-    /// The row with which a path begins. Without a closed form of what lies beyond its ends it is the one that suffices while
-    /// no scales touch: a displacement of the punctured scale decays along the chain by the root below 1 of
-    /// `β (r + 1/r) = α`, where `β` stands for all neighbours on a side.
-    fn first_layout(&self) -> Layout {
-        if self.stiffness.far_field().is_some() && matches!(self.rows, Rows::Even(_)) {
-            return Layout { left: FIRST_SCALES, right: FIRST_SCALES };
-        }
-        let RowStiffness { direct, neighbours, .. } = &self.stiffness;
-        let side = |k: usize| neighbours.iter().map(|n| n.direct[k] / direct[k]).sum::<f64>();
-        let slowest = (0..3).map(|k| 2.0 * side(k).abs()).fold(0.0, f64::max);
-        let decay = (1.0 - (1.0 - slowest.min(1.0).powi(2)).sqrt()) / slowest;
-        // A coupling so strong that the estimate fails starts from a long row.
-        let side = (4_u8..100).find(|&n| decay.powi(i32::from(n)) <= 0.1 * STILL);
-        let side = side.map_or(100, usize::from);
-        Layout { left: side, right: side }
-    }
-
-    fn chain(&self, layout: Layout, endless: bool) -> Result<Chain, InvalidDesign> {
+    /// A row that ends.
+    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
         let tilt = self.parameters.critical_tilt_deg.to_radians();
         let position = self.parameters.load_position;
         let row = self.rows.row(layout)?;
-        let chain = Chain::new(row, &self.stiffness, self.law, layout, position, tilt);
-        Ok(if endless { chain.endless(&self.stiffness) } else { chain })
+        Ok(Chain::new(row, &self.stiffness, self.law, layout, position, tilt))
     }
 
-    /// Follows the path until it ends, on a row that may grow up to the `longest`, or may not.
-    fn follow(&self, layout: Layout, longest: Option<usize>) -> Result<Puncture, InvalidDesign> {
-        let chain = self.chain(layout, longest.is_some())?;
+    /// A part of an endless row.
+    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
+        Ok(self.chain(layout)?.within(surroundings))
+    }
+
+    /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
+    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
         let mut record = Record::new(&mut path, self.design.length);
-        let mut within = true;
-        while within {
+        let mut has_room = true;
+        while has_room {
             let before = path.point_shared();
             let Some(point) = path.next() else { break };
-            let Some(longest) = longest else {
-                record.visit(&mut path, &point);
-                continue;
-            };
             let reach = path.system().reach(&point.state);
-            let beyond = reach.contains(&Reach::Beyond);
-            if !beyond {
+            let is_beyond = reach.contains(&Reach::Beyond);
+            if !is_beyond {
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
-                within = self.lengthen(&mut path, &mut record, if beyond { &before } else { &point }, reach, longest)?;
+                // What lies beyond may have touched within the step: it is taken again.
+                let from = if is_beyond { &before } else { &point };
+                has_room = self.lengthen(&mut path, &mut record, from, reach, longest)?;
             }
         }
-        let stop = path.stop().unwrap_or(Stop::Reached);
-        let (contacts, end) = (&path.system().contacts, &path.point().state);
-        let status = match stop {
-            _ if !within => Status::RowLimit,
-            Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
-            Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
-            Stop::Reached => Status::Complete,
-            stop => Status::Stopped(stop),
-        };
+        let status = if has_room { status(&path) } else { Status::RowLimit };
         Ok(record.finish(&mut path, status, self.parameters.poisson_ratio))
     }
 
-    /// Lets the path go on from `point` on a longer row. `false` if it may not grow any more.
+    /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
     fn lengthen(
         &self,
         path: &mut Path<Chain>,
         record: &mut Record,
-        point: &Point,
+        from: &Point,
         reach: [Reach; 2],
         longest: usize,
     ) -> Result<bool, InvalidDesign> {
@@ -294,11 +271,21 @@ impl<'a> Problem<'a> {
         if longer == layout {
             return Ok(false);
         }
-        let chain = self.chain(longer, true)?;
-        let point = chain.extended_point(path.system(), point);
-        record.extend(|point| chain.extended_point(path.system(), point), &point);
-        path.go_on(chain, point);
+        let chain = self.part(longer)?;
+        let from = chain.extended(path.system(), from);
+        record.extend(|point| chain.extended(path.system(), point), &from);
+        path.go_on(chain, from);
         Ok(true)
     }
 }
 
+/// How a path has ended, from why it stopped and from the audit.
+fn status(path: &Path<Chain>) -> Status {
+    let (contacts, end) = (&path.system().contacts, &path.point().state);
+    match path.stop().unwrap_or(Stop::Reached) {
+        Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
+        Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
+        Stop::Reached => Status::Complete,
+        stop => Status::Stopped(stop),
+    }
+}

@@ -61,8 +61,8 @@ impl<S: System> Path<S> {
         let located = self.locate_from(from, state, constraint).ok()?;
         let condition = self.condition(from);
         let reached = condition.of(&located.state.z) - condition.value;
-        let within = (0.0..=FARTHER * distance).contains(&reached)
-            && self.progress(&located.state.z) <= 1.0;
+        let within =
+            (0.0..=FARTHER * distance).contains(&reached) && self.progress(&located.state.z) <= 1.0;
         if !within || self.turns_sharply(from, &located) {
             return None;
         }

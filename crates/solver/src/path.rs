@@ -253,7 +253,11 @@ impl<S: System> Path<S> {
 
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
     /// in which the path left.
-    pub(crate) fn turns_sharply(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    pub(crate) fn turns_sharply(
+        &self,
+        from: &Point<S::Mode>,
+        candidate: &Candidate<S::Mode>,
+    ) -> bool {
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;

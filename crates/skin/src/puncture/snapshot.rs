@@ -1,12 +1,13 @@
 //! A row of scales as it stands at chosen places of its path.
 
-use contact::ContactLaw;
 use solver::Path;
 
 use super::system::{Chain, Layout};
-use super::{InvalidDesign, Parameters, PathPoint, Puncture, RowStiffness, ScaleState, Status};
+use super::{
+    InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowLength, RowStiffness, Rows,
+    ScaleState, Status,
+};
 use crate::Design;
-use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
 
@@ -93,12 +94,12 @@ fn chain(
 ) -> Result<Chain, InvalidDesign> {
     let left = puncture.scales.iter().filter(|state| state.scale < 0).count();
     let layout = Layout { left, right: puncture.scales.len().saturating_sub(left + 1) };
-    let modulus =
-        parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
-    let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-    let tilt = parameters.critical_tilt_deg.to_radians();
-    let row = Arrangement::Even(design.row()?);
-    Ok(Chain::new(row, stiffness, law, layout, parameters.load_position, tilt))
+    let rows = Rows::Even(design.row()?);
+    let problem = Problem::new(rows, design, stiffness.clone(), parameters)?;
+    match parameters.scales {
+        RowLength::Auto => problem.part(layout),
+        RowLength::Scales(_) => problem.chain(layout),
+    }
 }
 
 fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<Option<Snapshot>> {

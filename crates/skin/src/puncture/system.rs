@@ -5,6 +5,7 @@ use geometry::{Corner, Vec2};
 use solver::{BandMatrix, Change, Control, Residual, System};
 use substrate::{FarField, Neighbour, RowStiffness};
 
+use super::window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, State};
 
@@ -70,8 +71,8 @@ pub(crate) struct Chain {
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
     neighbours: Vec<Neighbour>,
-    /// The scales beyond both ends, if the row is endless; forces as above.
-    far_field: Option<FarField>,
+    /// What lies beyond the ends of a part of an endless row; forces as above.
+    surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
@@ -111,7 +112,7 @@ impl Chain {
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
-            far_field: None,
+            surroundings: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
@@ -119,19 +120,20 @@ impl Chain {
         }
     }
 
-    /// The same row with endless rows of free scales beyond its ends, if they have a closed form.
-    pub(crate) fn endless(self, stiffness: &RowStiffness) -> Self {
-        let powers = [self.half_base, self.half_base, self.half_base.powi(3)];
-        let far_field = stiffness.far_field().map(|far| FarField {
-            relief: std::array::from_fn(|k| powers[k] * far.relief[k]),
-            ..far
-        });
-        Self { far_field, ..self }
+    /// The same row as a part of an endless one.
+    pub(crate) fn within(self, surroundings: Surroundings) -> Self {
+        let a = self.half_base;
+        Self { surroundings: Some(surroundings.scaled([a, a, a.powi(3)])), ..self }
     }
 
-    /// The scales beyond both ends; `None` if the row ends there.
-    pub(crate) fn far_field(&self) -> Option<&FarField> {
-        self.far_field.as_ref()
+    /// How near a state has come to the left and to the right end, if there is more beyond them.
+    pub(crate) fn reach(&self, state: &State) -> [Reach; 2] {
+        let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
+        self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
+    }
+
+    fn far_field(&self) -> Option<&FarField> {
+        self.surroundings.as_ref()?.far_field()
     }
 
     /// The three displacements of a scale, which may lie beyond an end of the row.
@@ -139,7 +141,7 @@ impl Chain {
         let last = self.layout.scales().cast_signed() - 1;
         let nearest = scale.clamp(0, last);
         let displacement = self.displacement(z, nearest.cast_unsigned());
-        match (&self.far_field, scale.abs_diff(nearest)) {
+        match (self.far_field(), scale.abs_diff(nearest)) {
             (_, 0) => displacement,
             (Some(far), distance) => far.displacement(displacement, distance),
             (None, _) => [0.0; 3],
@@ -196,7 +198,7 @@ impl Chain {
             for k in 0..3 {
                 entry(at + k, at + k, self.direct[k]);
             }
-            if let Some(far) = &self.far_field {
+            if let Some(far) = self.far_field() {
                 let ends = [0, self.layout.scales() - 1].iter().filter(|end| **end == i).count();
                 for k in 0..3 {
                     entry(at + k, at + k, -(ends as f64) * far.relief[k]);

@@ -8,6 +8,7 @@ use solver::{BandMatrix, Path, Residual, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
+use super::window::Reach;
 use super::{Parameters, Problem, Rows, Status};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
@@ -283,19 +284,19 @@ fn soft_contacts_store_their_part_of_the_work() {
 }
 
 #[test]
-fn rows_double_as_far_as_there_is_room() {
-    let layout = Layout { left: 4, right: 6 };
-    let doubled = |left, right, longest| {
-        let Layout { left, right } = layout.doubled(left, right, longest);
+fn rows_grow_as_far_as_there_is_room() {
+    use Reach::{Beyond, Near, Short};
+    let layout = Layout { left: 14, right: 17 };
+    let grown = |reach, longest| {
+        let Layout { left, right } = layout.grown(reach, longest);
         [left, right]
     };
-    assert_eq!(doubled(true, false, 100), [8, 6]);
-    assert_eq!(doubled(false, true, 100), [4, 12]);
-    assert_eq!(doubled(true, true, 100), [8, 12]);
-    assert_eq!(doubled(true, true, 18), [5, 12]);
-    assert_eq!(doubled(true, true, 13), [4, 8]);
-    assert_eq!(doubled(true, true, 11), [4, 6]);
-    assert_eq!(doubled(true, true, 5), [4, 6]);
+    assert_eq!(grown([Near, Short], 100), [22, 17]);
+    assert_eq!(grown([Short, Beyond], 100), [14, 25]);
+    assert_eq!(grown([Beyond, Near], 100), [22, 25]);
+    assert_eq!(grown([Near, Near], 42), [16, 25]);
+    assert_eq!(grown([Near, Near], 37), [14, 22]);
+    assert_eq!(grown([Near, Near], 32), [14, 17]);
 }
 
 #[test]
