@@ -1,5 +1,5 @@
-//! One factorisation and solve of the tangent of a row of scales: band LU against faer's sparse LU with
-//! its symbolic part reused.
+//! One factorisation and solve of a banded tangent, such as that of a row of scales: band LU against faer's sparse LU
+//! with its symbolic part reused.
 
 use std::hint::black_box;
 

@@ -1,8 +1,7 @@
 //! Linear solves: LU factorisation of a band matrix.
 //!
-//! The unknowns of a row of scales are numbered along the row, so that every equation couples
-//! unknowns at most a dozen places apart and one factorisation costs time proportional to the length of the
-//! row. A general sparse LU needs more than twice as long on these matrices
+//! Unknowns are numbered so that every equation couples unknowns a few places apart. One factorisation then costs time
+//! proportional to their number. A general sparse LU needs more than twice as long on such matrices
 //! (`benches/linear.rs` compares them).
 
 use std::ops::Range;
@@ -90,11 +89,9 @@ impl BandMatrix {
         row.saturating_sub(self.half)..(row + self.half + 1).min(self.size)
     }
 
-    /// The product with a vector.
-    pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.size)
-            .map(|row| self.columns(row).map(|column| self.get(row, column) * x[column]).sum())
-            .collect()
+    /// The entries of a row, from `half` places before the diagonal on.
+    fn row(&self, row: usize) -> &[f64] {
+        &self.rows[row * self.width()..][..self.width()]
     }
 
     fn width(&self) -> usize {
@@ -139,7 +136,10 @@ pub struct BandLu {
     pivots: Vec<usize>,
     /// One over the diagonal of the upper factor.
     inverses: Vec<f64>,
+    /// What each row was multiplied by.
     scales: Vec<f64>,
+    /// Storage for the right-hand side and the solution among the unknowns that are kept.
+    packed: Vec<f64>,
 }
 
 impl BandLu {
@@ -156,6 +156,7 @@ impl BandLu {
             pivots: vec![0; size],
             inverses: vec![1.0; size],
             scales: vec![1.0; size],
+            packed: Vec::with_capacity(size),
         }
     }
 
@@ -191,22 +192,20 @@ impl BandLu {
 
     /// Solves in place: `x` holds the right-hand side, then the solution. Where an unknown was left out, the
     /// right-hand side does not count and the solution is zero.
-    pub fn solve(&self, x: &mut [f64]) {
-        let count = self.kept.len();
-        for (i, &kept) in self.kept.iter().enumerate() {
-            x[i] = x[kept] * self.scales[i];
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let mut packed = std::mem::take(&mut self.packed);
+        packed.clear();
+        packed.extend(self.kept.iter().zip(&self.scales).map(|(&index, scale)| x[index] * scale));
+        self.substitute(&mut packed);
+        x.fill(0.0);
+        for (&index, &solution) in self.kept.iter().zip(&packed) {
+            x[index] = solution;
         }
-        self.solve_kept(&mut x[..count]);
-        let mut end = self.size;
-        for (i, &kept) in self.kept.iter().enumerate().rev() {
-            x.swap(i, kept);
-            x[kept + 1..end].fill(0.0);
-            end = kept;
-        }
-        x[..end].fill(0.0);
+        self.packed = packed;
     }
 
-    fn solve_kept(&self, x: &mut [f64]) {
+    /// Forward and back substitution among the unknowns that are kept.
+    fn substitute(&self, x: &mut [f64]) {
         for k in 0..x.len() {
             x.swap(k, self.pivots[k]);
             let factor = x[k];
@@ -237,33 +236,37 @@ impl BandLu {
         Ok(())
     }
 
-    /// Copies row `i` and returns its first column, or the diagonal where that comes before.
+    /// Copies row `i`, divided by its largest entry. Returns its first column, or the diagonal where that comes before.
     fn load_row(&mut self, i: usize, matrix: &BandMatrix) -> Result<usize, SingularMatrix> {
-        let (half, row) = (self.half, self.kept[i]);
-        let entries = &matrix.rows[row * matrix.width()..][..matrix.width()];
-        let [leftmost, rightmost] = matrix.used[row];
-        let before = self.kept[..i].iter().rev().take_while(|&&j| j + half >= row + leftmost);
-        let after = self.kept[i + 1..].iter().take_while(|&&j| j + half < row + rightmost);
-        let (first, end) = (i - before.count(), i + 1 + after.count());
-        let start = i * (3 * half + 1);
-        let target = &mut self.upper[start..][..end + half - i];
-        let (left, target) = target.split_at_mut(first + half - i);
-        left.fill(0.0);
-        let mut largest = 0.0_f64;
-        for (target, &j) in target.iter_mut().zip(&self.kept[first..end]) {
-            *target = entries[j + half - row];
-            largest = largest.max(target.abs());
+        let Range { start: first, end } = self.columns(i, matrix);
+        let row = self.kept[i];
+        let start = i * (3 * self.half + 1);
+        let places = &mut self.upper[start..][..end + self.half - i];
+        let (before, entries) = places.split_at_mut(first + self.half - i);
+        before.fill(0.0);
+        for (entry, &column) in entries.iter_mut().zip(&self.kept[first..end]) {
+            *entry = matrix.row(row)[column + self.half - row];
         }
+        let largest = entries.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {
             return Err(self.singular(i));
         }
-        for x in target {
-            *x *= scale;
+        for entry in entries {
+            *entry *= scale;
         }
         self.scales[i] = scale;
         self.ends[i] = end;
         Ok(first)
+    }
+
+    /// The columns of row `i` that are in use, numbered among those that are kept. The diagonal is among them.
+    fn columns(&self, i: usize, matrix: &BandMatrix) -> Range<usize> {
+        let row = self.kept[i];
+        let [leftmost, rightmost] = matrix.used[row].map(|place| row + place);
+        let before = self.kept[..i].iter().rev().take_while(|&&j| j + self.half >= leftmost);
+        let after = self.kept[i + 1..].iter().take_while(|&&j| j + self.half < rightmost);
+        i - before.count()..i + 1 + after.count()
     }
 
     fn singular(&self, column: usize) -> SingularMatrix {

@@ -235,7 +235,7 @@ impl Newton {
     }
 
     /// Solution for a unit right-hand side in the row of the condition.
-    fn direction<S: System>(&self, system: &S) -> Vec<f64> {
+    fn direction<S: System>(&mut self, system: &S) -> Vec<f64> {
         let mut direction = vec![0.0; system.size()];
         direction[system.load()] = 1.0;
         self.lu.solve(&mut direction);

@@ -24,6 +24,12 @@ fn at(matrix: &BandMatrix, i: usize, j: usize) -> f64 {
     if i.abs_diff(j) <= matrix.half_bandwidth() { matrix.get(i, j) } else { 0.0 }
 }
 
+/// The product of a matrix with a vector.
+fn times(matrix: &BandMatrix, x: &[f64]) -> Vec<f64> {
+    let row = |i: usize| matrix.columns(i).map(|j| matrix.get(i, j) * x[j]).sum();
+    (0..matrix.size()).map(row).collect()
+}
+
 /// Solution of what remains of the system without some rows and columns, and the smallest pivot relative to the
 /// largest: dense, by faer.
 fn reference(matrix: &BandMatrix, kept: &[usize], rhs: &[f64]) -> (Vec<f64>, f64) {
@@ -79,7 +85,7 @@ proptest! {
         lu.factorise(&matrix).unwrap();
         let mut x = rhs[..size].to_vec();
         lu.solve(&mut x);
-        for (product, rhs) in matrix.times(&x).iter().zip(&rhs) {
+        for (product, rhs) in times(&matrix, &x).iter().zip(&rhs) {
             assert_relative_eq!(*product, *rhs, epsilon = 1e-13);
         }
     }
@@ -137,9 +143,9 @@ fn a_cleared_matrix_is_zero() {
         }
     }
     matrix.clear_row(2);
-    assert_eq!(matrix.times(&[1.0; 5]), [3.0, 4.0, 0.0, 4.0, 3.0]);
+    assert_eq!(times(&matrix, &[1.0; 5]), [3.0, 4.0, 0.0, 4.0, 3.0]);
     matrix.clear();
-    assert_eq!(matrix.times(&[1.0; 5]), [0.0; 5]);
+    assert_eq!(times(&matrix, &[1.0; 5]), [0.0; 5]);
 }
 
 #[test]
