@@ -11,7 +11,7 @@ use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
     Force, Level, Pair, Pose,
 };
-use solver::{BandMatrix, Change, Residual};
+use solver::{Change, Residual, Tangent};
 
 use crate::arrangement::Arrangement;
 
@@ -178,7 +178,7 @@ impl Contacts {
     }
 
     /// Adds what the closed contacts contribute to the tangent.
-    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut impl Tangent) {
         self.for_each(state, |contact, corners| {
             let mode = state.mode[contact];
             if mode != CornerContact::Open {
@@ -194,7 +194,7 @@ impl Contacts {
         contact: usize,
         acting: [bool; FORCES],
         response: &CornerResponse,
-        matrix: &mut BandMatrix,
+        matrix: &mut impl Tangent,
     ) {
         let parts = self.parts(contact);
         let unknowns = self.unknowns_of(contact);

@@ -1,5 +1,7 @@
 //! Block-tridiagonal matrices of small blocks.
 
+use crate::system::Tangent;
+
 /// Unknowns of a block that its outer neighbour is coupled with.
 pub const LINK: usize = 3;
 
@@ -49,9 +51,10 @@ pub struct BlockMatrix {
 }
 
 impl BlockMatrix {
-    /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those for which `is_left_out`. Every entry
-    /// is zero afterwards.
-    pub fn reshape(&mut self, blocks: &Blocks, size: usize, is_left_out: impl Fn(usize) -> bool) {
+    /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those that are `left_out`, in ascending order.
+    /// Every entry is zero afterwards.
+    pub fn reshape(&mut self, blocks: &Blocks, size: usize, left_out: &[usize]) {
+        let mut left_out = left_out.iter().peekable();
         self.kept.clear();
         self.places.clear();
         self.starts.clear();
@@ -60,7 +63,7 @@ impl BlockMatrix {
             while starts.next_if_eq(&unknown).is_some() {
                 self.starts.push(self.kept.len());
             }
-            if is_left_out(unknown) {
+            if left_out.next_if_eq(&&unknown).is_some() {
                 self.places.push(LEFT_OUT);
             } else {
                 self.places.push(self.kept.len());
@@ -127,36 +130,17 @@ impl BlockMatrix {
         &self.kept
     }
 
+    /// Replaces a row by zeros.
+    pub fn clear_row(&mut self, row: usize) {
+        let place = self.places[row];
+        let [first, end] = self.columns[place];
+        let start = self.rows[place];
+        self.values[start..start + end - first].fill(0.0);
+    }
+
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.values.fill(0.0);
-    }
-
-    /// Adds `value` to an entry; does nothing where its row or column is left out.
-    pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        let (row, column) = (self.places[row], self.places[column]);
-        if row != LEFT_OUT && column != LEFT_OUT {
-            let at = self.at(row, column);
-            self.values[at] += value;
-        }
-    }
-
-    /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
-    /// are all kept and follow each other.
-    pub fn add_block<const R: usize, const C: usize>(
-        &mut self,
-        row: usize,
-        column: usize,
-        values: &[[f64; C]; R],
-    ) {
-        let (row, column) = (self.places[row], self.places[column]);
-        for (i, values) in values.iter().enumerate() {
-            debug_assert!(column + C <= self.columns[row + i][1]);
-            let at = self.at(row + i, column);
-            for (entry, value) in self.values[at..at + C].iter_mut().zip(values) {
-                *entry += value;
-            }
-        }
     }
 
     /// The entry at (`row`, `column`); zero outside the blocks and where it is left out.
@@ -184,5 +168,34 @@ impl BlockMatrix {
             "entry ({row}, {column}) lies outside the blocks"
         );
         self.rows[row] + column - first
+    }
+}
+
+impl Tangent for BlockMatrix {
+    /// Adds `value` to an entry; does nothing where its row or column is left out.
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        let (row, column) = (self.places[row], self.places[column]);
+        if row != LEFT_OUT && column != LEFT_OUT {
+            let at = self.at(row, column);
+            self.values[at] += value;
+        }
+    }
+
+    /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
+    /// are all kept and follow each other.
+    fn add_block<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        column: usize,
+        values: &[[f64; C]; R],
+    ) {
+        let (row, column) = (self.places[row], self.places[column]);
+        for (i, values) in values.iter().enumerate() {
+            debug_assert!(column + C <= self.columns[row + i][1]);
+            let at = self.at(row + i, column);
+            for (entry, value) in self.values[at..at + C].iter_mut().zip(values) {
+                *entry += value;
+            }
+        }
     }
 }

@@ -17,7 +17,7 @@
 //! | [`BandMatrix`], [`BandLu`] | linear solves |
 //!
 //! ```
-//! use solver::{BandMatrix, Control, Path, Residual, Settings, State, Stop, System};
+//! use solver::{Control, Path, Residual, Settings, State, Stop, System, Tangent};
 //!
 //! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
 //! struct SnapThrough([Control; 1]);
@@ -36,7 +36,7 @@
 //!         residual.add(0, z[0] * (1.0 - z[0] * z[0]));
 //!         residual.add(0, -z[1]);
 //!     }
-//!     fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+//!     fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
 //!         let z = &state.z;
 //!         matrix.add(0, 0, 1.0 - 3.0 * z[0] * z[0]);
 //!         matrix.add(0, 1, -1.0);
@@ -66,6 +66,7 @@ mod rate_problem;
 mod step;
 mod stop;
 mod system;
+mod tangent_solver;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, LINK};
@@ -77,4 +78,4 @@ pub use path::{Path, Point};
 pub use peak::Peak;
 pub use step::Settings;
 pub use stop::Stop;
-pub use system::{Control, Residual, State, System};
+pub use system::{Control, Residual, State, System, Tangent};

@@ -1,8 +1,9 @@
 //! Newton's method for one point of the path.
 
-use crate::linear::{BandLu, BandMatrix, SingularMatrix};
+use crate::linear::SingularMatrix;
 use crate::step::Settings;
-use crate::system::{Residual, State, System};
+use crate::system::{Residual, State, System, inactive};
+use crate::tangent_solver::TangentSolver;
 
 /// A guard below minus this is violated; what is smaller is round-off.
 pub(crate) const FLOOR: f64 = 1e-12;
@@ -50,12 +51,9 @@ pub enum NewtonFailure {
 /// Storage for the solves of one system, kept from one to the next.
 #[derive(Clone, Debug)]
 pub struct Newton {
-    matrix: BandMatrix,
-    lu: BandLu,
+    solver: TangentSolver,
     residual: Residual,
     step: Vec<f64>,
-    /// Unknowns of the inactive constraints.
-    inactive: Vec<usize>,
     /// Residual norm of every iteration since this was last taken.
     pub(crate) history: Vec<f64>,
 }
@@ -63,14 +61,12 @@ pub struct Newton {
 impl Newton {
     /// Storage for systems like this one.
     pub fn new(system: &impl System) -> Self {
-        let (size, half) = (system.size(), system.half_bandwidth());
+        let size = system.size();
         debug_assert!(system.constraints().is_sorted());
         Self {
-            matrix: BandMatrix::new(size, half),
-            lu: BandLu::new(size, half),
+            solver: TangentSolver::new(system),
             residual: Residual::new(size),
             step: vec![0.0; size],
-            inactive: Vec::with_capacity(system.constraints().len()),
             history: Vec::new(),
         }
     }
@@ -92,7 +88,7 @@ impl Newton {
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
             self.factorise(system, state, condition)?;
-            self.lu.solve(&mut self.step);
+            self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if norm <= settings.tolerance {
                 return Ok(self.direction(system));
@@ -122,7 +118,7 @@ impl Newton {
             let norm = self.evaluate(system, state, &condition)?;
             let guard = self.guard(system, state, constraint);
             self.factorise(system, state, &condition)?;
-            self.lu.solve(&mut self.step);
+            self.solver.solve(&mut self.step);
             let direction = self.direction(system);
             let along = |step: &[f64]| guard_slope(system, state, constraint, step);
             let distance = -(guard + along(&self.step)) / along(&direction);
@@ -223,22 +219,13 @@ impl Newton {
         state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<(), SingularMatrix> {
-        self.matrix.clear();
-        system.tangent(state, &mut self.matrix);
-        self.matrix.clear_row(system.load());
-        for &(index, coefficient) in &condition.row {
-            self.matrix.add(system.load(), index, coefficient);
-        }
-        self.inactive.clear();
-        self.inactive.extend(inactive(system, state));
-        self.lu.factorise_without(&self.matrix, &self.inactive)
+        self.solver.factorise(system, state, &condition.row)
     }
 
     /// Solution for a unit right-hand side in the row of the condition.
     fn direction<S: System>(&mut self, system: &S) -> Vec<f64> {
         let mut direction = vec![0.0; system.size()];
-        direction[system.load()] = 1.0;
-        self.lu.solve(&mut direction);
+        self.solver.solve_unit(system.load(), &mut direction);
         direction
     }
 }
@@ -255,15 +242,6 @@ pub(crate) fn guard_slope<S: System>(
     } else {
         system.slope(state, constraint, direction)
     }
-}
-
-/// Unknowns of the inactive constraints.
-fn inactive<'a, S: System>(
-    system: &'a S,
-    state: &'a State<S::Mode>,
-) -> impl Iterator<Item = usize> + 'a {
-    let constraints = system.constraints().iter().zip(&state.active);
-    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
 }
 
 /// Sets the unknowns of inactive constraints to zero, where the iteration keeps them.

@@ -84,7 +84,7 @@ impl<S: System> Path<S> {
             point: Arc::new(point.clone()),
             guards: Vec::new(),
             slopes: Vec::new(),
-            step: settings.first_step,
+            step: settings.first_step.min(settings.max_step),
             points: 0,
             stop: None,
         };

@@ -2,8 +2,8 @@
 
 use std::fmt::Debug;
 
+use crate::block_matrix::Blocks;
 use crate::event::Change;
-use crate::linear::BandMatrix;
 
 /// Largest change of an unknown over which a slope is a difference.
 const DIFFERENCE: f64 = 1e-6;
@@ -32,6 +32,12 @@ pub trait System {
     /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
+    /// The blocks of the tangent, if it is block-tridiagonal and the controls and the load are in the root block. The tangent is
+    /// then eliminated block by block, and as a band matrix only where that is not safe.
+    fn blocks(&self) -> Option<&Blocks> {
+        None
+    }
+
     /// Index of the load among the unknowns, and of the row without an equation.
     fn load(&self) -> usize;
 
@@ -51,7 +57,7 @@ pub trait System {
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix. Rows and columns of inactive constraints may be left out.
-    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut BandMatrix);
+    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
 
     /// Derivative of the equation of a constraint (its number) along `direction`; by differences
     /// unless the system knows better.
@@ -75,6 +81,27 @@ pub trait System {
     /// constraint cannot change sides in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
+    }
+}
+
+/// A matrix that derivatives are added to.
+pub trait Tangent {
+    /// Adds `value` to the entry at (`row`, `column`).
+    fn add(&mut self, row: usize, column: usize, value: f64);
+
+    /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
+    /// constraint.
+    fn add_block<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        column: usize,
+        values: &[[f64; C]; R],
+    ) {
+        for (i, values) in values.iter().enumerate() {
+            for (j, value) in values.iter().enumerate() {
+                self.add(row + i, column + j, *value);
+            }
+        }
     }
 }
 
@@ -152,9 +179,18 @@ impl<M: Clone> State<M> {
     }
 }
 
+/// Unknowns of the inactive constraints.
+pub(crate) fn inactive<'a, S: System>(
+    system: &'a S,
+    state: &'a State<S::Mode>,
+) -> impl Iterator<Item = usize> + 'a {
+    let constraints = system.constraints().iter().zip(&state.active);
+    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{BandMatrix, Control, Residual, State, System};
+    use super::{Control, Residual, State, System, Tangent};
     use approx::assert_relative_eq;
 
     /// A constraint whose equation is `u³`.
@@ -190,7 +226,7 @@ mod tests {
             residual.add(1, state.z[0].powi(3));
         }
 
-        fn tangent(&self, _state: &State, _matrix: &mut BandMatrix) {}
+        fn tangent(&self, _state: &State, _matrix: &mut impl Tangent) {}
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use faer::prelude::*;
 use faer::{Col, Mat, Side};
 use proptest::prelude::*;
-use solver::{BlockElimination, BlockMatrix, Blocks, LINK};
+use solver::{BlockElimination, BlockMatrix, Blocks, LINK, Tangent};
 
 /// A chain of blocks; each has so many unknowns before its link and after it.
 #[derive(Clone, Debug)]
@@ -58,7 +58,8 @@ fn chains() -> impl Strategy<Value = Chain> {
 /// A dense matrix, of which the rows and columns of some unknowns do not count, in the form of blocks.
 fn in_blocks(chain: &Chain, dense: &Mat<f64>, left_out: &[bool]) -> BlockMatrix {
     let mut matrix = BlockMatrix::default();
-    matrix.reshape(&chain.blocks(), chain.size(), |unknown| left_out[unknown]);
+    let left_out: Vec<_> = (0..chain.size()).filter(|&unknown| left_out[unknown]).collect();
+    matrix.reshape(&chain.blocks(), chain.size(), &left_out);
     for i in 0..chain.size() {
         for j in (0..chain.size()).filter(|&j| chain.couples(i, j)) {
             matrix.add(i, j, dense[(i, j)]);

@@ -4,7 +4,7 @@ use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
 use membrane::{Ends, GapMembrane, Response};
 use nalgebra::DVector;
-use solver::{BandMatrix, Change, Control, Residual, System};
+use solver::{Blocks, Change, Control, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
@@ -54,6 +54,14 @@ impl Layout {
         self.block() * (force / PAIR_FORCES) + force % PAIR_FORCES
     }
 
+    /// A block for each scale that is not held, with the forces of its contacts with the next one. The first has those with
+    /// the scale that is held, too. Interior nodes would make blocks too large.
+    fn blocks(self) -> Option<Blocks> {
+        let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
+        let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
+        (self.elements == 1).then_some(Blocks { starts, links, root: self.gaps - 1 })
+    }
+
     fn moment(self) -> usize {
         self.size() - 1
     }
@@ -71,6 +79,7 @@ pub(crate) struct Strip {
     membranes: Vec<GapMembrane>,
     pub(crate) contacts: Contacts,
     controls: [Control; 3],
+    blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
@@ -104,6 +113,7 @@ impl Strip {
             layout,
             membranes,
             contacts: Contacts::relative(row, law, scales, forces),
+            blocks: layout.blocks(),
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
         }
@@ -208,6 +218,10 @@ impl System for Strip {
         self.layout.block()
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn load(&self) -> usize {
         self.layout.moment()
     }
@@ -238,7 +252,7 @@ impl System for Strip {
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         let z = &state.z;
         for (gap, element) in self.all_elements() {
             let tangent = self.response(z, gap, element).tangent;

@@ -2,7 +2,7 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{BandMatrix, Change, Control, Residual, System};
+use solver::{Blocks, Change, Control, Residual, System, Tangent};
 use substrate::{FarField, Neighbour, RowStiffness};
 
 use super::window::{Reach, Surroundings};
@@ -50,6 +50,20 @@ impl Layout {
         BLOCK * self.left + 3
     }
 
+    /// A block for each scale, with the forces of its contacts with the neighbour on the side of the punctured one.
+    fn blocks(self) -> Blocks {
+        let scales = 0..self.scales();
+        let start = |scale: usize| match scale <= self.left {
+            true => self.scale(scale),
+            false => self.force(PAIR_FORCES * (scale - 1)),
+        };
+        Blocks {
+            starts: scales.clone().map(start).collect(),
+            links: scales.map(|scale| self.scale(scale)).collect(),
+            root: self.left,
+        }
+    }
+
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
@@ -76,6 +90,8 @@ pub(crate) struct Chain {
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
+    /// Blocks of the tangent, where scales feel their nearest neighbours alone.
+    blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
@@ -115,6 +131,7 @@ impl Chain {
             surroundings: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
+            blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
             units,
         }
@@ -257,6 +274,10 @@ impl System for Chain {
         BLOCK * self.neighbours.len().max(1) + 3
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn load(&self) -> usize {
         self.layout.load()
     }
@@ -280,7 +301,7 @@ impl System for Chain {
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         let z = &state.z;
         self.for_springs(|row, column, value| matrix.add(row, column, value));
         let at = self.layout.scale(self.layout.left);

@@ -17,7 +17,7 @@ use skin::puncture::{Parameters, Status};
 use solver::Stop;
 use substrate::Calibrations;
 
-use crate::samples::{design, on_row, solve_with, springs};
+use crate::samples::{design, on_row, small_steps, solve_with, springs};
 
 /// What the path of a scale must follow.
 struct ClosedForm {
@@ -61,7 +61,7 @@ fn the_whole_path_follows_the_closed_form() {
         {
             for load_position in [1.0, 0.8] {
                 let design = design(gap, length, slant, base);
-                let parameters = Parameters { load_position, ..on_row(1) };
+                let parameters = Parameters { load_position, solver: small_steps(), ..on_row(1) };
                 let exact = closed_form(&design, &parameters, &known);
                 let puncture = solve_with(&known, &design, &parameters);
                 assert_eq!(puncture.status, Status::Complete);

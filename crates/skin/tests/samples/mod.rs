@@ -5,6 +5,7 @@
 
 use skin::puncture::{self, Parameters, Puncture, RowLength};
 use skin::{Base, Design};
+use solver::Settings;
 use substrate::{Calibrations, Springs};
 
 /// Both meanings of the length of a scale.
@@ -107,6 +108,11 @@ impl SplitMix64 {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
+}
+
+/// Steps fine enough to look at many points of a path.
+pub fn small_steps() -> Settings {
+    Settings { first_step: 0.01, max_step: 0.05, ..Settings::default() }
 }
 
 /// The reference parameters on a row of this many scales.
