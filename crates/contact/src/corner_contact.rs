@@ -88,7 +88,7 @@ pub enum CornerContact {
     Flush(CornerEdge),
 }
 
-/// What becomes of a contact when one of its forces begins to act or vanishes.
+/// The result of a force that begins to act or vanishes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition {
     /// The next state.

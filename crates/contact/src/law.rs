@@ -23,9 +23,9 @@ impl Law {
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 #[error("{name} of the contact law is {value}, expected a positive number")]
 pub struct InvalidLaw {
-    /// Which constant.
+    /// Name of the constant.
     pub name: &'static str,
-    /// What was given.
+    /// The value given.
     pub value: f64,
 }
 
@@ -52,7 +52,7 @@ pub struct ContactLaw {
 /// Part of `λ₀` below which the slope of the law is taken at this force: it may be infinite at zero.
 const SMALLEST_FORCE: f64 = 1e-12;
 
-/// How far a contact gives way to a force.
+/// The approach of two scales under a contact force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// `δ`, over `t`.

@@ -56,7 +56,7 @@ pub fn overlaps(standing: impl Fn(usize) -> (Parallelogram, f64), poses: &[Pose]
     found
 }
 
-/// What a scale takes up, horizontally and across the left and right edges of the scales that stand at
+/// Extents of a scale, horizontally and across the left and right edges of the scales that stand at
 /// `slant`.
 struct Extents {
     horizontal: (f64, f64),

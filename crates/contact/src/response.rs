@@ -1,4 +1,4 @@
-//! What the contact of two corners adds to a system: forces on both scales, and conditions.
+//! The response of a contact of two corners: forces on both scales, conditions, and all derivatives.
 
 use geometry::Vec2;
 
@@ -10,24 +10,24 @@ use crate::law::ContactLaw;
 /// Coordinates of a pair: `(x, y, φ)` of the left and of the right scale.
 pub const COORDINATES: usize = 6;
 
-/// Where the rotations of the two scales stand among the coordinates.
+/// Indices of the rotations of the two scales among the coordinates.
 const ROTATIONS: [usize; 2] = [2, 5];
 
 /// The value of an equation and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Equation {
-    /// Its value.
+    /// Value of the equation.
     pub value: f64,
-    /// Its derivatives with respect to the coordinates of the pair.
+    /// Derivatives with respect to the coordinates of the pair.
     pub by_coordinate: [f64; COORDINATES],
-    /// Its derivatives with respect to the three forces, in the order of [`Force::ALL`].
+    /// Derivatives with respect to the three forces, in the order of [`Force::ALL`].
     pub by_force: [f64; FORCES],
 }
 
-/// What the contact of two corners adds to a system.
+/// Contribution of a contact of two corners to the equations of a system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CornerResponse {
-    /// What the contact subtracts from the balance of forces in each coordinate of the pair.
+    /// Minus the generalised force of the contact in each coordinate of the pair.
     pub balance: [Equation; COORDINATES],
     /// The conditions (C6) and (C7) of the three forces, none negative where it holds; `None` for a force that
     /// cannot act next in this state.
@@ -182,7 +182,7 @@ impl Together {
         Self { apart, arms, normals: [normal, other_normal], turns: [turn, other_turn], beyond }
     }
 
-    /// How far a vector reaches beyond the end of the edge.
+    /// Component of a vector along the edge, beyond its end.
     fn overrun(&self, v: Vec2) -> f64 {
         v.dot(&self.beyond)
     }
@@ -231,7 +231,7 @@ impl Together {
         [closed, at_end]
     }
 
-    /// What a force `f` does to the balance of both scales if it changes by `turning` with each coordinate.
+    /// The balance of both scales under a force `f` that changes by `turning` with each coordinate.
     fn balance(&self, f: Vec2, turning: &[Vec2; COORDINATES]) -> [Equation; COORDINATES] {
         let mut balance = std::array::from_fn(|row| {
             let moved = self.apart_slope(row);

@@ -17,7 +17,8 @@ use std::time::Instant;
 use contact::Law;
 use rayon::prelude::*;
 use skin::Design;
-use skin::puncture::{Parameters, Puncture, Status};
+use skin::Status;
+use skin::puncture::{Parameters, Puncture};
 use substrate::Calibrations;
 
 const LAWS: [(&str, Law); 2] = [("as printed", Law::PRINTED), ("exchanged", Law::EXCHANGED)];

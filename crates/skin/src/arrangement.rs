@@ -1,4 +1,4 @@
-//! How the scales of a row stand at rest.
+//! The scales of a row at rest.
 
 use contact::Pair;
 use geometry::{Parallelogram, Row, UnevenRow, clearance};

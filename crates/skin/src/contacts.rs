@@ -39,7 +39,7 @@ pub(crate) type Point = solver::Point<Vec<CornerContact>>;
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     arrangement: Arrangement,
-    /// Of the arrangement: each pair, or one for all.
+    /// The pairs of the arrangement, or one that stands for all.
     pair_shapes: Vec<Pair>,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for a scale that is held.

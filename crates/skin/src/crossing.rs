@@ -2,17 +2,17 @@
 
 use solver::{Path, Point, State, System};
 
-/// A quantity is at its value when it is off by less than this, relative to one plus its size.
+/// A quantity counts as at its value where it is off by less than this, relative to one plus its size.
 const CLOSE: f64 = 1e-12;
 
 /// Evaluations after which the bracket of a crossing is as narrow as an `f64` allows.
 const EVALUATIONS: usize = 100;
 
-/// Where a quantity of a state first takes a value along a path.
+/// A place of a path: where a quantity first takes a value.
 pub(crate) struct Crossing<Q> {
-    /// The quantity.
+    /// The quantity, a function of system and state.
     pub(crate) quantity: Q,
-    /// Its value.
+    /// The value that the quantity takes there.
     pub(crate) value: f64,
 }
 

@@ -3,7 +3,7 @@
 use geometry::{InvalidGeometry, Parallelogram, Row};
 use substrate::{Footprint, InvalidFootprint};
 
-/// What the `L` of `L/t` is: the base of a scale, or half of it.
+/// Meaning of the `L` in `L/t`: the base of a scale, or half of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
     /// The base is `L` long (`a = L/2`).
@@ -21,7 +21,7 @@ pub struct Design {
     pub length: f64,
     /// Slant `α` of the scales, degrees.
     pub slant_deg: f64,
-    /// What `L` is.
+    /// Meaning of `L`.
     pub base: Base,
     /// Out-of-plane width `b/t`.
     pub width: f64,
@@ -44,7 +44,7 @@ impl Design {
         Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
     }
 
-    /// The bases as a substrate of this Poisson's ratio sees them.
+    /// The footprint of the bases on a substrate of this Poisson's ratio.
     ///
     /// # Errors
     /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.

@@ -2,7 +2,7 @@
 
 mod frame;
 mod measures;
-mod record;
+mod point;
 mod snapshot;
 mod strip;
 #[cfg(test)]
@@ -17,18 +17,18 @@ use frame::{Frame, Step};
 use geometry::Row;
 use membrane::{GapMembrane, Section, Span};
 use solver::{Path, Settings, Stop};
-use strip::Strip;
+use strip::{Extent, Strip};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, State};
-use crate::{ContactChange, Design, InvalidDesign, Sample};
+use crate::record::{ContactEvent, Iteration, Record};
+use crate::{ContactChange, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
-use record::Record;
-pub use record::{Event, Iteration, PathPoint};
+pub use point::PathPoint;
 pub use snapshot::{Snapshot, snapshots};
 
-/// How the strip is solved.
+/// The part of a strip that is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// One gap: in pure bending every gap deforms alike.
@@ -37,7 +37,7 @@ pub enum Method {
     Chain,
 }
 
-/// What bending depends on besides the design.
+/// Parameters of bending besides the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Contact law between scales.
@@ -78,30 +78,17 @@ impl Default for Parameters {
     }
 }
 
-/// How bending ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// The ends reached the largest rotation, and the audit has no objection.
-    Complete,
-    /// The path stopped before.
-    Stopped(Stop),
-    /// Two scales overlap by more than their contact law allows.
-    Interpenetration,
-    /// A contact carries beyond the end of its edge.
-    OffEdge,
-}
-
 /// A strip that was bent.
 #[derive(Clone, Debug)]
 pub struct Flexure {
-    /// How it ended.
+    /// How the path ended, and whether its end can be trusted.
     pub status: Status,
-    /// What it measured.
+    /// The measures of the bending.
     pub measures: Measures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PathPoint>,
     /// Every contact event, in order.
-    pub events: Vec<Event>,
+    pub events: Vec<ContactEvent<PathPoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
     /// Gaps of the strip.
@@ -117,7 +104,7 @@ impl Flexure {
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
         let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
-        let first = closings.filter(|event| closed.insert(event.gap));
+        let first = closings.filter(|event| closed.insert(event.left_scale));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;
         Some(curvatures.last().unwrap_or(start) - start)
@@ -143,10 +130,10 @@ pub fn gaps(row: &Row, membrane_length: f64) -> usize {
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
 pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, InvalidDesign> {
-    Ok(SetUp::even(design, parameters)?.solve(parameters))
+    Ok(Problem::even(design, parameters)?.solve(parameters))
 }
 
-/// The same for an imperfect strip: gaps and slants are those of `sample`. Its gaps deform each in
+/// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
 /// its own way, so the chain of all is solved, whatever [`Parameters::method`] says. There are as many
 /// gaps as in the strip of the design, and the curvature counts over the length that they
 /// have.
@@ -158,20 +145,16 @@ pub fn solve_sample(
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Flexure, InvalidDesign> {
-    Ok(SetUp::sample(design, parameters, sample)?.solve(parameters))
+    Ok(Problem::sample(design, parameters, sample)?.solve(parameters))
 }
 
-/// What is bent.
-struct SetUp {
+/// A strip to be bent.
+struct Problem {
     row: Arrangement,
     strip: Strip,
-    /// Gaps of the whole strip.
-    gaps: usize,
-    /// `E_m I_m`, over `E_m t⁴`.
-    bending_stiffness: f64,
 }
 
-impl SetUp {
+impl Problem {
     /// The strip of a design.
     fn even(design: &Design, parameters: &Parameters) -> Result<Self, InvalidDesign> {
         let row = design.row()?;
@@ -219,17 +202,17 @@ impl SetUp {
         let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
         let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
         let rotation = whole * solved as f64 / gaps as f64;
-        let stiffness = [section.axial_stiffness(), section.bending_stiffness()];
-        let strip = Strip::new(row.clone(), membranes, law, solved, rotation, stiffness);
-        Ok(Self { row, strip, gaps, bending_stiffness: section.bending_stiffness() })
+        let extent = Extent { gaps: solved, repeats: gaps / solved, rotation };
+        Ok(Self { strip: Strip::new(row.clone(), membranes, law, section, extent), row })
     }
 
     fn solve(self, parameters: &Parameters) -> Flexure {
-        let Self { row, strip, gaps, bending_stiffness } = self;
+        let Self { row, strip } = self;
         let rest = State::at_rest(&strip);
-        let mut path = Path::new(strip, rest, parameters.solver);
         let alike = matches!(row, Arrangement::Even(_));
-        let mut record = Record::new(&mut path, row, gaps, bending_stiffness);
+        let mut steps = vec![strip.steps(&rest.z)];
+        let mut path = Path::new(strip, rest, parameters.solver);
+        let mut record = Record::new(&path);
         let mut flush = false;
         while let Some(point) = path.next() {
             // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
@@ -239,15 +222,16 @@ impl SetUp {
                 break;
             }
             record.visit(&mut path, &point);
+            steps.push(path.system().steps(&point.state.z));
         }
-        let (contacts, end) = (&path.system().contacts, &path.point().state);
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
-        let status = match stop.unwrap_or(Stop::Reached) {
-            Stop::Reached if contacts.neighbours_interpenetrate(end) => Status::Interpenetration,
-            Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
-            Stop::Reached => Status::Complete,
-            stop => Status::Stopped(stop),
+        let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
+        let measures = Measures::new(&record, &mut path);
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
         };
-        record.finish(&mut path, status)
+        let Record { path, events, history, .. } = record;
+        Flexure { status, measures, path, events, history, gaps: measures.gaps, steps, row }
     }
 }

@@ -14,7 +14,7 @@ const STEEPEST_DEG: f64 = 89.0;
 /// Draws after which a scale that would stand clear of its neighbour is no longer looked for.
 const DRAWS: usize = 100_000;
 
-/// How far gaps and slants of a row scatter.
+/// Scatter of the gaps and slants of a row.
 ///
 /// With independent standard normal numbers `z`, a gap and a slant are
 ///
@@ -47,9 +47,9 @@ pub struct Imperfection {
 pub struct InvalidImperfection {
     /// Which quantity.
     pub quantity: &'static str,
-    /// What was given.
+    /// The value given.
     pub value: f64,
-    /// What would be right.
+    /// The values that are allowed.
     pub expected: &'static str,
 }
 

@@ -25,8 +25,8 @@
 //! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
 //! ```
-//! use skin::puncture::{self, Parameters, Status};
-//! use skin::{Base, Design};
+//! use skin::puncture::{self, Parameters};
+//! use skin::{Base, Design, Status};
 //!
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
 //! let parameters = Parameters::default();
@@ -49,8 +49,12 @@ pub mod flexure;
 mod imperfection;
 mod invalid;
 pub mod puncture;
+mod record;
+mod status;
 
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, InvalidImperfection, Sample};
 pub use invalid::InvalidDesign;
+pub use record::{ContactEvent, Iteration};
+pub use status::Status;

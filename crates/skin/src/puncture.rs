@@ -1,7 +1,7 @@
 //! Puncture of a row of scales on an elastic half-space.
 
 mod measures;
-mod record;
+mod point;
 mod snapshot;
 mod system;
 #[cfg(test)]
@@ -10,6 +10,7 @@ mod window;
 
 use contact::{ContactLaw, Law};
 use geometry::Row;
+use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
@@ -17,17 +18,17 @@ use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
-use crate::{Design, InvalidDesign, Sample};
+use crate::record::{ContactEvent, Iteration, Record};
+use crate::{Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
-use record::Record;
-pub use record::{Event, Iteration, PathPoint, ScaleState};
+pub use point::{PathPoint, ScaleState};
 pub use snapshot::{At, Snapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
 
-/// How many scales stand in the row.
+/// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
     /// As many as the deformation needs: on the whole path no end scale touches its neighbour
@@ -37,7 +38,7 @@ pub enum RowLength {
     Scales(usize),
 }
 
-/// What a puncture depends on besides the design and its substrate.
+/// Parameters of a puncture besides the design and its substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
     /// Poisson's ratio `ν` of the substrate.
@@ -71,32 +72,17 @@ impl Default for Parameters {
     }
 }
 
-/// How a puncture ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
-    /// The critical tilt was reached, on a row that is long enough, and the audit has no objection.
-    Complete,
-    /// The path stopped before the critical tilt.
-    Stopped(Stop),
-    /// `auto` needs a longer row than it may take.
-    RowLimit,
-    /// Two scales overlap by more than their contact law allows.
-    Interpenetration,
-    /// A contact carries beyond the end of its edge.
-    OffEdge,
-}
-
 /// A solved puncture.
 #[derive(Clone, Debug)]
 pub struct Puncture {
-    /// How it ended.
+    /// How the path ended, and whether its end can be trusted.
     pub status: Status,
-    /// What it measured.
+    /// The measures of the puncture.
     pub measures: Measures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PathPoint>,
     /// Every contact event, in order.
-    pub events: Vec<Event>,
+    pub events: Vec<ContactEvent<PathPoint>>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -117,8 +103,8 @@ pub fn solve(
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), parameters)?.solve()
 }
 
-/// The same for an imperfect row: gaps and slants are those of `sample`. The substrate stays that of the
-/// design.
+/// Follows the puncture of an imperfect row as [`solve`] does: gaps and slants are those of `sample`, the substrate stays
+/// that of the design.
 ///
 /// # Errors
 /// As [`solve`], or if the scales cannot be made to stand clear of each other.
@@ -131,7 +117,7 @@ pub fn solve_sample(
     Problem::new(Rows::Sample(sample), design, substrate.into(), parameters)?.solve()
 }
 
-/// Where rows of any length come from.
+/// Source of rows of any length.
 #[derive(Clone, Copy)]
 enum Rows<'a> {
     Even(Row),
@@ -151,11 +137,11 @@ impl Rows<'_> {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{quantity} is {value}, expected {expected}")]
 pub struct InvalidPuncture {
-    /// Which quantity.
+    /// Name of the quantity.
     pub quantity: &'static str,
-    /// What was given.
+    /// The value given.
     pub value: f64,
-    /// What would be right.
+    /// The values that are allowed.
     pub expected: &'static str,
 }
 
@@ -219,25 +205,11 @@ impl<'a> Problem<'a> {
         self.follow(self.part(Layout::first(&self.stiffness))?, longest)
     }
 
-    /// A row that ends.
-    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
-        let tilt = self.parameters.critical_tilt_deg.to_radians();
-        let position = self.parameters.load_position;
-        let row = self.rows.row(layout)?;
-        Ok(Chain::new(row, &self.stiffness, self.law, layout, position, tilt))
-    }
-
-    /// A part of an endless row.
-    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
-        let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
-        Ok(self.chain(layout)?.within(surroundings))
-    }
-
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.parameters.solver);
-        let mut record = Record::new(&mut path, self.design.length);
+        let mut record = Record::new(&path);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -253,15 +225,18 @@ impl<'a> Problem<'a> {
                 has_room = self.lengthen(&mut path, &mut record, from, reach, longest)?;
             }
         }
-        let status = if has_room { status(&path) } else { Status::RowLimit };
-        Ok(record.finish(&mut path, status, self.parameters.poisson_ratio))
+        let status = match has_room {
+            true => Status::of(&path, path.stop().unwrap_or(Stop::Reached)),
+            false => Status::RowLimit,
+        };
+        Ok(self.puncture(record, &mut path, status))
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
     fn lengthen(
         &self,
         path: &mut Path<Chain>,
-        record: &mut Record,
+        record: &mut Record<Chain>,
         from: &Point,
         reach: [Reach; 2],
         longest: usize,
@@ -273,19 +248,35 @@ impl<'a> Problem<'a> {
         }
         let chain = self.part(longer)?;
         let from = chain.extended(path.system(), from);
-        record.extend(|point| chain.extended(path.system(), point), &from);
+        record.replace_points(|point| chain.extended(path.system(), point), &from);
         path.go_on(chain, from);
         Ok(true)
     }
-}
 
-/// How a path has ended, from why it stopped and from the audit.
-fn status(path: &Path<Chain>) -> Status {
-    let (contacts, end) = (&path.system().contacts, &path.point().state);
-    match path.stop().unwrap_or(Stop::Reached) {
-        Stop::Reached if contacts.interpenetrate(end) => Status::Interpenetration,
-        Stop::Reached if contacts.off_edge(end) => Status::OffEdge,
-        Stop::Reached => Status::Complete,
-        stop => Status::Stopped(stop),
+    /// The system of a part of an endless row.
+    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
+        Ok(self.chain(layout)?.within(surroundings))
+    }
+
+    /// The system of a row that ends.
+    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let Self { stiffness, law, parameters, .. } = self;
+        let row = self.rows.row(layout)?;
+        let tilt = parameters.critical_tilt_deg.to_radians();
+        let length = self.design.length;
+        Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
+    }
+
+    fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
+        let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
+        let measures = Measures::new(&record, path, modulus);
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let scales = scales(path.system(), &path.point().state);
+        let Record { path, events, history, .. } = record;
+        Puncture { status, measures, path, events, scales, history }
     }
 }

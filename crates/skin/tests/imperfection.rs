@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use contact::Law;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, RowLength};
-use skin::{Base, ContactChange, Design, Imperfection, Sample};
+use skin::{Base, ContactChange, Design, Imperfection, Sample, Status};
 use solver::Settings;
 use substrate::calibrate;
 
@@ -30,7 +30,7 @@ fn sample(gap_cv: f64, slant_sd_deg: f64, seed: u64, number: u64) -> Sample {
 
 fn bent(sample: &Sample) -> Flexure {
     let flexure = flexure::solve_sample(&STEEP, &strip(), sample).unwrap();
-    assert_eq!(flexure.status, flexure::Status::Complete);
+    assert_eq!(flexure.status, Status::Complete);
     flexure
 }
 

@@ -1,4 +1,4 @@
-//! Events on the path: constraints that change sides, and extrema of the load.
+//! Events on the path: where they are.
 
 use crate::newton::{FLOOR, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
@@ -18,23 +18,23 @@ const TOGETHER: f64 = 1e-10;
 const CLOSE: f64 = 1e-9;
 const MAX_ROUNDS: usize = 100;
 
-/// What happens at a point of the path.
+/// An event at a point of the path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Event {
     /// Constraints change sides: several where symmetry makes them do so together.
     Changed(Vec<Change>),
     /// The load has a maximum or a minimum.
     LoadExtremum,
-    /// The driving coordinate has reached its target.
+    /// The control parameter has reached its target.
     Target,
 }
 
 /// A constraint that changes sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// Its number.
+    /// Number of the constraint.
     pub constraint: usize,
-    /// Whether it becomes active.
+    /// Whether the constraint becomes active; else it becomes inactive.
     pub activated: bool,
 }
 

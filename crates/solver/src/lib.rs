@@ -2,19 +2,21 @@
 //!
 //! `n − 1` equations in `n` unknowns, one of them the load, have a curve of solutions. Some equations are
 //! switched on and off by conditions `0 ≤ z_c ⟂ r_c(z) ≥ 0`, so that the curve has kinks. This crate
-//! follows it from a first equilibrium to the place where a chosen coordinate, the driver, reaches a target: past
-//! load maxima, past points where the driver itself turns, from kink to kink. It knows no mechanics.
+//! follows it from a first equilibrium to the place where a chosen coordinate, the control parameter, reaches a target: past
+//! load maxima, past points where the control parameter itself turns, from kink to kink. It knows no mechanics.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`System`] | the problem: equations, tangent, constraints, and what drives it |
-//! | [`State`], [`Residual`], [`Control`] | unknowns with the active set; values and sizes of the equations; a driver |
+//! | [`System`] | the problem: equations, tangent, constraints, control parameter; it never changes |
+//! | [`State`] | unknowns, active set, and the mode: which of several forms the equations have |
+//! | [`Residual`], [`Control`] | values and sizes of the equations; a coordinate that measures the path |
 //! | [`Path`], [`Point`] | an iterator over the equilibria; one of them, with its directions |
 //! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`] | the largest value of a quantity along the path, between its points too |
-//! | [`Newton`], [`Condition`], [`ActiveSet`] | one equilibrium, the semismooth Newton method |
+//! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`BandMatrix`], [`BandLu`] | linear solves |
+//! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
 //! use solver::{Control, Path, Residual, Settings, State, Stop, System, Tangent};
@@ -43,7 +45,7 @@
 //!     }
 //! }
 //!
-//! // Driven by u, to u = 1: the load rises to 2/√27 at u = 1/√3, and falls to zero.
+//! // The control parameter is u, from 0 to 1: the load rises to 2/√27 at u = 1/√3, and falls to zero.
 //! let system = SnapThrough([Control { index: 0, scale: 1.0 }]);
 //! let rest = State::at_rest(&system);
 //! let mut path = Path::new(system, rest, Settings::default());

@@ -88,7 +88,7 @@ impl BandMatrix {
         2 * self.half + 1
     }
 
-    /// Where a column stands in a row.
+    /// Place of a column in the stored part of a row.
     fn place(&self, row: usize, column: usize) -> usize {
         assert!(
             row.abs_diff(column) <= self.half && column < self.size,
@@ -140,7 +140,7 @@ pub struct BandLu {
     pivots: Vec<usize>,
     /// One over the diagonal of the upper factor.
     inverses: Vec<f64>,
-    /// What each row was multiplied by.
+    /// Factor by which each row was scaled.
     scales: Vec<f64>,
     /// Storage for the right-hand side and the solution among the unknowns that are kept.
     packed: Vec<f64>,
@@ -341,7 +341,7 @@ impl BandLu {
         }
     }
 
-    /// Where the diagonal entry of a row stands.
+    /// Index of the diagonal entry of a row in `upper`.
     fn diagonal(&self, row: usize) -> usize {
         row * (3 * self.half + 1) + self.half
     }

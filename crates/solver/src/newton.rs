@@ -1,11 +1,11 @@
-//! Newton's method for one point of the path.
+//! Newton's method for one equilibrium.
 
 use crate::linear::SingularMatrix;
 use crate::step::Settings;
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent_solver::TangentSolver;
 
-/// A guard below minus this is violated; what is smaller is round-off.
+/// A guard (N5) below minus this is violated; what is smaller is round-off.
 pub(crate) const FLOOR: f64 = 1e-12;
 
 /// Part of the path over which the slopes of guards are differences.
@@ -28,7 +28,7 @@ impl Condition {
         Self { value: condition.of(z), ..condition }
     }
 
-    /// The left-hand side.
+    /// The left-hand side at `z`.
     pub fn of(&self, z: &[f64]) -> f64 {
         self.row.iter().map(|&(index, coefficient)| coefficient * z[index]).sum()
     }
@@ -153,13 +153,13 @@ impl Newton {
         }
     }
 
-    /// How far each constraint is from changing sides: `z_c` if active, `r_c` if not.
+    /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.
     pub fn guards<S: System>(&mut self, system: &S, state: &State<S::Mode>) -> Vec<f64> {
         system.residual(state, &mut self.residual);
         (0..state.active.len()).map(|c| self.guard(system, state, c)).collect()
     }
 
-    /// How fast the guards change along a direction: exactly where active, elsewhere by differences.
+    /// Derivatives of the guards along a direction: exact for active constraints, differences for the others.
     pub(crate) fn guard_slopes<S: System>(
         &mut self,
         system: &S,

@@ -8,15 +8,16 @@ use crate::step::Settings;
 use crate::stop::Stop;
 use crate::system::{Control, State, System};
 
-/// The driving coordinate prescribes the next point while it makes up at least this part of the
-/// direction of the path; where it does not, because it turns, the arc length does.
+/// The control parameter prescribes the next point while it makes up at least this part of the
+/// direction of the path; where it makes up less, because it is about to turn, the arc length does: a step of the control
+/// parameter would there be more than twenty times as long along the path.
 const DRIVES: f64 = 0.05;
 
-/// Cosine of the largest angle by which the path may turn within a step. Where it seems to turn by more,
+/// Cosine of the largest angle (45°) by which the path may turn within a step. Where it seems to turn by more,
 /// Newton's method has come to a part of the path further on, beyond a fold, or the step is too long.
 const STRAIGHT: f64 = 0.7;
 
-/// Below this distance the angle of a step is round-off.
+/// Below this distance, in scales of the controls, the angle of a step is round-off.
 const SHORT: f64 = 1e-9;
 
 /// An equilibrium of the path.
@@ -26,13 +27,13 @@ pub struct Point<M = ()> {
     pub state: State<M>,
     /// Direction in which the path arrives, of unit length in the controls.
     pub arriving: Vec<f64>,
-    /// Direction in which it goes on; another one where a constraint changes sides.
+    /// Direction in which the path goes on; another one than that of arrival where a constraint changes sides.
     pub leaving: Vec<f64>,
-    /// What happens here.
+    /// The event at this point, if there is one.
     pub event: Option<Event>,
 }
 
-/// The path of equilibria of a system, from a first one until the driving coordinate reaches its
+/// The path of equilibria of a system, from a first one until the control parameter reaches its
 /// target, one scale.
 ///
 /// Between events the active set is held and the equations are smooth: a predictor along the
@@ -42,11 +43,11 @@ pub struct Point<M = ()> {
 /// r(z) = 0,    c·(z − z₀) = s,    z ≈ z₀ + s ż₀/(c·ż₀)                                (N4)
 /// ```
 ///
-/// where `c` measures the driving coordinate alone, or the arc length in the controls where the driver is
+/// where `c` measures the control parameter alone, or the arc length in the controls where the control parameter is
 /// about to turn (Keller 1977; Rheinboldt 1986, isbn 978-0-471-86282-6; Allgower & Georg 2003, doi
 /// 10.1137/1.9780898719154). Where a constraint would change sides within the step, the event itself is
 /// solved for, the constraint changes sides there, and the path goes on in the direction in which the
-/// constraint stays valid. So no step straddles a kink, and a turning path (in the driver, in the load, or
+/// constraint stays valid. So no step straddles a kink, and a turning path (in the control parameter, in the load, or
 /// at an event) is followed round.
 ///
 /// The iterator ends where the path does; [`Path::stop`] then tells why.
@@ -56,7 +57,7 @@ pub struct Path<S: System> {
     pub(crate) settings: Settings,
     pub(crate) newton: Newton,
     pub(crate) point: Arc<Point<S::Mode>>,
-    /// Guards at `point`, with its active set, and how fast they change as the path leaves.
+    /// The guards (N5) at `point`, with its active set, and how fast they change as the path leaves.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
     step: f64,
@@ -72,7 +73,7 @@ pub(crate) struct Candidate<M> {
 }
 
 impl<S: System> Path<S> {
-    /// A path from the equilibrium `start` in the direction of its driver.
+    /// A path from the equilibrium `start` in the direction in which the control parameter grows.
     pub fn new(system: S, start: State<S::Mode>, settings: Settings) -> Self {
         let nowhere = vec![0.0; system.size()];
         let point =
@@ -144,7 +145,7 @@ impl<S: System> Path<S> {
         self.between_from(from, to, fraction, from)
     }
 
-    /// The same, reached from `near`, a point between the two.
+    /// The equilibrium of [`Path::between`], reached from `near`, a point between the two.
     pub(crate) fn between_from(
         &mut self,
         from: &Point<S::Mode>,
@@ -164,8 +165,8 @@ impl<S: System> Path<S> {
     }
 
     fn start(&mut self, mut point: Point<S::Mode>) {
-        let driver = self.driver();
-        let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 0.0 };
+        let control = self.control_parameter();
+        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 0.0 };
         match self.newton.tangent(&self.system, &point.state, &condition) {
             Ok(direction) => {
                 point.leaving = self.normalised(direction);
@@ -184,13 +185,13 @@ impl<S: System> Path<S> {
         self.point = Arc::new(point);
     }
 
-    fn driver(&self) -> Control {
+    fn control_parameter(&self) -> Control {
         self.system.controls()[0]
     }
 
-    /// The driving coordinate over its scale: 1 at the target.
+    /// The control parameter over its scale: 1 at the target.
     pub(crate) fn progress(&self, z: &[f64]) -> f64 {
-        z[self.driver().index] / self.driver().scale
+        z[self.control_parameter().index] / self.control_parameter().scale
     }
 
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
@@ -203,12 +204,12 @@ impl<S: System> Path<S> {
         direction
     }
 
-    /// How distance from `point` is measured; it increases along the path.
+    /// The measure of distance from `point`, which increases along the path.
     pub(crate) fn condition(&self, point: &Point<S::Mode>) -> Condition {
-        let driver = self.driver();
+        let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
         let row = if drive.abs() >= DRIVES {
-            vec![(driver.index, drive.signum() / driver.scale)]
+            vec![(control.index, drive.signum() / control.scale)]
         } else {
             let controls = self.system.controls();
             controls.iter().map(|c| (c.index, point.leaving[c.index] / c.scale.powi(2))).collect()
@@ -332,7 +333,7 @@ impl<S: System> Path<S> {
         self.first_event(from, candidate)
     }
 
-    /// The point between two where the driver is at its target.
+    /// The point between two where the control parameter is at its target.
     fn target(
         &mut self,
         from: &Point<S::Mode>,
@@ -340,8 +341,8 @@ impl<S: System> Path<S> {
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
         let state = from.state.interpolated(&beyond.state, (1.0 - start) / (end - start));
-        let driver = self.driver();
-        let condition = Condition { row: vec![(driver.index, 1.0 / driver.scale)], value: 1.0 };
+        let control = self.control_parameter();
+        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 1.0 };
         self.correct(state, &condition)
     }
 

@@ -1,9 +1,9 @@
 //! Step sizes and tolerances.
 
-/// How finely a path is followed, and when a point of it counts as an equilibrium.
+/// Step sizes of a path, and the tolerance with which a point of it counts as an equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// First step, as a fraction of the whole path (of the target of the driving coordinate).
+    /// First step, as a fraction of the whole path (of the target of the control parameter).
     pub first_step: f64,
     /// Largest step, as a fraction of the whole path.
     pub max_step: f64,

@@ -1,13 +1,13 @@
-//! Why a path ended.
+//! The reasons why a path ends.
 
 use std::fmt;
 
 use crate::newton::NewtonFailure;
 
-/// Why a path ended.
+/// The reason why a path ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The driving coordinate reached its target.
+    /// The control parameter reached its target.
     Reached,
     /// Newton's iteration did not converge at the smallest step.
     NoConvergence,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use skin::{flexure, puncture};
+use skin::Status;
 use solver::Stop;
 
 /// How the measurement of a design ended: complete, or the reason why it has no values.
@@ -91,25 +91,14 @@ impl fmt::Display for Outcome {
     }
 }
 
-impl From<puncture::Status> for Outcome {
-    fn from(status: puncture::Status) -> Self {
+impl From<Status> for Outcome {
+    fn from(status: Status) -> Self {
         match status {
-            puncture::Status::Complete => Self::Complete,
-            puncture::Status::RowLimit => Self::RowLimit,
-            puncture::Status::Interpenetration => Self::Interpenetration,
-            puncture::Status::OffEdge => Self::OffEdge,
-            puncture::Status::Stopped(stop) => stop.into(),
-        }
-    }
-}
-
-impl From<flexure::Status> for Outcome {
-    fn from(status: flexure::Status) -> Self {
-        match status {
-            flexure::Status::Complete => Self::Complete,
-            flexure::Status::Interpenetration => Self::Interpenetration,
-            flexure::Status::OffEdge => Self::OffEdge,
-            flexure::Status::Stopped(stop) => stop.into(),
+            Status::Complete => Self::Complete,
+            Status::RowLimit => Self::RowLimit,
+            Status::Interpenetration => Self::Interpenetration,
+            Status::OffEdge => Self::OffEdge,
+            Status::Stopped(stop) => stop.into(),
         }
     }
 }

@@ -145,7 +145,7 @@ fn numbers(measures: &Measures) -> [Option<f64>; 9] {
 
 #[cfg(test)]
 mod tests {
-    use skin::puncture::Status;
+    use skin::Status;
 
     use super::*;
 

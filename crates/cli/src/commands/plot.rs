@@ -4,6 +4,7 @@ use std::path::Path;
 
 use anyhow::bail;
 use report::{Solved, curves, figures};
+use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
 use sweep::{Case, DesignNumber, Sweep};
@@ -70,9 +71,9 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
         write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
     }
     print(&files.report(&folder))?;
-    let failed = solved.iter().any(|(puncture, flexure)| {
-        puncture.status != puncture::Status::Complete || flexure.status != flexure::Status::Complete
-    });
+    let failed = solved
+        .iter()
+        .any(|(puncture, flexure)| [puncture.status, flexure.status] != [Status::Complete; 2]);
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 

@@ -2,7 +2,7 @@
 
 use geometry::Parallelogram;
 
-use super::under_the_base;
+use super::tips::under_the_base;
 use crate::corner_contact::CornerContact::{Corner, Edge, Flush, Open};
 use crate::corner_contact::{CornerContact, Force, Transition};
 use crate::corners::{Corners, Level};

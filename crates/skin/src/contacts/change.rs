@@ -1,10 +1,10 @@
-//! What happens to a contact at an event.
+//! Changes of contacts at events.
 
 use contact::{FORCES, Force};
 
 use super::State;
 
-/// What happens to a contact at an event.
+/// A change of a contact at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContactChange {
     /// The contact closes.
@@ -32,7 +32,7 @@ impl ContactChange {
         }
     }
 
-    /// What has happened where a force has changed sides, from the state after the event.
+    /// The change of a contact of which a force has changed sides, from the state after the event.
     pub(crate) fn of(state: &State, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
         match (Force::ALL[change.constraint % FORCES], change.activated) {

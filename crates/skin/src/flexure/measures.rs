@@ -1,5 +1,11 @@
 //! The numbers that bending comes down to.
 
+use solver::Path;
+
+use super::PathPoint;
+use super::strip::Strip;
+use crate::record::Record;
+
 /// The measures of bending; `None` where the value does not exist.
 ///
 /// The moment is `M* = M t/(E_m I_m)`, the curvature `κ* = κ t` with `κ` the rotation of one end
@@ -23,7 +29,24 @@ pub struct Measures {
 }
 
 impl Measures {
-    /// What remains true of a path that did not end as it should: how it began.
+    /// The measures of a path that came to its end.
+    pub(crate) fn new(record: &Record<Strip>, path: &mut Path<Strip>) -> Self {
+        let stiffest = record.largest_stiffness(path);
+        let strip = path.system();
+        let first = record.first_contact();
+        let share = record.path.last().map(axial_energy_share);
+        Self {
+            compliance: stiffest.map(|stiffness| strip.normalised_stiffness(stiffness).recip()),
+            initial_compliance: record.path.first().map(|start| start.stiffness.recip()),
+            contact: Some(first.is_some()),
+            first_contact_curvature: first.map(|point| point.curvature),
+            max_moment: record.path.iter().map(|point| point.moment).reduce(f64::max),
+            axial_energy_share: share.filter(|share| share.is_finite()),
+            gaps: strip.gaps() * strip.repeats(),
+        }
+    }
+
+    /// The measures of the beginning of a path, for one that did not end as it should.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             initial_compliance: self.initial_compliance,
@@ -33,4 +56,9 @@ impl Measures {
             ..Self::default()
         }
     }
+}
+
+/// Part of the axial energy in the elastic energy; not a number at rest.
+fn axial_energy_share(point: &PathPoint) -> f64 {
+    point.axial_energy / (point.bending_energy + point.axial_energy + point.contact_energy)
 }

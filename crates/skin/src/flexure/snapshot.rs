@@ -4,10 +4,11 @@ use solver::Path;
 
 use super::frame::Frame;
 use super::strip::Strip;
-use super::{Parameters, SetUp};
+use super::{Parameters, Problem};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
+use crate::record::Skin;
 use crate::{Design, InvalidDesign};
 
 /// Points of the membrane's axis that are kept of each element.
@@ -42,52 +43,41 @@ pub fn snapshots(
     parameters: &Parameters,
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let SetUp { row, strip, gaps, bending_stiffness } = SetUp::even(design, parameters)?;
-    let look = Look { row, repeats: gaps / strip.gaps(), bending_stiffness };
+    let Problem { row, strip } = Problem::even(design, parameters)?;
     let crossing = |&degrees: &f64| Crossing {
         quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
-        value: 2.0 * degrees.to_radians() / look.repeats as f64,
+        value: 2.0 * degrees.to_radians() / strip.repeats() as f64,
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, parameters.solver);
     let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<State>| Some(look.at(path.system(), &state?));
+    let snapshot = |state: Option<State>| Some(snapshot(&row, path.system(), &state?));
     Ok(states.into_iter().map(snapshot).collect())
 }
 
-/// What turns a state of the solved gaps into a snapshot of the whole strip.
-struct Look {
-    row: Arrangement,
-    /// Gaps of the strip for each gap that is solved for.
-    repeats: usize,
-    bending_stiffness: f64,
-}
-
-impl Look {
-    fn at(&self, strip: &Strip, state: &State) -> Snapshot {
-        let (solved, gaps) = (strip.gaps(), strip.gaps() * self.repeats);
-        let rotation = strip.rotation(&state.z);
-        let frames = Frame::strip(&strip.steps(&state.z), gaps, &self.row);
-        let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, &self.row);
-        let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
-        let axis = |(i, frame): (usize, &Frame)| {
-            axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
-        };
-        let contacts = strip.contacts.closed_contacts(state);
-        let copies = (0..self.repeats).flat_map(|copy| {
-            let left = move |contact: &Contact| copy * solved + contact.left;
-            contacts.iter().map(move |contact| (left(contact), contact))
-        });
-        let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
-        Snapshot {
-            curvature: rotation / (solved as f64 * self.row.mean_pitch()),
-            moment: strip.moment(&state.z) / self.bending_stiffness,
-            end_rotation_deg: 0.5 * (rotation * self.repeats as f64).to_degrees(),
-            scales: frames.iter().enumerate().map(displacement).collect(),
-            membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
-            contacts: copies.map(placed).collect(),
-        }
+/// The whole strip, from a state of the gaps that are solved for.
+fn snapshot(row: &Arrangement, strip: &Strip, state: &State) -> Snapshot {
+    let (solved, gaps) = (strip.gaps(), strip.gaps() * strip.repeats());
+    let frames = Frame::strip(&strip.steps(&state.z), gaps, row);
+    let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, row);
+    let axes: Vec<_> = (0..solved).map(|gap| strip.axis(&state.z, gap, INTERVALS)).collect();
+    let axis = |(i, frame): (usize, &Frame)| {
+        axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
+    };
+    let contacts = strip.contacts.closed_contacts(state);
+    let copies = (0..strip.repeats()).flat_map(|copy| {
+        let left = move |contact: &Contact| copy * solved + contact.left;
+        contacts.iter().map(move |contact| (left(contact), contact))
+    });
+    let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
+    Snapshot {
+        curvature: strip.curvature(&state.z),
+        moment: strip.normalised_moment(&state.z),
+        end_rotation_deg: strip.angle_deg(state),
+        scales: frames.iter().enumerate().map(displacement).collect(),
+        membrane: frames[..gaps].iter().enumerate().map(axis).collect(),
+        contacts: copies.map(placed).collect(),
     }
 }
 

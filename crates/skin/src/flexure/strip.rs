@@ -2,7 +2,7 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
-use membrane::{Ends, GapMembrane, Response};
+use membrane::{Ends, GapMembrane, Response, Section};
 use nalgebra::DVector;
 use solver::{Blocks, Change, Control, Residual, System, Tangent};
 
@@ -10,7 +10,7 @@ use super::frame::Step;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, Part, State};
 
-/// Where the unknowns of a strip of `n` gaps of `m` elements stand. The first scale is held.
+/// The order of the unknowns of a strip of `n` gaps of `m` elements. The first scale is held.
 ///
 /// ```text
 /// λ λ' λ" λ λ' λ" · node 1 … node m−1 · x y φ | … | λ λ' λ" λ λ' λ" · nodes · x y φ · M
@@ -67,6 +67,24 @@ impl Layout {
     }
 }
 
+/// The part of a strip that is solved for, and the rotation to which it is bent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extent {
+    /// Gaps that are solved for.
+    pub(crate) gaps: usize,
+    /// Gaps of the whole strip for each gap that is solved for.
+    pub(crate) repeats: usize,
+    /// Rotation (radians) of the ends of what is solved for against each other at which the bending ends.
+    pub(crate) rotation: f64,
+}
+
+/// Elastic energy of a membrane, over `E_m t³`.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct MembraneEnergy {
+    pub(crate) bending: f64,
+    pub(crate) axial: f64,
+}
+
 /// A strip of gaps in pure bending, the first scale held, a moment on the last.
 ///
 /// One gap is the unit cell: every cut of a strip in pure bending carries the same moment and no
@@ -78,21 +96,25 @@ pub(crate) struct Strip {
     /// The membrane of each gap, or one for all where they are alike.
     membranes: Vec<GapMembrane>,
     pub(crate) contacts: Contacts,
+    /// Gaps of the whole strip for each gap that is solved for.
+    repeats: usize,
+    /// Mean pitch `p` of the scales.
+    pitch: f64,
+    /// `E_m I_m`, over `E_m t⁴`.
+    bending_stiffness: f64,
     controls: [Control; 3],
     blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
 impl Strip {
-    /// A strip of `gaps` gaps, to be bent until its ends have turned by `rotation` (radians) against each other.
-    /// `membranes` are those of the gaps, all of equally many elements, or one for all.
+    /// A strip of a membrane of this `section`, of the given extent. `membranes` are those of the gaps, all of equally many elements, or one for all.
     pub(crate) fn new(
         row: Arrangement,
         membranes: Vec<GapMembrane>,
         law: ContactLaw,
-        gaps: usize,
-        rotation: f64,
-        stiffness: [f64; 2],
+        section: Section,
+        Extent { gaps, repeats, rotation }: Extent,
     ) -> Self {
         let layout = Layout { gaps, elements: membranes[0].elements() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
@@ -101,7 +123,8 @@ impl Strip {
         for gap in 0..gaps {
             // Forces of an element: a finer mesh is stiffer, and rounds off as much more.
             let element = row.gap(gap) / layout.elements as f64;
-            let [axial, bending] = stiffness.map(|stiffness| stiffness / element);
+            let axial = section.axial_stiffness() / element;
+            let bending = section.bending_stiffness() / element;
             for node in (1..=layout.elements).filter_map(|node| layout.node(gap, node)) {
                 units[node..node + 3].copy_from_slice(&[axial, axial, bending]);
             }
@@ -112,6 +135,9 @@ impl Strip {
         Self {
             layout,
             membranes,
+            repeats,
+            pitch: row.mean_pitch(),
+            bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::relative(row, law, scales, forces),
             blocks: layout.blocks(),
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
@@ -134,9 +160,24 @@ impl Strip {
         z[self.layout.moment()]
     }
 
-    /// `dM/dΦ` along a direction of the path.
-    pub(crate) fn stiffness(&self, direction: &[f64]) -> f64 {
-        direction[self.layout.moment()] / direction[self.controls[0].index]
+    /// Gaps of the whole strip for each gap that is solved for.
+    pub(crate) fn repeats(&self) -> usize {
+        self.repeats
+    }
+
+    /// `κ*`, from the rotation and the length of the gaps that are solved for.
+    pub(crate) fn curvature(&self, z: &[f64]) -> f64 {
+        self.rotation(z) / (self.layout.gaps as f64 * self.pitch)
+    }
+
+    /// `M*`.
+    pub(crate) fn normalised_moment(&self, z: &[f64]) -> f64 {
+        self.moment(z) / self.bending_stiffness
+    }
+
+    /// `dM*/dκ*` from `dM/dΦ` of the gaps that are solved for: `M* = M/(E_m I_m)` and `κ* = Φ/(n p)`, in units of `t`.
+    pub(crate) fn normalised_stiffness(&self, stiffness: f64) -> f64 {
+        stiffness * self.layout.gaps as f64 * self.pitch / self.bending_stiffness
     }
 
     /// Displacement and rotation of the right scale of each gap, seen from the left one.
@@ -145,15 +186,15 @@ impl Strip {
         poses.map(|pose| [pose.displacement.x, pose.displacement.y, pose.rotation]).collect()
     }
 
-    /// Bending and axial energy of the membrane and energy of the contacts, over `E_m t³`.
-    pub(crate) fn energies(&self, state: &State) -> [f64; 3] {
-        let mut energies = [0.0, 0.0, self.contacts.energy(state)];
+    /// Energy of the membrane of the gaps that are solved for.
+    pub(crate) fn membrane_energy(&self, state: &State) -> MembraneEnergy {
+        let mut energy = MembraneEnergy::default();
         for (gap, element) in self.all_elements() {
             let response = self.response(&state.z, gap, element);
-            energies[0] += response.bending_energy;
-            energies[1] += response.axial_energy;
+            energy.bending += response.bending_energy;
+            energy.axial += response.axial_energy;
         }
-        energies
+        energy
     }
 
     /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
@@ -192,7 +233,7 @@ impl Strip {
         ends
     }
 
-    /// What the six displacements of an element are made of: unknowns of its nodes and, where it
+    /// The unknowns that the six displacements of an element are made of: those of its nodes and, where it
     /// ends at the right scale, the rotation of the left one.
     fn parts(&self, gap: usize, element: usize) -> [Option<Part>; 7] {
         let layout = self.layout;

@@ -4,7 +4,7 @@ use contact::Law;
 use solver::{Path, Settings};
 
 use super::strip::Strip;
-use super::{Method, Parameters, SetUp};
+use super::{Method, Parameters, Problem};
 use crate::contacts::{Point, State};
 use crate::{Base, Design};
 
@@ -21,7 +21,7 @@ fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
 fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
-    let strip = SetUp::even(design, parameters).unwrap().strip;
+    let strip = Problem::even(design, parameters).unwrap().strip;
     let rest = State::at_rest(&strip);
     let mut path = Path::new(strip, rest, parameters.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
@@ -29,7 +29,9 @@ fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
         let from = path.point().clone();
         let Some(to) = path.next() else { break };
         done += work(&mut path, &from, &to);
-        energies = path.system().energies(&to.state);
+        let strip = path.system();
+        let membrane = strip.membrane_energy(&to.state);
+        energies = [membrane.bending, membrane.axial, strip.contacts.energy(&to.state)];
         off = off.max((done - energies.iter().sum::<f64>()).abs());
     }
     let whole = energies.iter().sum::<f64>();

@@ -5,9 +5,9 @@ use contact::Law;
 use geometry::{Parallelogram, UnevenRow};
 use solver::Settings;
 
-use super::{Flexure, Method, Parameters, SetUp, Status};
+use super::{Flexure, Method, Parameters, Problem};
 use crate::arrangement::Arrangement;
-use crate::{Base, ContactChange, Design};
+use crate::{Base, ContactChange, Design, Status};
 
 const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
 
@@ -33,7 +33,7 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
-    let flexure = SetUp::new(&design(0.0), &parameters(), row, gaps.len(), gaps.len()).unwrap();
+    let flexure = Problem::new(&design(0.0), &parameters(), row, gaps.len(), gaps.len()).unwrap();
     let flexure = flexure.solve(&parameters());
     assert_eq!(flexure.status, Status::Complete);
     flexure
@@ -49,7 +49,7 @@ fn upright_scales_meet_at_one_moment_whatever_their_gaps() {
         flexure.events.iter().filter(|event| event.change == ContactChange::Closed).collect();
     assert_eq!(closed.len(), GAPS.len());
     for event in closed {
-        let (gap, elements) = (GAPS[event.gap.unwrap()], 2.0);
+        let (gap, elements) = (GAPS[event.left_scale.unwrap() as usize], 2.0);
         let moment = 2.0 * elements / gap * (gap / (2.0 * elements)).asin();
         assert_relative_eq!(event.point.moment, moment, max_relative = 1e-9);
         let (free, whole) = (GAPS.iter().sum::<f64>(), GAPS.iter().sum::<f64>() + 6.0);
@@ -81,7 +81,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 #[test]
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
-    let even = SetUp::even(&design(60.0), &parameters()).unwrap().solve(&parameters());
+    let even = Problem::even(&design(60.0), &parameters()).unwrap().solve(&parameters());
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

@@ -1,5 +1,11 @@
 //! The numbers that a puncture comes down to.
 
+use solver::Path;
+
+use super::system::Chain;
+use crate::contacts::Contacts;
+use crate::record::{Record, Skin};
+
 /// The measures of a puncture; `None` where the value does not exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Measures {
@@ -30,7 +36,31 @@ pub struct Measures {
 }
 
 impl Measures {
-    /// What remains true of a path that did not end as it should: how it began.
+    /// The measures of a path that came to its end. `modulus` is `E*/E_s`: stiffness is measured in `E_s t`, the force in
+    /// `E* t²`.
+    pub(crate) fn new(record: &Record<Chain>, path: &mut Path<Chain>, modulus: f64) -> Self {
+        let max_stiffness = record.largest_stiffness(path);
+        let (chain, state) = (path.system(), &path.point().state);
+        let end = chain.path_point(path.point());
+        let scales = 0..chain.layout.scales();
+        let nodes = scales.clone().map(|i| -chain.displacement(&state.z, i)[1]);
+        Self {
+            critical_force: Some(end.force),
+            peak_force: record.path.iter().map(|point| point.force).reduce(f64::max),
+            critical_displacement: Some(end.displacement),
+            penetration: scales.map(|i| chain.base_depth(&state.z, i)).reduce(f64::max),
+            sink: nodes.reduce(f64::max),
+            first_contact_displacement: record.first_contact().map(|point| point.displacement),
+            contacts: Some(end.contacts),
+            engaged_scales: Some(engaged(&Contacts::touching(state).collect::<Vec<_>>())),
+            scales: chain.layout.scales(),
+            initial_stiffness: Some(modulus * record.initial_stiffness()),
+            max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
+            secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
+        }
+    }
+
+    /// The measures of the beginning of a path, for one that did not end as it should.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             first_contact_displacement: self.first_contact_displacement,
@@ -39,4 +69,10 @@ impl Measures {
             ..Self::default()
         }
     }
+}
+
+/// Scales that touch a neighbour, from which pairs are `touching`.
+fn engaged(touching: &[bool]) -> usize {
+    let touches = |pair: Option<usize>| pair.is_some_and(|pair| touching.get(pair) == Some(&true));
+    (0..=touching.len()).filter(|&i| touches(Some(i)) || touches(i.checked_sub(1))).count()
 }

@@ -1,15 +1,16 @@
 //! A row of scales as it stands at chosen places of its path.
 
-use solver::Path;
+use solver::{Path, Settings};
 
 use super::system::{Chain, Layout};
 use super::{
     InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowLength, RowStiffness, Rows,
-    ScaleState, Status,
+    ScaleState, Status, scales,
 };
 use crate::Design;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
+use crate::record::Skin;
 
 /// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
@@ -67,8 +68,14 @@ pub fn snapshots(
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
         puncture = super::solve(design, stiffness, &parameters)?;
     }
-    let chain = chain(design, stiffness, &parameters, &puncture)?;
-    let at = along(chain, design.length, &parameters, at);
+    let rows = Rows::Even(design.row()?);
+    let problem = Problem::new(rows, design, stiffness.clone(), &parameters)?;
+    let layout = layout(&puncture);
+    let chain = match parameters.scales {
+        RowLength::Auto => problem.part(layout),
+        RowLength::Scales(_) => problem.chain(layout),
+    };
+    let at = along(chain?, parameters.solver, at);
     Ok(Snapshots { puncture, at })
 }
 
@@ -85,55 +92,36 @@ fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
     puncture.status == Status::Complete && at.iter().any(beyond)
 }
 
-/// The chain of the row that `puncture` was solved on.
-fn chain(
-    design: &Design,
-    stiffness: &RowStiffness,
-    parameters: &Parameters,
-    puncture: &Puncture,
-) -> Result<Chain, InvalidDesign> {
+/// The row that `puncture` was solved on.
+fn layout(puncture: &Puncture) -> Layout {
     let left = puncture.scales.iter().filter(|state| state.scale < 0).count();
-    let layout = Layout { left, right: puncture.scales.len().saturating_sub(left + 1) };
-    let rows = Rows::Even(design.row()?);
-    let problem = Problem::new(rows, design, stiffness.clone(), parameters)?;
-    match parameters.scales {
-        RowLength::Auto => problem.part(layout),
-        RowLength::Scales(_) => problem.chain(layout),
-    }
+    Layout { left, right: puncture.scales.len().saturating_sub(left + 1) }
 }
 
-fn along(chain: Chain, length: f64, parameters: &Parameters, at: &[At]) -> Vec<Option<Snapshot>> {
+fn along(chain: Chain, settings: Settings, at: &[At]) -> Vec<Option<Snapshot>> {
     let crossing = |&at: &At| {
         let quantity = move |chain: &Chain, state: &State| match at {
             At::Displacement(_) => chain.depth(&state.z),
-            At::Force(_) => force(chain, state, length),
-            At::Tilt(_) => tilt_deg(chain, state),
+            At::Force(_) => chain.force(state),
+            At::Tilt(_) => chain.angle_deg(state),
         };
         let (At::Displacement(value) | At::Force(value) | At::Tilt(value)) = at;
         Crossing { quantity, value }
     };
     let crossings: Vec<_> = at.iter().map(crossing).collect();
     let rest = State::at_rest(&chain);
-    let mut path = Path::new(chain, rest, parameters.solver);
+    let mut path = Path::new(chain, rest, settings);
     let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<State>| Some(snapshot(path.system(), &state?, length));
+    let snapshot = |state: Option<State>| Some(snapshot(path.system(), &state?));
     states.into_iter().map(snapshot).collect()
 }
 
-fn force(chain: &Chain, state: &State, length: f64) -> f64 {
-    state.z[chain.layout.load()] / length
-}
-
-fn tilt_deg(chain: &Chain, state: &State) -> f64 {
-    -chain.displacement(&state.z, chain.layout.left)[2].to_degrees()
-}
-
-fn snapshot(chain: &Chain, state: &State, length: f64) -> Snapshot {
+fn snapshot(chain: &Chain, state: &State) -> Snapshot {
     Snapshot {
         displacement: chain.depth(&state.z),
-        force: force(chain, state, length),
-        tilt_deg: tilt_deg(chain, state),
-        scales: super::record::scales(chain, state),
+        force: chain.force(state),
+        tilt_deg: chain.angle_deg(state),
+        scales: scales(chain, state),
         contacts: chain.contacts.closed_contacts(state),
     }
 }

@@ -12,7 +12,7 @@ use crate::contacts::{Contacts, PAIR_FORCES, State};
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
 
-/// Where scales and contacts stand among the unknowns.
+/// The order of the unknowns: scales, contact forces, load.
 ///
 /// ```text
 /// x y φ · λ λ' λ" λ λ' λ" | … | x y φ · F · λ λ' λ" λ λ' λ" | … | x y φ
@@ -79,6 +79,8 @@ impl Layout {
 pub(crate) struct Chain {
     pub(crate) layout: Layout,
     pub(crate) contacts: Contacts,
+    /// `L/t`.
+    pub(crate) length: f64,
     half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     direct: [f64; 3],
@@ -103,6 +105,7 @@ impl Chain {
         layout: Layout,
         load_position: f64,
         critical_tilt: f64,
+        length: f64,
     ) -> Self {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
@@ -125,6 +128,7 @@ impl Chain {
         Self {
             layout,
             contacts: Contacts::new(arrangement, law, scales, forces),
+            length,
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
@@ -238,15 +242,18 @@ impl Chain {
         }
     }
 
-    /// Elastic energy of the springs and of the contacts, over `E* t³`.
-    pub(crate) fn energies(&self, state: &State) -> (f64, f64) {
-        let springs = (0..self.layout.scales())
-            .map(|i| {
-                let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
-                -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
-            })
-            .sum();
-        (springs, self.contacts.energy(state))
+    /// `F*`.
+    pub(crate) fn force(&self, state: &State) -> f64 {
+        state.z[self.layout.load()] / self.length
+    }
+
+    /// Elastic energy of the springs, over `E* t³`.
+    pub(crate) fn substrate_energy(&self, state: &State) -> f64 {
+        let springs = (0..self.layout.scales()).map(|i| {
+            let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
+            -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
+        });
+        springs.sum()
     }
 
     fn add_springs(&self, z: &[f64], residual: &mut Residual) {

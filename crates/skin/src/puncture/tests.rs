@@ -9,10 +9,10 @@ use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
 use super::window::Reach;
-use super::{Parameters, Problem, Rows, Status};
+use super::{Parameters, Problem, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
-use crate::{Base, Design};
+use crate::{Base, Design, Status};
 
 /// A steep row in which contacts open, close, slide to corners and change their parts.
 const LIVELY: Design =
@@ -62,7 +62,8 @@ fn path_on(
     let layout = Layout { left: 10, right: 10 };
     let tilt = 10.0_f64.to_radians();
     let row = design.row().unwrap();
-    let chain = Chain::new(Arrangement::Even(row), stiffness, law, layout, load_position, tilt);
+    let row = Arrangement::Even(row);
+    let chain = Chain::new(row, stiffness, law, layout, load_position, tilt, design.length);
     let rest = State::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
 }
@@ -175,7 +176,9 @@ fn balance(path: Path<Chain>) -> Balance {
     let mut balance = Balance::default();
     for_segments(path, |path, from, to| {
         balance.work += work(path, from, to);
-        (balance.springs, balance.contacts) = path.system().energies(&to.state);
+        let chain = path.system();
+        balance.springs = chain.substrate_energy(&to.state);
+        balance.contacts = chain.contacts.energy(&to.state);
         let off = (balance.work - balance.springs - balance.contacts).abs();
         balance.off = balance.off.max(off);
     });

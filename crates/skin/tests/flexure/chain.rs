@@ -4,7 +4,8 @@ use approx::assert_relative_eq;
 use contact::Law;
 use rayon::prelude::*;
 use skin::Design;
-use skin::flexure::{Method, Parameters, Snapshot, Status, snapshots, solve};
+use skin::Status;
+use skin::flexure::{Method, Parameters, Snapshot, snapshots, solve};
 
 use crate::samples::forty;
 

@@ -3,7 +3,8 @@
 use contact::Law;
 use rayon::prelude::*;
 use skin::Base;
-use skin::flexure::{Parameters, Status, solve};
+use skin::Status;
+use skin::flexure::{Parameters, solve};
 use solver::Stop;
 
 use crate::samples::{BASES, design, reference_study, small_steps};

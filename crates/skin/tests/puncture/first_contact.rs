@@ -74,6 +74,6 @@ fn happens_where_the_linear_chain_closes_the_gap() {
         assert_relative_eq!(ours, exact, max_relative = 1e-9);
         assert_relative_eq!(ours, rounded, epsilon = 5e-5);
         assert_eq!(puncture.events[0].corner_edge, CornerEdge::TopRightOnLeftEdge);
-        assert_eq!(puncture.events[0].left_scale, 0);
+        assert_eq!(puncture.events[0].left_scale, Some(0));
     }
 }

@@ -13,7 +13,8 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use skin::Base;
-use skin::puncture::{Parameters, Status};
+use skin::Status;
+use skin::puncture::Parameters;
 use solver::Stop;
 use substrate::Calibrations;
 

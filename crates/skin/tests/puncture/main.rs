@@ -25,7 +25,8 @@ mod steps;
 mod two_blocks;
 
 use approx::assert_relative_eq;
-use skin::puncture::{Measures, PathPoint, Puncture, Status};
+use skin::Status;
+use skin::puncture::{Measures, PathPoint, Puncture};
 
 /// The measures of a puncture that went all the way.
 fn complete(puncture: &Puncture) -> Measures {

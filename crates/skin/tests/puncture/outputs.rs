@@ -4,8 +4,9 @@ use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::ContactChange;
-use skin::puncture::{Event, Parameters, Puncture, Status};
+use skin::puncture::{Parameters, PathPoint, Puncture};
+use skin::{ContactChange, ContactEvent, Status};
+
 use solver::{Settings, Stop};
 use substrate::Calibrations;
 
@@ -59,12 +60,12 @@ fn reactions_add_up_to_the_load() {
 
 /// Contacts that the events leave closed: their kinds at each level of each pair. Two are beside each other on flush
 /// edges, and one of them is left where it is handed over to the other or the corner is reached.
-fn closed_by(events: &[Event]) -> HashMap<(i64, bool), HashSet<&'static str>> {
+fn closed_by(events: &[ContactEvent<PathPoint>]) -> HashMap<(i64, bool), HashSet<&'static str>> {
     let mut closed = HashMap::new();
     for event in events {
         let kind = event.corner_edge.name();
-        let joint = (event.left_scale, kind.starts_with('T'));
-        let kinds: &mut HashSet<_> = closed.entry(joint).or_default();
+        let level = (event.left_scale.unwrap(), kind.starts_with('T'));
+        let kinds: &mut HashSet<_> = closed.entry(level).or_default();
         match event.change {
             ContactChange::Closed => assert!(kinds.insert(kind), "closed twice: {event:?}"),
             ContactChange::Opened => assert!(kinds.remove(kind), "opened while open: {event:?}"),

@@ -5,7 +5,8 @@
 use contact::Law;
 use rayon::prelude::*;
 use skin::Design;
-use skin::puncture::{Parameters, Puncture, Status};
+use skin::Status;
+use skin::puncture::{Parameters, Puncture};
 use substrate::Calibrations;
 
 use crate::end;

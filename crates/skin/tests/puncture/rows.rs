@@ -64,7 +64,7 @@ fn the_ends_of_automatic_rows_are_free() {
             assert_relative_eq!(end.rotation_deg, rotation, max_relative = 1e-8, epsilon = 1e-13);
             assert!(end.reaction.abs() < 1e-12);
         }
-        let [first, last] = [first.scale, last.scale - 1];
+        let [first, last] = [first.scale, last.scale - 1].map(Some);
         assert!(puncture.events.iter().all(|e| e.left_scale != last && e.left_scale != first));
     }
 }

@@ -1,4 +1,4 @@
-//! Loads and drivers that turn.
+//! Loads and control parameters that turn.
 
 use approx::assert_relative_eq;
 use solver::{Path, Settings, State, Stop};
@@ -24,7 +24,7 @@ fn the_extrema_of_an_arch_are_those_of_its_cubic() {
 }
 
 #[test]
-fn a_driver_that_turns_back_is_followed() {
+fn a_control_parameter_that_turns_back_is_followed() {
     let (points, stop) = follow(arch_on_spring(), steps(0.05));
     assert_eq!(stop, Stop::Reached);
     let arch = |w: f64| w * (1.0 - w) * (2.0 - w);
@@ -37,8 +37,8 @@ fn a_driver_that_turns_back_is_followed() {
         assert!(before < w && w < before + 0.2, "from w = {before} to {w}");
         before = w;
     }
-    let drivers: Vec<f64> = points.iter().map(|point| point.state.z[1]).collect();
-    let turns = drivers.windows(3).filter(|d| (d[1] - d[0]) * (d[2] - d[1]) < 0.0).count();
+    let places: Vec<f64> = points.iter().map(|point| point.state.z[1]).collect();
+    let turns = places.windows(3).filter(|d| (d[1] - d[0]) * (d[2] - d[1]) < 0.0).count();
     assert_eq!(turns, 2);
     assert_eq!(extrema(&points).len(), 2);
 }

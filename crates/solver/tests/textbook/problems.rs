@@ -65,7 +65,7 @@ pub fn arch() -> Smooth<2> {
 /// Stiffness of the spring of [`arch_on_spring`].
 pub const SPRING: f64 = 0.25;
 
-/// The arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`. The driver `d` turns back
+/// The arch pushed through a soft spring: `p = w (1 − w)(2 − w) = k (d − w)`. The control parameter `d` turns back
 /// at `w = 1/2`, `d = 2`, and forward again at `w = 3/2`, `d = 0`. Unknowns `w, d, p`.
 pub fn arch_on_spring() -> Smooth<3> {
     Smooth {
@@ -97,7 +97,7 @@ pub fn step() -> Smooth<2> {
     }
 }
 
-/// `y² = u`: its driver `u` turns at the start.
+/// `y² = u`: its control parameter `u` turns at the start.
 pub fn parabola() -> Smooth<2> {
     Smooth {
         controls: controls(&[(0, 1.0)]),

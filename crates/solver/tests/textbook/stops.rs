@@ -21,7 +21,7 @@ fn a_path_that_breaks_off_does_not_converge() {
 }
 
 #[test]
-fn a_driver_that_does_not_move_is_singular() {
+fn a_control_parameter_that_does_not_move_is_singular() {
     let (points, stop) = follow(parabola(), Settings::default());
     assert_eq!((points.len(), stop), (0, Stop::Singular));
 }

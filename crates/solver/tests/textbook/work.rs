@@ -36,7 +36,7 @@ fn paths_with_extrema() {
 }
 
 #[test]
-fn paths_whose_driver_turns() {
+fn paths_whose_control_parameter_turns() {
     assert_eq!(work(arch_on_spring(), Settings::default()), [45, 411]);
     assert_eq!(work(arch_on_spring(), steps(0.4)), [42, 432]);
 }
@@ -45,8 +45,8 @@ fn paths_whose_driver_turns() {
 #[test]
 fn a_path_that_meets_its_target_slowly() {
     let mut steep = step();
-    let [driver, load] = [(0, 0.6), (1, 0.03)].map(|(index, scale)| Control { index, scale });
-    steep.controls = vec![driver, load];
+    let [progress, load] = [(0, 0.6), (1, 0.03)].map(|(index, scale)| Control { index, scale });
+    steep.controls = vec![progress, load];
     steep.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
     let rest = State::at_rest(&steep);
     let end = Path::new(steep.clone(), rest, steps(0.5)).last().unwrap();

@@ -1,7 +1,8 @@
 //! The course of one design: the columns of its paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{Event, Iteration, PathPoint, ScaleState};
+use skin::puncture::{PathPoint, ScaleState};
+use skin::{ContactEvent, Iteration};
 
 use super::Column;
 
@@ -16,7 +17,7 @@ pub static PATH: &[Column<PathPoint>] = &[
 ];
 
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<Event>] = &[
+pub static EVENTS: &[Column<ContactEvent<PathPoint>>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
         e.point.displacement.into()
     }),
@@ -56,7 +57,7 @@ pub static STEPS: &[Column<Iteration>] = &[
     Column::new("step", "-", "step of the path", |i| i.step.into()),
     Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
     Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |i| i.tilt_deg.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |i| i.angle_deg.into()),
 ];
 
 /// The columns of `flexure_path.csv`.
@@ -81,14 +82,14 @@ pub static FLEXURE_PATH: &[Column<flexure::PathPoint>] = &[
 ];
 
 /// The columns of `flexure_events.csv`.
-pub static FLEXURE_EVENTS: &[Column<flexure::Event>] = &[
+pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::PathPoint>>] = &[
     Column::new("curvature", "1/t", "curvature of the strip", |e| e.point.curvature.into()),
     Column::new("moment", "E_m I_m/t", "bending moment", |e| e.point.moment.into()),
     Column::new("end_rotation_deg", "deg", "rotation of each end", |e| {
         e.point.end_rotation_deg.into()
     }),
     Column::new("gap", "-", "gap, 0 is the first; empty if every gap does the same", |e| {
-        e.gap.into()
+        e.left_scale.into()
     }),
     Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
     Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
@@ -116,9 +117,9 @@ pub static FLEXURE_SCALES: &[Column<BentScale>] = &[
 ];
 
 /// The columns of `flexure_steps.csv`.
-pub static FLEXURE_STEPS: &[Column<flexure::Iteration>] = &[
+pub static FLEXURE_STEPS: &[Column<Iteration>] = &[
     Column::new("step", "-", "step of the path", |i| i.step.into()),
     Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
     Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
-    Column::new("end_rotation_deg", "deg", "rotation of each end", |i| i.end_rotation_deg.into()),
+    Column::new("end_rotation_deg", "deg", "rotation of each end", |i| i.angle_deg.into()),
 ];

@@ -1,0 +1,249 @@
+//! The tips: sharp corners that may rest on the neighbour's top or base.
+
+use approx::assert_relative_eq;
+use geometry::{Parallelogram, Vec2};
+
+use super::{Closed, EDGES, half_turn};
+use crate::corner_contact::{CornerContact, FORCES, Force};
+use crate::corners::{Corners, Level};
+use crate::gap::{CornerEdge, Pair, Pose};
+use crate::law::{ContactLaw, Law};
+use crate::response::{COORDINATES, Equation};
+
+/// The lower level of two steep scales, the right one leaning over by `turned` degrees, its bottom left corner
+/// under the base of the left one: `inside` its right end and `below`.
+pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Pose; 2]) {
+    let pair = Pair::new(Parallelogram::new(1.0, 75.0).unwrap(), 2.2);
+    // The corner is at −1 from the node of its scale, and the base of the other ends at +1.
+    let arm = Pose::new(0.0, 0.0, -turned.to_radians()).turn(Vec2::new(-1.0, 0.0));
+    let corner = Vec2::new(1.0 - inside, -below);
+    let place = corner - arm - Vec2::new(2.2, 0.0);
+    (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
+}
+
+/// The same for the top: half a turn of the pair.
+fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
+    let (pair, [left, right]) = under_the_base(turned, inside, above);
+    let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
+    let ([a, b, c], [d, e, f]) = (coordinates(&left), coordinates(&right));
+    let [a, b, c, d, e, f] = half_turn(75.0, &[a, b, c, d, e, f]);
+    (pair, [Pose::new(a, b, c), Pose::new(d, e, f)])
+}
+
+fn soft() -> ContactLaw {
+    ContactLaw::new(Law::EXCHANGED, 2.0, 1.0, 3.0).unwrap()
+}
+
+const ACROSS: [(CornerEdge, CornerEdge); 3] = [
+    (CornerEdge::BottomRightOnLeftEdge, CornerEdge::TopLeftOnRightEdge),
+    (CornerEdge::BottomLeftOnRightEdge, CornerEdge::TopRightOnLeftEdge),
+    (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
+];
+
+/// What half a turn makes of a lower corner and edge.
+fn across(lower: CornerEdge) -> CornerEdge {
+    ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
+}
+
+/// Something of the lower corners of [`under_the_base`], with an edge, and of what half a turn makes of them.
+fn at_both_levels<T>(
+    turned: f64,
+    inside: f64,
+    below: f64,
+    edge: CornerEdge,
+    f: impl Fn(&Corners, CornerEdge) -> T,
+) -> [T; 2] {
+    let (pair, [left, right]) = under_the_base(turned, inside, below);
+    let under = f(&Corners::new(Level::Lower, &pair, [&left, &right]), edge);
+    let (pair, [left, right]) = above_the_top(turned, inside, below);
+    [under, f(&Corners::new(Level::Upper, &pair, [&left, &right]), across(edge))]
+}
+
+/// The side of the tip leans by 75° at rest.
+#[test]
+fn what_an_open_contact_faces_depends_on_how_its_side_leans() {
+    for (turned, inside, expected) in [
+        (14.9, 0.3, Some(CornerEdge::BottomRightOnLeftEdge)),
+        (15.1, 0.3, Some(CornerEdge::BottomLeftOnBase)),
+        // Beside the base, at either end.
+        (16.0, -0.1, Some(CornerEdge::BottomLeftOnRightEdge)),
+        (16.0, -0.01, None),
+        (16.0, 2.1, None),
+    ] {
+        let any = CornerEdge::BottomLeftOnBase;
+        let facing = |corners: &Corners, _| corners.facing();
+        let [lower, upper] = at_both_levels(turned, inside, 0.1, any, facing);
+        assert_eq!(lower.map(|(edge, _)| edge), expected);
+        assert_eq!(upper.map(|(edge, _)| edge), expected.map(across));
+        if let (Some((edge, at_base)), Some((_, at_top))) = (lower, upper) {
+            assert_relative_eq!(at_base, at_top, epsilon = 1e-12);
+            match edge {
+                CornerEdge::BottomLeftOnBase => assert_relative_eq!(at_base, 0.1, epsilon = 1e-12),
+                _ => assert!((0.0..0.2).contains(&at_base)),
+            }
+        }
+    }
+}
+
+/// The angle by which a side is short of level, or beyond it, of a contact that carries.
+fn to_level(edge: CornerEdge, closed: Closed, turned: f64, inside: f64) -> Option<f64> {
+    let angle = |corners: &Corners, edge| {
+        let response = closed(edge).response(corners, &soft(), [0.0; FORCES]);
+        response.conditions[Force::Flush as usize].map(|condition| condition.value)
+    };
+    let [lower, upper] = at_both_levels(turned, inside, 0.1, edge, angle);
+    assert_eq!(lower.is_some(), upper.is_some());
+    assert_relative_eq!(lower.unwrap_or(0.0), upper.unwrap_or(0.0), epsilon = 1e-12);
+    lower
+}
+
+#[test]
+fn the_flush_contact_waits_until_the_side_is_level() {
+    let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
+    for turned in [5.0, 14.0, 17.0] {
+        let short = (15.0_f64 - turned).to_radians();
+        let angle = |edge| to_level(edge, CornerContact::Edge, turned, 0.3).unwrap();
+        assert_relative_eq!(angle(on_side), short, epsilon = 1e-12);
+        assert_relative_eq!(angle(on_end), -short, epsilon = 1e-12);
+    }
+    // Corners that are together have none, and neither has a tip that rests on the neighbour's side.
+    assert_eq!(to_level(on_side, CornerContact::Corner, 14.0, 0.3), None);
+    assert_eq!(to_level(on_end, CornerContact::Corner, 16.0, 0.3), None);
+    assert_eq!(to_level(CornerEdge::BottomLeftOnRightEdge, CornerContact::Edge, 14.0, 0.3), None);
+}
+
+/// The base is 2 long, the side 3.86.
+#[test]
+fn there_is_no_flush_contact_beyond_the_far_end_of_its_edge() {
+    let (on_side, on_end) = (CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase);
+    for (edge, within, beyond) in [(on_side, 1.99, 2.01), (on_end, 3.8, 3.9)] {
+        let angle = |inside| to_level(edge, CornerContact::Edge, 15.0, inside);
+        assert!(angle(within).unwrap().abs() < 1e-12);
+        assert_eq!(angle(beyond), None);
+        // The near end is where the corners meet, and another condition's.
+        assert!(angle(-0.01).unwrap().abs() < 1e-12);
+        // While it carries, its condition is there.
+        assert!(to_level(edge, CornerContact::Flush, 15.0, beyond).unwrap().abs() < 1e-12);
+    }
+}
+
+/// Short of level the force turns from the normal of the neighbour's side to that of the tip's side, beyond it only to
+/// that of the neighbour's end.
+#[test]
+fn at_the_corner_the_force_turns_no_further_than_to_the_end() {
+    let side = Vec2::new(75.0_f64.to_radians().cos(), -75.0_f64.to_radians().sin());
+    for (turned, expected) in
+        [(10.0_f64, 5.0_f64), (14.0, 1.0), (15.0, 0.0), (16.0, 0.0), (40.0, 0.0)]
+    {
+        let of_tip = expected.to_radians();
+        let normal = Vec2::new(-of_tip.sin(), of_tip.cos());
+        for edge in ACROSS.map(|(edge, _)| edge) {
+            let force = |corners: &Corners, edge| {
+                CornerContact::Corner(edge).forces_on_left(corners, [0.3, 0.2, 0.0])
+            };
+            let ours = at_both_levels(turned, 0.0, 0.0, edge, force);
+            let expected = match edge {
+                CornerEdge::BottomLeftOnRightEdge => 0.2 * normal - 0.3 * side,
+                _ => 0.3 * normal - 0.2 * side,
+            };
+            for [corners, flush] in ours {
+                assert_relative_eq!(corners, expected, epsilon = 1e-12);
+                assert_eq!(flush, Vec2::zeros());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_corner_is_left_as_the_side_leans() {
+    let (on_side, on_end, tip_on_side) = (
+        CornerEdge::BottomRightOnLeftEdge,
+        CornerEdge::BottomLeftOnBase,
+        CornerEdge::BottomLeftOnRightEdge,
+    );
+    for (turned, leaning) in [(14.0, on_side), (16.0, on_end)] {
+        let (pair, [left, right]) = under_the_base(turned, 0.0, 0.0);
+        let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+        let after = |edge, force| {
+            let corner = CornerContact::Corner(edge);
+            corner.transition(force, false, &corners, [0.0; FORCES]).unwrap().contact
+        };
+        for edge in [on_side, on_end] {
+            assert_eq!(after(edge, Force::Partner), CornerContact::Edge(leaning));
+            assert_eq!(after(edge, Force::Own), CornerContact::Edge(tip_on_side));
+        }
+        assert_eq!(after(tip_on_side, Force::Partner), CornerContact::Edge(tip_on_side));
+        assert_eq!(after(tip_on_side, Force::Own), CornerContact::Edge(leaning));
+    }
+}
+
+#[test]
+fn contacts_of_flush_edges_are_those_at_each_others_ends() {
+    for (level, edge) in EDGES {
+        let flush = edge.flush();
+        assert_eq!(flush.and_then(CornerEdge::flush), flush.map(|_| edge));
+        let of_level = |flush| EDGES.contains(&(level, flush));
+        assert!(flush.is_none_or(of_level));
+    }
+    let on_base = CornerEdge::BottomLeftOnBase;
+    assert_eq!(on_base.flush(), Some(CornerEdge::BottomRightOnLeftEdge));
+    assert_eq!(CornerEdge::BottomLeftOnRightEdge.flush(), None);
+    assert_eq!(CornerEdge::TopRightOnLeftEdge.flush(), None);
+}
+
+/// Where side and base lie flush, it does not matter to the approach of the two scales which of the two
+/// contacts carries how much.
+#[test]
+fn flush_contacts_share_one_approach() {
+    let law = soft();
+    let below = -law.approach(0.5).value;
+    let (pair, [left, right]) = under_the_base(15.0, 0.3, below);
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    for edge in [CornerEdge::BottomRightOnLeftEdge, CornerEdge::BottomLeftOnBase] {
+        for share in [0.0, 0.2, 1.0] {
+            let forces = [0.5 * share, 0.0, 0.5 * (1.0 - share)];
+            let contact = CornerContact::Flush(edge);
+            let response = contact.response(&corners, &law, forces);
+            let [own, _, flush] = response.conditions.map(Option::unwrap);
+            assert_relative_eq!(own.value, 0.0, epsilon = 1e-12);
+            assert_relative_eq!(flush.value, 0.0, epsilon = 1e-12);
+            let [on_corner, on_flush] = contact.forces_on_left(&corners, forces);
+            assert_relative_eq!(on_corner + on_flush, Vec2::new(0.0, 0.5), epsilon = 1e-12);
+            assert_relative_eq!(on_flush.y, forces[2], epsilon = 1e-12);
+            assert_relative_eq!(response.balance[1].value, -0.5, epsilon = 1e-12);
+        }
+    }
+}
+
+#[test]
+fn the_forces_on_a_top_are_those_on_a_base_turned_round() {
+    let forces = [0.3, 0.0, 0.2];
+    let (pair, [left, right]) = under_the_base(15.0, 0.3, 0.0);
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    let below = CornerContact::Flush(CornerEdge::BottomRightOnLeftEdge);
+    let [corner, tip] = below.forces_on_left(&corners, forces);
+    let (pair, [left, right]) = above_the_top(15.0, 0.3, 0.0);
+    let corners = Corners::new(Level::Upper, &pair, [&left, &right]);
+    let above = CornerContact::Flush(CornerEdge::TopLeftOnRightEdge);
+    let turned = above.forces_on_left(&corners, forces);
+    // The force on the left scale is now minus that on what was the right one, turned round.
+    assert_relative_eq!(turned[0], corner, epsilon = 1e-12);
+    assert_relative_eq!(turned[1], tip, epsilon = 1e-12);
+    assert_eq!(CornerContact::Open.forces_on_left(&corners, forces), [Vec2::zeros(); 2]);
+}
+
+/// An open contact has the gap of the corner that faces an edge, and neither forces nor other conditions.
+#[test]
+fn a_contact_without_forces_has_a_gap_alone() {
+    let (pair, [left, right]) = under_the_base(12.0, 0.3, 0.1);
+    for level in [Level::Upper, Level::Lower] {
+        let corners = Corners::new(level, &pair, [&left, &right]);
+        let distance = corners.facing().map(|(edge, _)| pair.distance(edge, &left, &right));
+        let response = CornerContact::Open.response(&corners, &soft(), [0.0; FORCES]);
+        let values = response.conditions.map(|condition| condition.map(|c| c.value));
+        assert_eq!(values, [distance, None, None]);
+        assert_eq!(response.balance, [Equation::default(); COORDINATES]);
+    }
+    let corners = Corners::new(Level::Lower, &pair, [&left, &right]);
+    assert_eq!(corners.facing().unwrap().0, CornerEdge::BottomRightOnLeftEdge);
+}

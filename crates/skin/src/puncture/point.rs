@@ -1,0 +1,87 @@
+//! Equilibria of a row as they are recorded.
+
+use super::system::Chain;
+use crate::contacts::{Contacts, Point, State};
+use crate::record::Skin;
+
+/// One equilibrium of the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// `u*` of the punctured point, downward.
+    pub displacement: f64,
+    /// `F*`.
+    pub force: f64,
+    /// Tilt of the punctured scale, clockwise, degrees.
+    pub tilt_deg: f64,
+    /// Closed contacts.
+    pub contacts: usize,
+    /// Elastic energy of the substrate, over `E* t³`.
+    pub substrate_energy: f64,
+    /// Elastic energy of the contacts, over `E* t³`. With that of the substrate it is the work
+    /// `∫ F du` of the load.
+    pub contact_energy: f64,
+}
+
+/// One scale at the end of the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaleState {
+    /// Number of the scale: 0 is the punctured one, positive to the right.
+    pub scale: i64,
+    /// Displacement of the node, over `t`.
+    pub displacement: [f64; 2],
+    /// Rotation, counter-clockwise, degrees.
+    pub rotation_deg: f64,
+    /// Vertical reaction of the substrate on the scale, upward, over `E* t²`.
+    pub reaction: f64,
+}
+
+impl Skin for Chain {
+    type PathPoint = PathPoint;
+
+    fn contacts(&self) -> &Contacts {
+        &self.contacts
+    }
+
+    fn path_point(&self, point: &Point) -> PathPoint {
+        let state = &point.state;
+        PathPoint {
+            displacement: self.depth(&state.z),
+            force: self.force(state),
+            tilt_deg: self.angle_deg(state),
+            contacts: Contacts::closed(state),
+            substrate_energy: self.substrate_energy(state),
+            contact_energy: self.contacts.energy(state),
+        }
+    }
+
+    fn angle_deg(&self, state: &State) -> f64 {
+        -self.displacement(&state.z, self.layout.left)[2].to_degrees()
+    }
+
+    /// Tangent stiffness `dF/du` of the punctured point, over `E* t`.
+    fn stiffness(&self, state: &State, direction: &[f64]) -> f64 {
+        direction[self.layout.load()] / self.depth_slope(&state.z, direction)
+    }
+
+    fn number(&self, scale: usize) -> Option<i64> {
+        Some(self.layout.number(scale))
+    }
+
+    fn interpenetrates(&self, state: &State) -> bool {
+        self.contacts.interpenetrate(state)
+    }
+}
+
+/// Every scale of a row, from the left.
+pub(super) fn scales(chain: &Chain, state: &State) -> Vec<ScaleState> {
+    let scale = |i| {
+        let [x, y, rotation] = chain.displacement(&state.z, i);
+        ScaleState {
+            scale: chain.layout.number(i),
+            displacement: [x, y],
+            rotation_deg: rotation.to_degrees(),
+            reaction: chain.reaction(&state.z, i)[1],
+        }
+    };
+    (0..chain.layout.scales()).map(scale).collect()
+}

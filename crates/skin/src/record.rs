@@ -1,0 +1,143 @@
+//! The record of a path, of a row that is punctured or of a strip that is bent.
+
+use contact::{CornerContact, CornerEdge};
+use solver::{Change, Path, Peak, System};
+
+use crate::contacts::{ContactChange, Contacts, Point, State};
+
+/// A contact that changes its state: it opens, closes or passes a corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactEvent<P> {
+    /// The point of the path at which it happens.
+    pub point: P,
+    /// Left scale of the pair: in a row 0 is the punctured scale, in a strip the first one, and numbers rise to the
+    /// right. `None` where every pair does the same.
+    pub left_scale: Option<i64>,
+    /// Which corner meets which edge.
+    pub corner_edge: CornerEdge,
+    /// The change of the contact.
+    pub change: ContactChange,
+}
+
+/// One Newton iteration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// Point of the path that it led to, from 1.
+    pub step: usize,
+    /// Iteration within the step, from 0.
+    pub iteration: usize,
+    /// Largest scaled residual.
+    pub residual: f64,
+    /// Control parameter at the point, degrees: tilt of the punctured scale, or rotation of each end of a strip.
+    pub angle_deg: f64,
+}
+
+/// A row or a strip of scales whose path is recorded.
+pub(crate) trait Skin: System<Mode = Vec<CornerContact>> {
+    /// The numbers that are recorded of an equilibrium.
+    type PathPoint: Copy;
+
+    /// The contacts of the scales.
+    fn contacts(&self) -> &Contacts;
+
+    /// The numbers to record of an equilibrium.
+    fn path_point(&self, point: &Point) -> Self::PathPoint;
+
+    /// The control parameter, degrees.
+    fn angle_deg(&self, state: &State) -> f64;
+
+    /// Derivative of the load with respect to what the load moves, along a direction of the path.
+    fn stiffness(&self, state: &State, direction: &[f64]) -> f64;
+
+    /// Number of a scale as people count them; `None` where every pair does the same.
+    fn number(&self, scale: usize) -> Option<i64>;
+
+    /// Whether any two scales that may meet overlap by more than the approach of their contacts.
+    fn interpenetrates(&self, state: &State) -> bool;
+}
+
+/// Points, events and iterations of a path, and its largest stiffness.
+pub(crate) struct Record<S: Skin> {
+    pub(crate) path: Vec<S::PathPoint>,
+    pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
+    pub(crate) history: Vec<Iteration>,
+    initial_stiffness: f64,
+    stiffness: Peak<Vec<CornerContact>>,
+    /// The contacts of the last point.
+    before: Vec<CornerContact>,
+}
+
+impl<S: Skin> Record<S> {
+    /// The record of a path that is at its beginning.
+    pub(crate) fn new(path: &Path<S>) -> Self {
+        let (skin, start) = (path.system(), path.point());
+        let mut record = Self {
+            path: vec![skin.path_point(start)],
+            events: Vec::new(),
+            history: Vec::new(),
+            initial_stiffness: skin.stiffness(&start.state, &start.leaving),
+            stiffness: Peak::default(),
+            before: start.state.mode.clone(),
+        };
+        record.stiffness.visit(path, S::stiffness);
+        record
+    }
+
+    /// Records the point that the path has come to.
+    pub(crate) fn visit(&mut self, path: &mut Path<S>, point: &Point) {
+        let residuals = path.take_history();
+        let skin = path.system();
+        let (here, step) = (skin.path_point(point), self.path.len());
+        let angle_deg = skin.angle_deg(&point.state);
+        let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
+        self.history.extend(residuals.into_iter().enumerate().map(iteration));
+        if let Some(solver::Event::Changed(changes)) = &point.event {
+            let event = |&change: &Change| self.event(skin, &point.state, here, change);
+            let events: Vec<_> = changes.iter().filter_map(event).collect();
+            self.events.extend(events);
+        }
+        self.path.push(here);
+        self.stiffness.visit(path, S::stiffness);
+        self.before.clone_from(&point.state.mode);
+    }
+
+    /// Takes the points that are kept to those of a longer row, where the path goes on from `here`.
+    pub(crate) fn replace_points(&mut self, new: impl Fn(&Point) -> Point, here: &Point) {
+        self.stiffness.replace_points(new);
+        self.before.clone_from(&here.state.mode);
+    }
+
+    /// The event of a force that has changed sides, in the state after it.
+    fn event(
+        &self,
+        skin: &S,
+        after: &State,
+        point: S::PathPoint,
+        change: Change,
+    ) -> Option<ContactEvent<S::PathPoint>> {
+        let corner_edge = |mode| Contacts::corner_edge(mode, change.constraint);
+        Some(ContactEvent {
+            point,
+            left_scale: skin.number(Contacts::left_of(change.constraint)),
+            // A contact that has opened had its corner and edge before.
+            corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&self.before))?,
+            change: ContactChange::of(after, change),
+        })
+    }
+
+    /// The point at which scales first touch.
+    pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
+        let closed = |event: &&ContactEvent<_>| event.change == ContactChange::Closed;
+        self.events.iter().find(closed).map(|event| &event.point)
+    }
+
+    /// The stiffness at the beginning of the path.
+    pub(crate) fn initial_stiffness(&self) -> f64 {
+        self.initial_stiffness
+    }
+
+    /// The largest stiffness on the path, between its points too.
+    pub(crate) fn largest_stiffness(&self, path: &mut Path<S>) -> Option<f64> {
+        self.stiffness.refined(path, S::stiffness)
+    }
+}

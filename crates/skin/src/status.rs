@@ -1,0 +1,33 @@
+//! The end of a path, and whether it can be trusted.
+
+use solver::{Path, Stop};
+
+use crate::record::Skin;
+
+/// The end of a puncture or a bending.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The path reached its end, in a puncture on a row that is long enough, and the audit has no objection.
+    Complete,
+    /// The path stopped before its end.
+    Stopped(Stop),
+    /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) needs a longer row than it may take.
+    RowLimit,
+    /// Two scales overlap by more than their contact law allows.
+    Interpenetration,
+    /// A contact carries beyond the end of its edge.
+    OffEdge,
+}
+
+impl Status {
+    /// The status of a path that came to its end, or stopped for a reason.
+    pub(crate) fn of<S: Skin>(path: &Path<S>, stop: Stop) -> Self {
+        let (skin, end) = (path.system(), &path.point().state);
+        match stop {
+            Stop::Reached if skin.interpenetrates(end) => Self::Interpenetration,
+            Stop::Reached if skin.contacts().off_edge(end) => Self::OffEdge,
+            Stop::Reached => Self::Complete,
+            stop => Self::Stopped(stop),
+        }
+    }
+}
