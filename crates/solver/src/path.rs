@@ -181,7 +181,7 @@ impl<S: System> Path<S> {
     fn stand(&mut self, point: Point<S::Mode>) {
         self.guards = self.newton.guards(&self.system, &point.state);
         let Point { state, leaving, .. } = &point;
-        self.slopes = self.newton.guard_slopes(&self.system, state, leaving, &self.guards);
+        self.newton.guard_slopes(&self.system, state, leaving, &mut self.slopes);
         self.point = Arc::new(point);
     }
 

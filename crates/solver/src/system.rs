@@ -8,6 +8,9 @@ use crate::event::Change;
 /// Largest change of an unknown over which a slope is a difference.
 const DIFFERENCE: f64 = 1e-6;
 
+/// Part of the path over which the slopes of all conditions are differences.
+const ALONG: f64 = 1e-7;
+
 /// A mixed complementarity system with a load parameter.
 ///
 /// `n` unknowns `z`, of which one is the load, in `n − 1` equations `r(z) = 0`; the row that is
@@ -53,11 +56,53 @@ pub trait System {
     /// The mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
-    /// Evaluates the equations. The equation of a constraint is evaluated whether the constraint is active or not.
+    /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
+    /// [`System::conditions`] of its own.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix. Rows and columns of inactive constraints may be left out.
     fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
+
+    /// Evaluates the equations and adds `∂r/∂z` to a zero matrix.
+    fn linearise(
+        &self,
+        state: &State<Self::Mode>,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        self.residual(state, residual);
+        self.tangent(state, matrix);
+    }
+
+    /// Replaces `values` by the values of the equations of all constraints. Those of active ones may have any value.
+    fn conditions(&self, state: &State<Self::Mode>, values: &mut Vec<f64>) {
+        let mut residual = Residual::new(self.size());
+        self.residual(state, &mut residual);
+        values.clear();
+        values.extend(self.constraints().iter().map(|&index| residual.value[index]));
+    }
+
+    /// Replaces `slopes` by the derivatives of the equations of all constraints along `direction`. Those of active ones may
+    /// have any value.
+    fn condition_slopes(
+        &self,
+        state: &State<Self::Mode>,
+        direction: &[f64],
+        slopes: &mut Vec<f64>,
+    ) {
+        let (mut here, mut there) = (Vec::new(), Vec::new());
+        self.conditions(state, &mut here);
+        self.conditions(&state.moved(ALONG, direction), &mut there);
+        slopes.clear();
+        slopes.extend(here.iter().zip(&there).map(|(here, there)| (there - here) / ALONG));
+    }
+
+    /// Value of the equation of a constraint (its number).
+    fn condition(&self, state: &State<Self::Mode>, constraint: usize) -> f64 {
+        let mut values = Vec::new();
+        self.conditions(state, &mut values);
+        values[constraint]
+    }
 
     /// Derivative of the equation of a constraint (its number) along `direction`; by differences
     /// unless the system knows better.
@@ -66,12 +111,8 @@ pub trait System {
         if largest == 0.0 {
             return 0.0;
         }
-        let (step, index) = (DIFFERENCE / largest, self.constraints()[constraint]);
-        let mut residual = Residual::new(self.size());
-        let mut at = |step: f64| {
-            self.residual(&state.moved(step, direction), &mut residual);
-            residual.value[index]
-        };
+        let step = DIFFERENCE / largest;
+        let at = |step: f64| self.condition(&state.moved(step, direction), constraint);
         (at(step) - at(-step)) / (2.0 * step)
     }
 

@@ -3,7 +3,7 @@
 use crate::block_elimination::BlockElimination;
 use crate::block_matrix::BlockMatrix;
 use crate::linear::{BandLu, BandMatrix, SingularMatrix};
-use crate::system::{State, System, Tangent, inactive};
+use crate::system::{Residual, State, System, Tangent, inactive};
 
 /// Factors of the tangent, with the row of a condition in the place of the missing one.
 #[derive(Clone, Debug)]
@@ -40,7 +40,8 @@ impl TangentSolver {
         }
     }
 
-    /// Factorises the tangent without the unknowns of inactive constraints, its missing row replaced by `condition`.
+    /// Evaluates the equations, and factorises the tangent without the unknowns of inactive constraints, its missing row
+    /// replaced by `condition`.
     ///
     /// # Errors
     /// If the matrix has no factors.
@@ -49,18 +50,19 @@ impl TangentSolver {
         system: &S,
         state: &State<S::Mode>,
         condition: &[(usize, f64)],
+        residual: &mut Residual,
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
         self.inactive.extend(inactive(system, state));
         let inactive = &self.inactive;
         let blocks = self.blocks.as_mut();
-        self.is_in_blocks =
-            blocks.is_some_and(|blocks| blocks.factorise(system, state, condition, inactive));
+        self.is_in_blocks = blocks
+            .is_some_and(|blocks| blocks.factorise(system, state, condition, inactive, residual));
         if self.is_in_blocks {
             return Ok(());
         }
         let band = self.band.get_or_insert_with(|| InBand::new(system));
-        band.factorise(system, state, condition, inactive)
+        band.factorise(system, state, condition, inactive, residual)
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution.
@@ -94,6 +96,7 @@ impl InBlocks {
         state: &State<S::Mode>,
         condition: &[(usize, f64)],
         inactive: &[usize],
+        residual: &mut Residual,
     ) -> bool {
         let Some(blocks) = system.blocks() else { return false };
         if self.left_out.as_deref() == Some(inactive) {
@@ -104,7 +107,7 @@ impl InBlocks {
             left_out.clear();
             left_out.extend_from_slice(inactive);
         }
-        system.tangent(state, &mut self.matrix);
+        system.linearise(state, residual, &mut self.matrix);
         self.matrix.clear_row(system.load());
         for &(index, coefficient) in condition {
             self.matrix.add(system.load(), index, coefficient);
@@ -125,9 +128,10 @@ impl InBand {
         state: &State<S::Mode>,
         condition: &[(usize, f64)],
         inactive: &[usize],
+        residual: &mut Residual,
     ) -> Result<(), SingularMatrix> {
         self.matrix.clear();
-        system.tangent(state, &mut self.matrix);
+        system.linearise(state, residual, &mut self.matrix);
         self.matrix.clear_row(system.load());
         for &(index, coefficient) in condition {
             self.matrix.add(system.load(), index, coefficient);

@@ -309,6 +309,37 @@ impl System for Strip {
         self.contacts.add_tangent(state, matrix);
     }
 
+    fn linearise(&self, state: &State, residual: &mut Residual, matrix: &mut impl Tangent) {
+        residual.clear(&self.units);
+        for (gap, element) in self.all_elements() {
+            let response = self.response(&state.z, gap, element);
+            let parts = self.parts(gap, element);
+            for row in parts.iter().flatten() {
+                residual.add(row.unknown, row.sign * response.force[row.coordinate]);
+                for column in parts.iter().flatten() {
+                    let value = response.tangent[(row.coordinate, column.coordinate)];
+                    matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+                }
+            }
+        }
+        let moment = self.layout.moment();
+        residual.add(self.controls[0].index, -state.z[moment]);
+        matrix.add(self.controls[0].index, moment, -1.0);
+        self.contacts.linearise(state, residual, matrix);
+    }
+
+    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+        self.contacts.conditions(state, values);
+    }
+
+    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+        self.contacts.condition_slopes(state, direction, slopes);
+    }
+
+    fn condition(&self, state: &State, constraint: usize) -> f64 {
+        self.contacts.condition(state, constraint)
+    }
+
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
         self.contacts.slope(state, constraint, direction)
     }

@@ -319,6 +319,34 @@ impl System for Chain {
         self.contacts.add_tangent(state, matrix);
     }
 
+    fn linearise(&self, state: &State, residual: &mut Residual, matrix: &mut impl Tangent) {
+        let (z, load) = (&state.z, self.layout.load());
+        residual.clear(&self.units);
+        self.for_springs(|row, column, value| {
+            residual.add(row, value * z[column]);
+            matrix.add(row, column, value);
+        });
+        let at = self.layout.scale(self.layout.left);
+        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        residual.add(at + 1, z[load]);
+        residual.add(at + 2, z[load] * arm.x);
+        matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
+        matrix.add(at + 2, at + 2, -z[load] * arm.y);
+        self.contacts.linearise(state, residual, matrix);
+    }
+
+    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+        self.contacts.conditions(state, values);
+    }
+
+    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+        self.contacts.condition_slopes(state, direction, slopes);
+    }
+
+    fn condition(&self, state: &State, constraint: usize) -> f64 {
+        self.contacts.condition(state, constraint)
+    }
+
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
         self.contacts.slope(state, constraint, direction)
     }
