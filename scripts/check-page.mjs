@@ -221,6 +221,22 @@ const tests = {
     assert.deepEqual(front, table(results, "pareto.csv").map((row) => row.design).sort());
   },
 
+  async "the ranking equals that of the command for random weights"() {
+    // A generator with a seed of its own, so that a failure comes again.
+    let state = 20211121;
+    const random = () => (state = (1103515245 * state + 12345) % 2147483648) / 2147483648;
+    for (let round = 0; round < 10; round++) {
+      const parts = Array.from({ length: 4 }, () => (random() < 0.2 ? 0 : random()));
+      const sum = parts.reduce((a, b) => a + b, 0) || 1;
+      const hundredths = parts.map((part) => Math.floor((100 * part) / sum));
+      hundredths[round % 4] += 100 - hundredths.reduce((a, b) => a + b, 0);
+      const weights = hundredths.map((part) => part / 100);
+      const ours = await page.evaluate((w) => squama.rank(w).map(({ row }) => squama.number(row)), weights);
+      run(`squama rank ${results} --weights ${weights.join(",")}`);
+      assert.deepEqual(ours, table(results, "ranking.csv").map((row) => row.design), weights.join());
+    }
+  },
+
   async "sliders move with keys, and the ranking with them"() {
     await page.locator("#weight-n").focus();
     for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowRight");

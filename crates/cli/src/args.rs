@@ -1,4 +1,4 @@
-//! What may be typed.
+//! Command-line arguments.
 
 use std::path::PathBuf;
 
@@ -23,44 +23,44 @@ Examples:
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk."
 )]
 pub struct Arguments {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What to do.
+/// The command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Solve every design of a sweep and write the tables
-    Run(Run),
+    Run(RunArguments),
     /// Solve some designs of a run again, with other settings
-    Rerun(Rerun),
+    Rerun(RerunArguments),
     /// Say how far a run is, what failed and why
-    Status(Status),
+    Status(StatusArguments),
     /// Put the shards of a sweep together
-    Merge(Merge),
+    Merge(MergeArguments),
     /// Write the scripts that run a sweep on a cluster with Slurm
-    Slurm(Slurm),
+    Slurm(SlurmArguments),
     /// Solve one design, print its measures and write its path
-    Design(Design),
+    Design(DesignArguments),
     /// Find the best designs of a run: by weights, for all weights, and without any
-    Rank(Rank),
+    Rank(RankArguments),
     /// Say where two runs differ, and by how much
-    Compare(Compare),
+    Compare(CompareArguments),
     /// Draw designs to scale: at rest, punctured, bent
-    Draw(Draw),
+    Draw(DrawArguments),
     /// Plot the figures of a sweep, or the curves of designs
-    Plot(Plot),
+    Plot(PlotArguments),
     /// Write one page that shows a sweep
-    Report(Report),
+    Report(ReportArguments),
     /// Write the tables of a run as one workbook for Excel and other spreadsheets
-    Export(Export),
+    Export(ExportArguments),
     /// Validate a sweep definition and say what would run
-    Check(Check),
+    Check(CheckArguments),
     /// Print the springs that stand for the substrate under a row of scales
-    Calibrate(Calibrate),
+    Calibrate(CalibrateArguments),
     /// Show what squama reproduces: benchmarks, the claims of the paper, sensitivity
-    Validate(Validate),
+    Validate(ValidateArguments),
 }
 
 /// A definition and what is put in its place.
@@ -95,7 +95,7 @@ how often the run was ended and resumed. The first SIGINT or SIGTERM ends the ru
 hand are done, the second at once.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
 SIGINT or SIGTERM.")]
-pub struct Run {
+pub struct RunArguments {
     #[command(flatten)]
     pub definition: Definition,
 
@@ -146,13 +146,13 @@ pub struct Work {
     pub quiet: bool,
 }
 
-/// How tables are written.
+/// The format of the tables.
 #[derive(Debug, Args)]
 pub struct Format {
     /// How the tables are written: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,`
     /// and a byte-order mark) [default: as they were before, or plain]
-    #[arg(long, value_name = "DIALECT")]
-    pub csv: Option<sweep::Dialect>,
+    #[arg(long, value_name = "FORMAT")]
+    pub csv: Option<results::CsvFormat>,
 }
 
 /// Arguments of `squama rerun`.
@@ -170,7 +170,7 @@ Without --set designs are solved with the sweep's own settings.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
 SIGINT or SIGTERM.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
-pub struct Rerun {
+pub struct RerunArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
@@ -185,7 +185,7 @@ pub struct Rerun {
 
     /// Designs with this value in a column of designs.csv (may be repeated: all must hold)
     #[arg(long = "where", value_name = "COLUMN=VALUE", group = "which")]
-    pub conditions: Vec<sweep::Condition>,
+    pub conditions: Vec<run::ColumnFilter>,
 
     /// Set a key of the definition for these designs, e.g. `solver.max_step=0.01` (may be repeated)
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -210,7 +210,7 @@ Examples:
 
 The run may be going on meanwhile.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input.")]
-pub struct Status {
+pub struct StatusArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
@@ -225,7 +225,7 @@ Examples:
 Puts the results of shards together; the tables are those of a run without shards. What is in the
 folder --out already stays there, so that merging again adds what has come meanwhile.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk.")]
-pub struct Merge {
+pub struct MergeArguments {
     /// Folders of the shards
     #[arg(value_name = "DIR", required = true)]
     pub folders: Vec<PathBuf>,
@@ -253,7 +253,7 @@ Writes submit.sh, which submits a job array with one element for each shard and 
 to DIR/slurm, with the complete definition beside it. Shards go to DIR/shards, the whole to DIR. Submitted
 again, shards go on where they ended. The folder may be moved.
 Exit code: 0 done, 2 bad input or disk.")]
-pub struct Slurm {
+pub struct SlurmArguments {
     #[command(flatten)]
     pub definition: Definition,
 
@@ -279,7 +279,7 @@ grid; if the grid has further axes, give a value for each with --set designs.KEY
 Writes path.csv, events.csv, scales.csv, steps.csv (every Newton iteration), the same of bending
 in flexure_path.csv and so on, and design.toml.
 Exit code: 0 done, 1 the design stopped early, 2 bad input or disk.")]
-pub struct Design {
+pub struct DesignArguments {
     #[command(flatten)]
     pub definition: Definition,
 
@@ -317,7 +317,7 @@ Examples:
 Shows the row at rest and at the critical tilt, or at the displacements u/t of --at; each is solved
 for. Contacts are red, forces between scales are arrows, the bars are the reactions of the
 substrate. With --flexure, the strip where its ends have turned by the angles of --at (degrees).")]
-pub struct Draw {
+pub struct DrawArguments {
     #[command(flatten)]
     pub definition: Definition,
 
@@ -337,7 +337,7 @@ pub struct Draw {
     #[arg(long)]
     pub flexure: bool,
 
-    /// An image beside each drawing
+    /// An image beside each drawing, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
@@ -360,7 +360,7 @@ Examples:
   squama plot results/paper --png --out figures
   squama plot curves sweeps/paper.toml --design 0417,0418"
 )]
-pub struct Plot {
+pub struct PlotArguments {
     /// What to plot instead of a sweep
     #[command(subcommand)]
     pub what: Option<PlotWhat>,
@@ -369,7 +369,7 @@ pub struct Plot {
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
 
-    /// An image beside each figure
+    /// An image beside each figure, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
@@ -382,7 +382,7 @@ pub struct Plot {
 #[derive(Debug, Subcommand)]
 pub enum PlotWhat {
     /// Force–displacement, moment–curvature and energies of designs, solved anew
-    Curves(Curves),
+    Curves(CurvesArguments),
 }
 
 /// Arguments of `squama plot curves`.
@@ -391,7 +391,7 @@ pub enum PlotWhat {
 Examples:
   squama plot curves sweeps/paper.toml --design 0417,0418
   squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png")]
-pub struct Curves {
+pub struct CurvesArguments {
     #[command(flatten)]
     pub definition: Definition,
 
@@ -403,7 +403,7 @@ pub struct Curves {
     #[arg(long, value_name = "U")]
     pub to: Option<f64>,
 
-    /// An image beside each figure
+    /// An image beside each figure, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
@@ -420,7 +420,7 @@ Examples:
   squama report results/paper --out paper.html
 
 The page needs no network and no server: open it in a browser.")]
-pub struct Report {
+pub struct ReportArguments {
     /// Folder of the results of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
@@ -439,7 +439,7 @@ Examples:
 A sheet for each table of the folder, and one that explains the columns. The same tables make the
 same bytes. A sheet takes 1,048,575 rows.
 Exit code: 0 done, 2 bad input or disk.")]
-pub struct Export {
+pub struct ExportArguments {
     /// Folder of the results of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
@@ -463,7 +463,7 @@ weight; a criterion without weight is ignored, and of equal designs the first is
 Writes ranking.csv (by the weights), winners.csv and quaternary.csv (the best design for all
 weights) and pareto.csv (designs that no other beats in every criterion).
 Exit code: 0 done, 2 bad input or disk.")]
-pub struct Rank {
+pub struct RankArguments {
     /// Folder of a run, with coverage, puncture and flexure
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
@@ -502,7 +502,7 @@ Examples:
 Designs are the same if their parameters are, whatever their numbers. With --out, writes
 compare.csv (column by column) and differences.csv (cell by cell).
 Exit code: 0 done, 1 the runs differ (with --exit-code), 2 bad input or disk.")]
-pub struct Compare {
+pub struct CompareArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub first: PathBuf,
@@ -530,7 +530,7 @@ pub struct Compare {
 Examples:
   squama check sweeps/paper.toml
   squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'")]
-pub struct Check {
+pub struct CheckArguments {
     #[command(flatten)]
     pub definition: Definition,
 }
@@ -541,7 +541,7 @@ pub struct Check {
 Examples:
   squama calibrate --gap 0.1 --length 1
   squama calibrate --gap 0.1 --length 1 --width 2 --base 2L --poisson-ratio 0.3")]
-pub struct Calibrate {
+pub struct CalibrateArguments {
     /// Gap d/t
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
     pub gap: String,
@@ -576,7 +576,7 @@ open; prints the tables and writes them down. Takes about a minute on two cores.
 the claims on every setting of a sweep over open choices instead, and prints what each reproduces.
 Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
 change it.")]
-pub struct Validate {
+pub struct ValidateArguments {
     /// The page
     #[arg(long, value_name = "FILE", default_value = "docs/validation.md")]
     pub out: PathBuf,

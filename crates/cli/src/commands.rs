@@ -1,4 +1,4 @@
-//! What the commands do.
+//! The commands, one file each.
 
 mod calibrate;
 mod check;
@@ -36,7 +36,8 @@ pub use validate::validate;
 
 use std::path::{Path, PathBuf};
 
-use sweep::{InvalidSetting, Program, Setting, Sweep};
+use ::run::Program;
+use sweep::{InvalidSetting, Setting, Sweep};
 
 use crate::args::Definition;
 

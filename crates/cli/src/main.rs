@@ -2,8 +2,8 @@
 //!
 //! | Module | Role |
 //! |---|---|
-//! | `args` | what may be typed |
-//! | `commands` | what then happens, one file per command |
+//! | `args` | command-line arguments |
+//! | `commands` | one file per command |
 //! | `interrupt` | signals that ask a run to end |
 //! | `progress` | the bar on the terminal |
 //! | `print` | text for people: aligned tables, closed pipes |

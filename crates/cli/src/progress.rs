@@ -4,15 +4,15 @@ use std::io::{IsTerminal as _, stderr};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use sweep::News;
+use run::Progress;
 
 /// Shows how far a run is: rate, remaining time and failures so far.
-pub struct Progress {
+pub struct ProgressDisplay {
     bar: ProgressBar,
     failed: u64,
 }
 
-impl Progress {
+impl ProgressDisplay {
     /// A bar; none when `quiet` or when nobody watches.
     pub fn new(quiet: bool) -> Self {
         let hidden = quiet || !stderr().is_terminal();
@@ -25,16 +25,16 @@ impl Progress {
         Self { bar, failed: 0 }
     }
 
-    /// Shows what is new.
-    pub fn show(&mut self, news: News<'_>, stop: &AtomicBool) {
-        match news {
-            News::Begun { designs, done } => {
+    /// Shows the progress of the run.
+    pub fn show(&mut self, progress: Progress, stop: &AtomicBool) {
+        match progress {
+            Progress::Begun { designs, done } => {
                 self.bar.set_length(designs);
                 self.bar.set_position(done);
                 self.bar.reset_eta();
             }
-            News::Done(entry) => {
-                self.failed += u64::from(entry.failed());
+            Progress::Done { failed } => {
+                self.failed += u64::from(failed);
                 self.bar.inc(1);
             }
         }
@@ -43,7 +43,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressDisplay {
     fn drop(&mut self) {
         self.bar.finish_and_clear();
     }

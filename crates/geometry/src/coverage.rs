@@ -1,10 +1,12 @@
-//! Coverage in closed form.
+//! The coverage of a row in closed form.
 
-/// Two lengths closer than this (over `t`) are the same: `tan 45°` is not exactly 1 in floating
-/// point, and a line that only touches a scale must not count as cutting it.
+/// The difference below which two lengths (over `t`) count as equal.
+///
+/// `tan 45°` is not exactly 1 in floating point, and a line that only touches a scale must not count as cutting it.
+/// The value is far above the rounding errors of lengths of order 1 (some 1e-15), and far below any length that matters.
 const TOUCH: f64 = 1e-12;
 
-/// Coverage of scales with shift `S` of the top, base `2a` and pitch `p`, all over `t`.
+/// Returns the coverage of scales with shift `S` of the top, base `2a` and pitch `p`, all over `t`.
 ///
 /// Measured in `y tan α` from the base up, neighbour `k = 1, 2 …` covers
 /// `[S − k p, S − k p + 2a] ∩ [0, S]` of the line. The neighbour begins within the line for
@@ -25,7 +27,7 @@ mod tests {
     use super::coverage;
     use proptest::prelude::*;
 
-    /// The sum over neighbours as it is defined, interval by interval.
+    /// The coverage by its definition: a sum over neighbours, interval by interval.
     fn by_intervals(shift: f64, base: f64, pitch: f64) -> f64 {
         let mut sum = 0.0;
         for k in 1..=(shift / pitch).ceil() as u32 + 1 {

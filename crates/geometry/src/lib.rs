@@ -1,13 +1,21 @@
-//! Scales and rows of scales, undeformed.
+//! The undeformed geometry of scales and rows of scales.
 //!
-//! Lengths are in units of the scale thickness `t`; `y` points up out of the substrate and angles
-//! are counter-clockwise.
+//! A scale is a parallelogram of height `t` that leans by the slant `α`; scales with bases `2a` at gaps `d` form a row
+//! of pitch `p = 2a + d`. Lengths are in units of the scale thickness `t`; `y` points up out of the substrate and angles
+//! are counter-clockwise. The coverage of a row is the part of a vertical line, dropped from the top right corner of a
+//! scale, that lies inside of the scales to its right (Eq. G2 of `docs/theory.md`):
+//!
+//! ```text
+//! λ = Σₖ |[S − k p, S − k p + 2a] ∩ [0, S]| / S,     S = t tan α,  k = 1, 2 …
+//! ```
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Parallelogram`] | one scale: half-width of its base and slant |
+//! | [`Corner`] | a corner of a scale |
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
 //! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
+//! | [`OutOfRange`] | a parameter without meaning, with its value and what is accepted |
 //!
 //! ```
 //! use geometry::{Parallelogram, Row};
@@ -15,15 +23,17 @@
 //! let row = Row::new(Parallelogram::new(0.5, 45.0)?, 0.1)?;
 //! assert!((row.pitch() - 1.1).abs() < 1e-15);
 //! assert!((row.coverage() - 0.9).abs() < 1e-12);
-//! # Ok::<(), geometry::InvalidGeometry>(())
+//! # Ok::<(), geometry::OutOfRange>(())
 //! ```
 
 mod coverage;
+mod out_of_range;
 mod parallelogram;
 mod row;
 mod uneven_row;
 
-pub use parallelogram::{Corner, InvalidGeometry, Parallelogram};
+pub use out_of_range::OutOfRange;
+pub use parallelogram::{Corner, Parallelogram};
 pub use row::Row;
 pub use uneven_row::{UnevenRow, clearance};
 

@@ -1,18 +1,6 @@
-//! One scale.
+//! The shape of one scale.
 
-use crate::Vec2;
-
-/// A number that no scale or row can have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidGeometry {
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// What would be right.
-    pub expected: &'static str,
-}
+use crate::{OutOfRange, Vec2};
 
 /// A scale: a parallelogram of height 1 (the thickness `t`) that leans to the right.
 ///
@@ -48,55 +36,46 @@ impl Corner {
 }
 
 impl Parallelogram {
-    /// A scale with half-width `half_base` of its base (over `t`) and slant `slant_deg` from the
+    /// Creates a scale with half-width `half_base` of its base (over `t`) and slant `slant_deg` from the
     /// vertical (degrees).
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `[0°, 90°)`.
-    pub fn new(half_base: f64, slant_deg: f64) -> Result<Self, InvalidGeometry> {
-        if half_base > 0.0 && !(0.0..90.0).contains(&slant_deg) {
-            let expected = "an angle of at least 0° and below 90°";
-            return Err(InvalidGeometry { quantity: "slant", value: slant_deg, expected });
-        }
+    pub fn new(half_base: f64, slant_deg: f64) -> Result<Self, OutOfRange> {
+        check_half_base(half_base)?;
+        let expected = "an angle of at least 0° and below 90°";
+        OutOfRange::unless((0.0..90.0).contains(&slant_deg), "slant", slant_deg, expected)?;
         Self::leaning(half_base, slant_deg)
     }
 
-    /// A scale that may lean to the left too: its slant is then negative. Designs lean to the right;
+    /// Creates a scale that may lean to the left, with a negative slant. Designs lean to the right;
     /// single scales of an imperfect row need not.
     ///
     /// # Errors
     /// If `half_base` is not positive and finite, or the slant lies outside `(−90°, 90°)`.
-    pub fn leaning(half_base: f64, slant_deg: f64) -> Result<Self, InvalidGeometry> {
-        if !(half_base > 0.0 && half_base.is_finite()) {
-            return Err(InvalidGeometry {
-                quantity: "half-width of the base",
-                value: half_base,
-                expected: "a positive length",
-            });
-        }
-        if slant_deg.is_nan() || slant_deg.abs() >= 90.0 {
-            let expected = "an angle between -90° and 90°";
-            return Err(InvalidGeometry { quantity: "slant", value: slant_deg, expected });
-        }
+    pub fn leaning(half_base: f64, slant_deg: f64) -> Result<Self, OutOfRange> {
+        check_half_base(half_base)?;
+        let expected = "an angle between -90° and 90°";
+        OutOfRange::unless(slant_deg.abs() < 90.0, "slant", slant_deg, expected)?;
         Ok(Self { half_base, slant: slant_deg.to_radians() })
     }
 
-    /// Half-width `a` of the base, over `t`.
+    /// Returns the half-width `a` of the base, over `t`.
     pub fn half_base(&self) -> f64 {
         self.half_base
     }
 
-    /// Slant angle `α`, in radians.
+    /// Returns the slant `α`, in radians.
     pub fn slant(&self) -> f64 {
         self.slant
     }
 
-    /// Horizontal shift `S = t tan α` of the top against the base, over `t`.
+    /// Returns the horizontal shift `S = t tan α` of the top against the base, over `t`.
     pub fn shift(&self) -> f64 {
         self.slant.tan()
     }
 
-    /// Position of a corner relative to the node, undeformed.
+    /// Returns the position of a corner relative to the node, undeformed.
     pub fn corner(&self, corner: Corner) -> Vec2 {
         let (a, s) = (self.half_base, self.shift());
         match corner {
@@ -107,8 +86,13 @@ impl Parallelogram {
         }
     }
 
-    /// The four corners relative to the node, counter-clockwise from the bottom left.
+    /// Returns the four corners relative to the node, counter-clockwise from the bottom left.
     pub fn corners(&self) -> [Vec2; 4] {
         Corner::ALL.map(|corner| self.corner(corner))
     }
+}
+
+fn check_half_base(half_base: f64) -> Result<(), OutOfRange> {
+    let positive = half_base > 0.0 && half_base.is_finite();
+    OutOfRange::unless(positive, "half-width of the base", half_base, "a positive length")
 }

@@ -1,6 +1,6 @@
-//! Scales of unequal slants at unequal gaps.
+//! Rows of scales with unequal slants at unequal gaps.
 
-use crate::{InvalidGeometry, Parallelogram};
+use crate::{OutOfRange, Parallelogram};
 
 /// A row in which every scale has a slant and every gap a width of its own.
 ///
@@ -14,63 +14,60 @@ use crate::{InvalidGeometry, Parallelogram};
 pub struct UnevenRow {
     scales: Vec<Parallelogram>,
     gaps: Vec<f64>,
-    /// Where the nodes stand, from the first.
+    /// Distances of the nodes from the first node.
     places: Vec<f64>,
 }
 
 impl UnevenRow {
-    /// A row of `scales` with `gaps` (over `t`) between neighbouring bases, one fewer than there are
+    /// Creates a row of `scales` with `gaps` (over `t`) between neighbouring bases, one fewer than there are
     /// scales.
     ///
     /// # Errors
     /// If a gap is not positive and finite, two neighbours overlap above their bases, or the numbers of
     /// scales and gaps do not fit.
-    pub fn new(scales: Vec<Parallelogram>, gaps: Vec<f64>) -> Result<Self, InvalidGeometry> {
-        if scales.len() != gaps.len() + 1 {
-            let (quantity, expected) = ("number of gaps", "one fewer than there are scales");
-            return Err(InvalidGeometry { quantity, value: gaps.len() as f64, expected });
-        }
+    pub fn new(scales: Vec<Parallelogram>, gaps: Vec<f64>) -> Result<Self, OutOfRange> {
+        let one_fewer = gaps.len() + 1 == scales.len();
+        let expected = "one fewer than there are scales";
+        OutOfRange::unless(one_fewer, "number of gaps", gaps.len() as f64, expected)?;
         let mut places = vec![0.0];
         for (pair, &gap) in scales.windows(2).zip(&gaps) {
             let narrowest = clearance(&pair[0], &pair[1], gap);
-            if !(narrowest > 0.0 && gap.is_finite()) {
-                let (quantity, expected) = ("gap", "scales that stand clear of each other");
-                return Err(InvalidGeometry { quantity, value: narrowest, expected });
-            }
+            let clear = narrowest > 0.0 && gap.is_finite();
+            OutOfRange::unless(clear, "gap", narrowest, "scales that stand clear of each other")?;
             let pitch = pair[0].half_base() + gap + pair[1].half_base();
             places.push(places[places.len() - 1] + pitch);
         }
         Ok(Self { scales, gaps, places })
     }
 
-    /// The scales, from the left.
+    /// Returns the scales, from the left.
     pub fn scales(&self) -> &[Parallelogram] {
         &self.scales
     }
 
-    /// The gaps between neighbouring bases, from the left, over `t`.
+    /// Returns the gaps between neighbouring bases, from the left, over `t`.
     pub fn gaps(&self) -> &[f64] {
         &self.gaps
     }
 
-    /// Distance of the nodes of the scales `i` and `i + 1`, over `t`.
+    /// Returns the distance of the nodes of the scales `i` and `i + 1`, over `t`.
     pub fn pitch(&self, i: usize) -> f64 {
         self.scales[i].half_base() + self.gaps[i] + self.scales[i + 1].half_base()
     }
 
-    /// Distance of the node of scale `i` from that of the first, over `t`.
+    /// Returns the distance of the node of scale `i` from that of the first, over `t`.
     pub fn place(&self, i: usize) -> f64 {
         self.places[i]
     }
 
-    /// Distance of the last node from the first, over `t`.
+    /// Returns the distance of the last node from the first, over `t`.
     pub fn length(&self) -> f64 {
         self.places[self.places.len() - 1]
     }
 }
 
-/// The narrowest horizontal distance, over `t`, of neighbours with the gap `gap` between their bases:
-/// at the base or, if they lean towards each other, at the top. Negative where they overlap.
+/// Returns the narrowest horizontal distance, over `t`, of neighbours with the gap `gap` between their bases:
+/// at the base or, if they lean towards each other, at the top. The distance is negative where they overlap.
 pub fn clearance(left: &Parallelogram, right: &Parallelogram, gap: f64) -> f64 {
     gap.min(gap + right.shift() - left.shift())
 }

@@ -1,9 +1,9 @@
 //! The co-rotational Euler–Bernoulli beam element.
 
-use geometry::Vec2;
+use geometry::{OutOfRange, Vec2};
 use nalgebra::{SMatrix, SVector};
 
-use crate::section::{InvalidMembrane, positive};
+use crate::section::positive;
 
 /// Poses of the two ends of an element, `q = (x₁ y₁ φ₁ x₂ y₂ φ₂)`, or the forces on them.
 pub type Ends = SVector<f64, 6>;
@@ -95,7 +95,7 @@ pub struct Response {
 }
 
 impl CorotationalBeam {
-    /// An element of length `L` at rest, axial stiffness `EA` and bending stiffness `EI`.
+    /// Creates an element of length `L` at rest, axial stiffness `EA` and bending stiffness `EI`.
     ///
     /// # Errors
     /// If one of them is not positive and finite.
@@ -103,7 +103,7 @@ impl CorotationalBeam {
         length: f64,
         axial_stiffness: f64,
         bending_stiffness: f64,
-    ) -> Result<Self, InvalidMembrane> {
+    ) -> Result<Self, OutOfRange> {
         Ok(Self {
             length: positive("length of an element", length)?,
             axial_stiffness: positive("axial stiffness", axial_stiffness)?,
@@ -111,12 +111,12 @@ impl CorotationalBeam {
         })
     }
 
-    /// Length `L` at rest.
+    /// Returns the length `L` at rest.
     pub fn length(&self) -> f64 {
         self.length
     }
 
-    /// Deformations and forces in the frame of the chord (M2 to M4).
+    /// Returns the deformations and forces in the frame of the chord (M2 to M4).
     pub fn local(&self, q: &Ends) -> Local {
         let d = Vec2::new(q[3] - q[0], q[4] - q[1]);
         let chord_length = d.norm();
@@ -136,7 +136,7 @@ impl CorotationalBeam {
         }
     }
 
-    /// Energies, force and tangent (M5 to M8) at the poses `q` of the ends.
+    /// Returns energies, force and tangent (M5 to M8) at the poses `q` of the ends.
     ///
     /// Ends that coincide have no chord: the response is then not finite.
     pub fn response(&self, q: &Ends) -> Response {
@@ -152,7 +152,7 @@ impl CorotationalBeam {
         }
     }
 
-    /// Point of the deformed axis at `ξ ∈ [0, 1]` from end 1 to end 2:
+    /// Returns the point of the deformed axis at `ξ ∈ [0, 1]` from end 1 to end 2:
     ///
     /// ```text
     /// x(ξ) = x₁ + l ξ e + l [θ₁ ξ (1−ξ)² − θ₂ ξ² (1−ξ)] n                       (M9)
@@ -163,7 +163,7 @@ impl CorotationalBeam {
         Vec2::new(q[0], q[1]) + chord_length * (xi * chord + deflection * quarter_turn(chord))
     }
 
-    /// First line of (M8).
+    /// Returns the first line of (M8).
     fn material_stiffness(&self, gradients: &Gradients) -> Stiffness {
         let Gradients { r, b1, b2, .. } = gradients;
         let axial = self.axial_stiffness / self.length;
@@ -193,13 +193,13 @@ impl Gradients {
         Self { r: Ends::new(-e.x, -e.y, 0.0, e.x, e.y, 0.0), z, b1, b2 }
     }
 
-    /// (M7)
+    /// Returns the force (M7).
     fn force(&self, local: &Local) -> Ends {
         let [m1, m2] = local.moments;
         local.axial_force * self.r + m1 * self.b1 + m2 * self.b2
     }
 
-    /// Second line of (M8).
+    /// Returns the second line of (M8).
     fn geometric_stiffness(&self, local: &Local) -> Stiffness {
         let Self { r, z, .. } = self;
         let l = local.chord_length;
@@ -209,13 +209,13 @@ impl Gradients {
     }
 }
 
-/// Angle from a unit vector to the direction `phi` (M3), in `[−π, π]`.
+/// Returns the angle from a unit vector to the direction `phi` (M3), in `[−π, π]`.
 fn angle_from(e: Vec2, phi: f64) -> f64 {
     let (sin, cos) = phi.sin_cos();
     (e.x * sin - e.y * cos).atan2(e.x * cos + e.y * sin)
 }
 
-/// The vector turned counter-clockwise by 90°.
+/// Returns the vector turned counter-clockwise by 90°.
 fn quarter_turn(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }

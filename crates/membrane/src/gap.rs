@@ -1,14 +1,12 @@
-//! The membrane in one gap.
+//! The membrane in the gap between two scales.
 
-use geometry::Vec2;
+use geometry::{OutOfRange, Vec2};
 use nalgebra::{DMatrix, DVector};
 
 use crate::section::positive;
-use crate::{
-    CorotationalBeam, Ends, InvalidMembrane, Local, OffsetBeam, Response, RigidArm, Section,
-};
+use crate::{CorotationalBeam, Ends, Local, OffsetBeam, Response, RigidArm, Section};
 
-/// Where the membrane of a gap is held, undeformed; lengths over `t`.
+/// The undeformed span of the membrane in a gap; lengths over `t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Half-width `a ≥ 0` of the bases of the scales, under which the membrane is rigid.
@@ -62,44 +60,39 @@ pub struct GapResponse {
 }
 
 impl GapMembrane {
-    /// `elements` equal elements of the given section over a span.
+    /// Creates a membrane of `elements` equal elements of the given section over a span.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, the offset not finite, or there
     /// is no element.
-    pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, InvalidMembrane> {
-        if elements == 0 {
-            return Err(InvalidMembrane {
-                quantity: "number of elements per gap",
-                value: 0.0,
-                expected: "at least 1",
-            });
-        }
+    pub fn new(section: Section, span: Span, elements: usize) -> Result<Self, OutOfRange> {
+        let count = elements as f64;
+        OutOfRange::unless(elements > 0, "number of elements per gap", count, "at least 1")?;
         check(&span)?;
         let beam = CorotationalBeam::new(
-            span.gap / elements as f64,
+            span.gap / count,
             section.axial_stiffness(),
             section.bending_stiffness(),
         )?;
         Ok(Self { beam, elements, span })
     }
 
-    /// Number `m` of elements.
+    /// Returns the number `m` of elements.
     pub fn elements(&self) -> usize {
         self.elements
     }
 
-    /// Length `3(m + 1)` of the state.
+    /// Returns the length `3(m + 1)` of the state.
     pub fn unknowns(&self) -> usize {
         3 * (self.elements + 1)
     }
 
-    /// Distance `2a + d` between the nodes of the scales at rest.
+    /// Returns the distance `2a + d` between the nodes of the scales at rest.
     pub fn pitch(&self) -> f64 {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// Poses at rest of what the state displaces, with the node of the left scale at the origin.
+    /// Returns the poses at rest of the nodes that the state displaces, with the node of the left scale at the origin.
     pub fn rest(&self) -> DVector<f64> {
         let mut poses = DVector::zeros(self.unknowns());
         for node in 0..=self.elements {
@@ -110,7 +103,7 @@ impl GapMembrane {
         poses
     }
 
-    /// Element `k`, with its arm where it starts or ends at a scale.
+    /// Returns element `k`, with its arm where it starts or ends at a scale.
     pub fn element(&self, k: usize) -> OffsetBeam {
         let Span { half_base, axis_offset, .. } = self.span;
         let mut arms = [RigidArm::NONE; 2];
@@ -123,12 +116,12 @@ impl GapMembrane {
         OffsetBeam { beam: self.beam, arms }
     }
 
-    /// Response of element `k` to the entries `3k … 3k + 5` of the state, for assembly elsewhere.
+    /// Returns the response of element `k` to the entries `3k … 3k + 5` of the state, for assembly elsewhere.
     pub fn element_response(&self, k: usize, displacements: &Ends) -> Response {
         self.element(k).response(&self.bodies(k, displacements))
     }
 
-    /// Energies, force and tangent of the whole gap (M14).
+    /// Returns energies, force and tangent of the whole gap (M14).
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -146,7 +139,7 @@ impl GapMembrane {
         sum
     }
 
-    /// Deformations and forces of each element, in the frames of their chords.
+    /// Returns the deformations and forces of all elements, in the frames of their chords.
     ///
     /// # Panics
     /// If `u` is shorter than [`Self::unknowns`].
@@ -155,7 +148,7 @@ impl GapMembrane {
         (0..self.elements).map(local).collect()
     }
 
-    /// The deformed axis, from base to base, as `intervals ≥ 1` intervals per element, measured from
+    /// Returns the deformed axis, from base to base, as `intervals ≥ 1` intervals per element, measured from
     /// the position at rest of the left scale's node.
     ///
     /// # Panics
@@ -173,7 +166,7 @@ impl GapMembrane {
             .collect()
     }
 
-    /// Position at rest of the `i`-th pose of the state, from the node of the left scale.
+    /// Returns the position at rest of the `i`-th pose of the state, from the node of the left scale.
     fn rest_position(&self, i: usize) -> Vec2 {
         let Span { half_base, axis_offset, .. } = self.span;
         if i == 0 {
@@ -185,7 +178,7 @@ impl GapMembrane {
         }
     }
 
-    /// Poses of the two bodies that element `k` joins, with the origin at the first.
+    /// Returns the poses of the two bodies that element `k` joins, with the origin at the first.
     fn bodies(&self, k: usize, u: &Ends) -> Ends {
         let at_rest = self.rest_position(k + 1) - self.rest_position(k);
         Ends::new(0.0, 0.0, u[2], at_rest.x + (u[3] - u[0]), at_rest.y + (u[4] - u[1]), u[5])
@@ -204,28 +197,21 @@ impl GapResponse {
     }
 }
 
-/// The six entries of the state that element `k` acts on.
+/// Returns the six entries of the state that element `k` acts on.
 fn entries(u: &DVector<f64>, k: usize) -> Ends {
     u.fixed_rows::<6>(3 * k).into_owned()
 }
 
-/// Refuses a span that no membrane can bridge.
-fn check(span: &Span) -> Result<(), InvalidMembrane> {
-    positive("gap", span.gap)?;
-    let Span { half_base, axis_offset, .. } = *span;
-    if !(half_base >= 0.0 && half_base.is_finite()) {
-        return Err(InvalidMembrane {
-            quantity: "half-width of the base",
-            value: half_base,
-            expected: "a length of at least 0",
-        });
-    }
-    if !axis_offset.is_finite() {
-        return Err(InvalidMembrane {
-            quantity: "offset of the membrane's axis",
-            value: axis_offset,
-            expected: "a finite length",
-        });
-    }
-    Ok(())
+/// Returns an error if no membrane can bridge `span`.
+fn check(span: &Span) -> Result<(), OutOfRange> {
+    let Span { half_base, gap, axis_offset } = *span;
+    positive("gap", gap)?;
+    OutOfRange::unless(
+        half_base >= 0.0 && half_base.is_finite(),
+        "half-width of the base",
+        half_base,
+        "a length of at least 0",
+    )?;
+    let axis = "offset of the membrane's axis";
+    OutOfRange::unless(axis_offset.is_finite(), axis, axis_offset, "a finite length")
 }

@@ -11,7 +11,7 @@
 //! with them.
 //!
 //! Lengths are in units of the scale thickness `t` and forces in units of `E_m t²`, so moments are
-//! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`Pose`] `(x, y, φ)` of each
+//! in units of `E_m t³`; angles are counter-clockwise. Elements take a [`NodePose`] `(x, y, φ)` of each
 //! end, a gap the displacements `(uₓ, u_y, φ)` from rest. `φ` is an unbounded real number: half-turns
 //! and full turns are ordinary states.
 //!
@@ -34,7 +34,7 @@
 //! let response = gap.response(&turned);
 //! assert!(response.bending_energy > 0.0 && response.axial_energy > 0.0);
 //! assert!((response.force[1] + response.force[4]).abs() < 1e-15);
-//! # Ok::<(), membrane::InvalidMembrane>(())
+//! # Ok::<(), geometry::OutOfRange>(())
 //! ```
 
 mod corotational_beam;
@@ -45,7 +45,7 @@ mod section;
 pub use corotational_beam::{CorotationalBeam, Ends, Local, Response, Stiffness};
 pub use gap::{GapMembrane, GapResponse, Span};
 pub use rigid_arm::{OffsetBeam, RigidArm};
-pub use section::{InvalidMembrane, Section};
+pub use section::Section;
 
 /// Position and rotation `(x, y, φ)` of a scale or of a node of the membrane.
-pub type Pose = nalgebra::Vector3<f64>;
+pub type NodePose = nalgebra::Vector3<f64>;

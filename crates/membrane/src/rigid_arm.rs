@@ -4,7 +4,7 @@ use geometry::Vec2;
 use nalgebra::Matrix3;
 
 use crate::corotational_beam::{CorotationalBeam, Ends, Response, Stiffness};
-use crate::{Local, Pose};
+use crate::{Local, NodePose};
 
 /// A point rigidly attached to a body.
 ///
@@ -29,30 +29,30 @@ impl RigidArm {
     /// No arm: the point is the node itself.
     pub const NONE: Self = Self(Vec2::new(0.0, 0.0));
 
-    /// An arm `p`, given in the frame of the body.
+    /// Creates an arm `p`, given in the frame of the body.
     pub const fn new(arm: Vec2) -> Self {
         Self(arm)
     }
 
-    /// The arm `R p` in the frame of the plane, for a body rotated by `phi`.
+    /// Returns the arm `R p` in the frame of the plane, for a body rotated by `phi`.
     pub fn lever(&self, phi: f64) -> Vec2 {
         let (sin, cos) = phi.sin_cos();
         Vec2::new(cos * self.0.x - sin * self.0.y, sin * self.0.x + cos * self.0.y)
     }
 
-    /// Pose of the attached point (M10).
-    pub fn attached(&self, body: &Pose) -> Pose {
+    /// Returns the pose of the attached point (M10).
+    pub fn attached(&self, body: &NodePose) -> NodePose {
         let lever = self.lever(body[2]);
-        Pose::new(body[0] + lever.x, body[1] + lever.y, body[2])
+        NodePose::new(body[0] + lever.x, body[1] + lever.y, body[2])
     }
 
-    /// Gradient of the attached pose with respect to the pose of the body (M11): row by component.
+    /// Returns the gradient of the attached pose with respect to the pose of the body (M11): row by component.
     pub fn gradient(&self, phi: f64) -> Matrix3<f64> {
         let lever = self.lever(phi);
         Matrix3::new(1.0, 0.0, -lever.y, 0.0, 1.0, lever.x, 0.0, 0.0, 1.0)
     }
 
-    /// Second derivative `−R p` of the position of the attached point with respect to `φ` (M11).
+    /// Returns the second derivative `−R p` of the position of the attached point with respect to `φ` (M11).
     pub fn second_derivative(&self, phi: f64) -> Vec2 {
         -self.lever(phi)
     }
@@ -78,24 +78,24 @@ pub struct OffsetBeam {
 }
 
 impl OffsetBeam {
-    /// Poses of the ends of the element, from the poses of the bodies.
+    /// Returns the poses of the ends of the element, from the poses of the bodies.
     pub fn ends(&self, bodies: &Ends) -> Ends {
         let first = self.arms[0].attached(&bodies.fixed_rows::<3>(0).into());
         let second = self.arms[1].attached(&bodies.fixed_rows::<3>(3).into());
         Ends::new(first[0], first[1], first[2], second[0], second[1], second[2])
     }
 
-    /// Deformations and forces of the element in the frame of its chord.
+    /// Returns the deformations and forces of the element in the frame of its chord.
     pub fn local(&self, bodies: &Ends) -> Local {
         self.beam.local(&self.ends(bodies))
     }
 
-    /// Point of the deformed axis at `ξ ∈ [0, 1]`.
+    /// Returns the point of the deformed axis at `ξ ∈ [0, 1]`.
     pub fn axis_point(&self, bodies: &Ends, xi: f64) -> Vec2 {
         self.beam.axis_point(&self.ends(bodies), xi)
     }
 
-    /// Energies, and their derivatives with respect to the poses of the bodies (M12).
+    /// Returns energies, and their derivatives with respect to the poses of the bodies (M12).
     pub fn response(&self, bodies: &Ends) -> Response {
         let at_ends = self.beam.response(&self.ends(bodies));
         let transform = self.transform(bodies);
@@ -107,7 +107,7 @@ impl OffsetBeam {
         Response { force: transform.transpose() * at_ends.force, tangent, ..at_ends }
     }
 
-    /// `T = ∂Q/∂q`.
+    /// Returns `T = ∂Q/∂q`.
     fn transform(&self, bodies: &Ends) -> Stiffness {
         let mut transform = Stiffness::zeros();
         for (arm, start) in self.arms.iter().zip([0, 3]) {

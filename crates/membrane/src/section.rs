@@ -1,23 +1,12 @@
-//! Cross-section of the membrane.
+//! The cross-section of the membrane.
 
-/// A number that no membrane can have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidMembrane {
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// What would be right.
-    pub expected: &'static str,
-}
+use geometry::OutOfRange;
 
-/// Refuses what is not a positive finite number.
-pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, InvalidMembrane> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(value);
-    }
-    Err(InvalidMembrane { quantity, value, expected: "a positive finite number" })
+/// Returns `value` if it is a positive finite number, and otherwise an error.
+pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64, OutOfRange> {
+    let positive = value > 0.0 && value.is_finite();
+    OutOfRange::unless(positive, quantity, value, "a positive finite number")?;
+    Ok(value)
 }
 
 /// A rectangular section of depth `b` (out of the plane) and thickness `h`, both over `t`.
@@ -34,23 +23,23 @@ pub struct Section {
 }
 
 impl Section {
-    /// A section of depth `b` and thickness `h`, over `t`.
+    /// Creates a section of depth `b` and thickness `h`, over `t`.
     ///
     /// # Errors
     /// If either is not positive and finite.
-    pub fn new(depth: f64, thickness: f64) -> Result<Self, InvalidMembrane> {
+    pub fn new(depth: f64, thickness: f64) -> Result<Self, OutOfRange> {
         Ok(Self {
             depth: positive("depth of the membrane", depth)?,
             thickness: positive("thickness of the membrane", thickness)?,
         })
     }
 
-    /// Axial stiffness `EA` (M1), over `E_m t²`.
+    /// Returns the axial stiffness `EA` (M1), over `E_m t²`.
     pub fn axial_stiffness(&self) -> f64 {
         self.depth * self.thickness
     }
 
-    /// Bending stiffness `EI` (M1), over `E_m t⁴`.
+    /// Returns the bending stiffness `EI` (M1), over `E_m t⁴`.
     pub fn bending_stiffness(&self) -> f64 {
         self.depth * self.thickness.powi(3) / 12.0
     }
@@ -61,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn stiffnesses_of_a_rectangle() -> Result<(), InvalidMembrane> {
+    fn stiffnesses_of_a_rectangle() -> Result<(), OutOfRange> {
         let section = Section::new(2.0, 0.5)?;
         assert!((section.axial_stiffness() - 1.0).abs() < 1e-15);
         assert!((section.bending_stiffness() - 2.0 * 0.125 / 12.0).abs() < 1e-15);

@@ -1,34 +1,44 @@
-//! Axes: a range of values, linear or logarithmic, with ticks where a person would put them.
+//! Axes of charts: a range of values, linear or logarithmic, with ticks at round numbers.
+//!
+//! Figures draw these axes, and the page of a sweep hands them to its charting library, so that both have the same ticks.
 
-/// How values are laid out.
+use serde_json::{Value, json};
+
+use crate::label;
+
+/// The spacing of the values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub(crate) enum AxisScale {
     Linear,
     Log,
 }
 
-/// Data whose ends differ by more than this factor take a logarithmic axis.
+/// Labelled ticks of an axis of the page, about: as many as a panel of 165 px has room for.
+const PAGE_TICKS: usize = 5;
+
+/// The ratio of the ends of data above which their axis is logarithmic: one and a half decades, beyond which the small
+/// values of a linear axis cannot be told from zero.
 const SPANS_DECADES: f64 = 30.0;
 
-/// A range of values.
+/// A range of values with a label.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Axis {
+pub(crate) struct ChartAxis {
     pub(crate) label: String,
-    scale: Scale,
+    scale: AxisScale,
     low: f64,
     high: f64,
 }
 
-/// A mark on an axis.
+/// A tick of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) value: f64,
-    /// `None` for a minor one.
+    /// The text at the tick; `None` for a minor one.
     pub(crate) label: Option<String>,
 }
 
-impl Axis {
-    /// An axis for `values`: logarithmic if they are positive and span decades, otherwise linear
+impl ChartAxis {
+    /// Fits an axis to `values`: logarithmic if they are positive and span decades, otherwise linear
     /// and, if zero is near, from zero.
     pub(crate) fn fit(label: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
@@ -39,34 +49,60 @@ impl Axis {
         }
     }
 
-    /// A linear axis with some air at its ends; zero stays an end.
+    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let air = 0.05 * if high > low { high - low } else { 1.0 };
         let below = if low == 0.0 { low } else { low - air };
         let above = if high == 0.0 { high } else { high + air };
-        Self { label: label.to_owned(), scale: Scale::Linear, low: below, high: above }
+        Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
     fn log(label: &str, low: f64, high: f64) -> Self {
         let air = (high / low).powf(0.05);
-        Self { label: label.to_owned(), scale: Scale::Log, low: low / air, high: high * air }
+        Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
 
-    /// Where a value lies: 0 at the low end, 1 at the high end. `None` if it has no place.
+    /// Returns the place of a value: 0 at the low end, 1 at the high end, `None` outside.
     pub(crate) fn place(&self, value: f64) -> Option<f64> {
         let place = match self.scale {
-            Scale::Linear => (value - self.low) / (self.high - self.low),
-            Scale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
+            AxisScale::Linear => (value - self.low) / (self.high - self.low),
+            AxisScale::Log => (value / self.low).ln() / (self.high / self.low).ln(),
         };
         (-1e-9..=1.0 + 1e-9).contains(&place).then_some(place)
     }
 
-    /// Ticks, about as many labelled ones as `wanted`.
+    /// Returns the ticks, about as many labelled ones as `wanted`.
     pub(crate) fn ticks(&self, wanted: usize) -> Vec<Tick> {
         match self.scale {
-            Scale::Linear => self.linear_ticks(wanted),
-            Scale::Log => self.log_ticks(wanted),
+            AxisScale::Linear => self.linear_ticks(wanted),
+            AxisScale::Log => self.log_ticks(wanted),
         }
+    }
+
+    /// Returns the axis as the charting library of the page takes it: type, range, and labelled and minor ticks.
+    pub(crate) fn to_plotly(&self) -> Value {
+        let (kind, range) = match self.scale {
+            AxisScale::Linear => ("linear", [self.low, self.high]),
+            AxisScale::Log => ("log", [self.low.log10(), self.high.log10()]),
+        };
+        let (mut values, mut texts, mut minor) = (Vec::new(), Vec::new(), Vec::new());
+        for tick in self.ticks(PAGE_TICKS) {
+            match tick.label {
+                Some(text) => {
+                    values.push(tick.value);
+                    texts.push(label::html(&text));
+                }
+                None => minor.push(tick.value),
+            }
+        }
+        json!({
+            "type": kind,
+            "range": range,
+            "tickmode": "array",
+            "tickvals": values,
+            "ticktext": texts,
+            "minor": {"ticks": "inside", "tickmode": "array", "tickvals": minor},
+        })
     }
 
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
@@ -106,7 +142,7 @@ impl Axis {
     }
 }
 
-/// `digit · 10^decade`, short.
+/// Formats `digit · 10^decade`, in full from 0.01 to 1000.
 fn power(decade: i32, digit: i32) -> String {
     match decade {
         0..=3 => format!("{}", f64::from(digit) * 10f64.powi(decade)),
@@ -119,12 +155,12 @@ fn power(decade: i32, digit: i32) -> String {
     }
 }
 
-/// With a minus sign in place of a hyphen.
+/// Replaces hyphens by minus signs.
 fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// The smallest and the largest of `values`; of none, 0 and 1.
+/// Returns the smallest and the largest of `values`; of none, 0 and 1.
 pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let ends = values
         .filter(|value| value.is_finite())
@@ -134,25 +170,36 @@ pub(crate) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::Axis;
+    use super::ChartAxis;
 
-    fn labels(axis: &Axis) -> String {
+    fn labels(axis: &ChartAxis) -> String {
         let labels: Vec<_> = axis.ticks(5).into_iter().filter_map(|tick| tick.label).collect();
         labels.join(" ")
     }
 
     #[test]
     fn ticks_are_round_numbers() {
-        assert_eq!(labels(&Axis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
-        assert_eq!(labels(&Axis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+        assert_eq!(labels(&ChartAxis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
+        assert_eq!(labels(&ChartAxis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+    }
+
+    #[test]
+    fn the_page_has_the_same_ticks() {
+        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter()).to_plotly();
+        let texts = "10<sup>−6</sup> 10<sup>−4</sup> 0.01 1 100 10<sup>4</sup>";
+        assert_eq!(axis["ticktext"], serde_json::json!(texts.split(' ').collect::<Vec<_>>()));
+        assert_eq!(axis["tickvals"][0], 1e-6);
+        assert_eq!(axis["minor"]["tickvals"][0], 1e-5);
+        let [low, high] = [0, 1].map(|k| axis["range"][k].as_f64().unwrap());
+        assert!(low < -6.0 && high > 4.0, "{low} {high}");
     }
 
     #[test]
     fn decades_have_a_logarithmic_axis() {
         assert_eq!(
-            labels(&Axis::fit("", [1e-6, 1e4].into_iter())),
+            labels(&ChartAxis::fit("", [1e-6, 1e4].into_iter())),
             "10^{−6} 10^{−4} 0.01 1 100 10^{4}"
         );
-        assert_eq!(labels(&Axis::fit("", [0.025, 1.0].into_iter())), "0.05 0.1 0.2 0.5 1");
+        assert_eq!(labels(&ChartAxis::fit("", [0.025, 1.0].into_iter())), "0.05 0.1 0.2 0.5 1");
     }
 }

@@ -1,6 +1,6 @@
 //! A panel of a figure: a frame with two axes, and what stands in it.
 
-use crate::axis::Axis;
+use crate::axis::ChartAxis;
 use crate::label::{Anchor, label, upright, width};
 use crate::palette::{FAINT, GRID, INK, Mark, slant_color};
 use crate::svg::{Element, Spot, line};
@@ -35,19 +35,19 @@ impl Area {
 
 /// A frame with two axes.
 #[derive(Clone, Debug)]
-pub(crate) struct Panel<'a> {
+pub(crate) struct ChartPanel<'a> {
     pub(crate) area: Area,
-    pub(crate) x: &'a Axis,
-    pub(crate) y: &'a Axis,
-    /// What tells it from the others.
+    pub(crate) x: &'a ChartAxis,
+    pub(crate) y: &'a ChartAxis,
+    /// The title, which tells the panel from others.
     pub(crate) title: String,
     /// Whether the axes have their tick labels here.
     pub(crate) x_labels: bool,
     pub(crate) y_labels: bool,
 }
 
-impl Panel<'_> {
-    /// Where a point stands; `None` if it lies outside.
+impl ChartPanel<'_> {
+    /// Returns the spot of a point; `None` if it lies outside.
     pub(crate) fn place(&self, x: f64, y: f64) -> Option<Spot> {
         Some([self.across(x)?, self.down(y)?])
     }
@@ -60,7 +60,7 @@ impl Panel<'_> {
         Some(self.area.bottom() - self.area.height * self.y.place(y)?)
     }
 
-    /// Frame, grid, ticks and title.
+    /// Draws frame, grid, ticks and title.
     pub(crate) fn frame(&self) -> Element {
         let area = &self.area;
         let border = Element::new("rect")
@@ -120,14 +120,14 @@ impl Panel<'_> {
         drawn
     }
 
-    /// The label of the x axis under the panel.
+    /// Returns the label of the x axis under the panel.
     pub(crate) fn x_name(&self) -> Element {
         let spot = [self.area.center()[0], self.area.bottom() + 36.0];
         let size = fitting(&self.x.label, 1.1 * self.area.width);
         label(&self.x.label, spot, size, Anchor::Middle).with("fill", INK)
     }
 
-    /// The label of the y axis beside the panel, `away` px from it.
+    /// Returns the label of the y axis beside the panel, `away` px from it.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
         let size = fitting(&self.y.label, 1.1 * self.area.height);
@@ -135,12 +135,12 @@ impl Panel<'_> {
     }
 }
 
-/// The size of letters with which a label takes no more than `room`.
+/// Returns the size of letters with which a label takes no more than `room`.
 fn fitting(label: &str, room: f64) -> f64 {
     NAME * (room / width(label, NAME)).min(1.0)
 }
 
-/// The mark of a design of a slant, filled or open.
+/// Returns the mark of a design of a slant, filled or open.
 pub(crate) fn mark(slant_deg: f64, at: Spot, radius: f64, filled: bool) -> Element {
     let color = slant_color(slant_deg);
     let fill = if filled { color.as_str() } else { "#fff" };
@@ -153,7 +153,7 @@ pub(crate) fn mark(slant_deg: f64, at: Spot, radius: f64, filled: bool) -> Eleme
         .at("stroke-width", stroke)
 }
 
-/// The slants with their marks, in one line.
+/// Returns the slants with their marks, in one line.
 pub(crate) fn slant_legend(slants: &[f64], [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
     let mut legend = Element::group("legend").containing([name]);

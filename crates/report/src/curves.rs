@@ -4,8 +4,8 @@ use skin::Design;
 use skin::flexure::Flexure;
 use skin::puncture::Puncture;
 
-use crate::axis::Axis;
-use crate::chart::{Area, Panel};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
@@ -27,14 +27,14 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
 /// A solved design.
 #[derive(Clone, Debug)]
-pub struct Solved<'a> {
-    /// Its number.
+pub struct SolvedDesign<'a> {
+    /// The number of the design.
     pub number: String,
     /// The geometry.
     pub design: &'a Design,
-    /// The puncture.
+    /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,
-    /// The bending.
+    /// The path in bending, if it was solved.
     pub flexure: Option<&'a Flexure>,
 }
 
@@ -47,8 +47,8 @@ struct Curve {
     crosses: Vec<[f64; 2]>,
 }
 
-/// The curves of `designs` as figures: those for which there are paths.
-pub fn curves(name: &str, designs: &[Solved]) -> Vec<Figure> {
+/// Returns the curves of `designs` as figures: those for which there are paths.
+pub fn curves(name: &str, designs: &[SolvedDesign]) -> Vec<Figure> {
     let candidates = [
         ("force-displacement-curves", one_panel(name, &FORCE, designs, puncture)),
         ("moment-curvature-curves", one_panel(name, &MOMENT, designs, flexure)),
@@ -58,47 +58,47 @@ pub fn curves(name: &str, designs: &[Solved]) -> Vec<Figure> {
     candidates.into_iter().filter_map(|(name, svg)| Some(Figure { name, svg: svg? })).collect()
 }
 
-/// What a kind of figure says about itself.
-struct Text {
+/// The texts of a kind of figure.
+struct FigureText {
     title: &'static str,
     x: &'static str,
     y: &'static str,
     note: &'static str,
 }
 
-const FORCE: Text = Text {
+const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
     x: "displacement $u^*$ = $u/t$, dimensionless",
     y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
     note: "× a contact closes, opens or passes a corner",
 };
-const MOMENT: Text = Text {
+const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
     x: "curvature $κ^*$ = $κ t$, dimensionless",
     y: "moment $M^*$ = $M t$/($E_m I_m$), dimensionless",
     note: "× a contact closes, opens or passes a corner",
 };
-const PUNCTURE_ENERGY: Text = Text {
+const PUNCTURE_ENERGY: FigureText = FigureText {
     title: "energies of a puncture",
     x: "displacement $u^*$ = $u/t$, dimensionless",
     y: "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless",
     note: "solid: substrate, dotted: contacts",
 };
-const FLEXURE_ENERGY: Text = Text {
+const FLEXURE_ENERGY: FigureText = FigureText {
     title: "energies of bending",
     x: "curvature $κ^*$ = $κ t$, dimensionless",
     y: "energy $U$/($E_m t$^3), dimensionless",
     note: "solid: bending, dashed: axial, dotted: contacts",
 };
 
-fn puncture(solved: &Solved) -> Option<[Vec<[f64; 2]>; 2]> {
+fn puncture(solved: &SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]> {
     let puncture = solved.puncture?;
     let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
     let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
     Some([points.collect(), events.collect()])
 }
 
-fn flexure(solved: &Solved) -> Option<[Vec<[f64; 2]>; 2]> {
+fn flexure(solved: &SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]> {
     let flexure = solved.flexure?;
     let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
     let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
@@ -108,7 +108,7 @@ fn flexure(solved: &Solved) -> Option<[Vec<[f64; 2]>; 2]> {
 /// The energies of each design, the dashes of each.
 type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
 
-fn puncture_energies(solved: &Solved) -> Option<Energies> {
+fn puncture_energies(solved: &SolvedDesign) -> Option<Energies> {
     let path = &solved.puncture?.path;
     Some(vec![
         ("none", path.iter().map(|p| [p.displacement, p.substrate_energy]).collect()),
@@ -116,7 +116,7 @@ fn puncture_energies(solved: &Solved) -> Option<Energies> {
     ])
 }
 
-fn flexure_energies(solved: &Solved) -> Option<Energies> {
+fn flexure_energies(solved: &SolvedDesign) -> Option<Energies> {
     let path = &solved.flexure?.path;
     Some(vec![
         ("none", path.iter().map(|p| [p.curvature, p.bending_energy]).collect()),
@@ -126,9 +126,14 @@ fn flexure_energies(solved: &Solved) -> Option<Energies> {
 }
 
 /// Points and crosses of a curve; `None` where there is none.
-type Values = fn(&Solved) -> Option<[Vec<[f64; 2]>; 2]>;
+type CurveValues = fn(&SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]>;
 
-fn one_panel(name: &str, text: &Text, designs: &[Solved], values: Values) -> Option<String> {
+fn one_panel(
+    name: &str,
+    text: &FigureText,
+    designs: &[SolvedDesign],
+    values: CurveValues,
+) -> Option<String> {
     let curves = curves_of(designs, values);
     if curves.is_empty() {
         return None;
@@ -143,7 +148,7 @@ fn one_panel(name: &str, text: &Text, designs: &[Solved], values: Values) -> Opt
         height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
     };
     let (x, y, title) = (&x, &y, String::new());
-    let panel = Panel { area, x, y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
     let note = [WIDTH - MARGINS[1], LEGEND + 4.0];
     let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
     inside.push(label(text.note, note, 12.0, Anchor::End).with("fill", INK));
@@ -154,8 +159,8 @@ fn one_panel(name: &str, text: &Text, designs: &[Solved], values: Values) -> Opt
     Some(sheet(WIDTH, height, &format!("{name}: {}", text.title), inside))
 }
 
-/// A curve for each design, darker and with other dashes where slants repeat.
-fn curves_of(designs: &[Solved], values: Values) -> Vec<Curve> {
+/// Returns a curve for each design, darker and with other dashes where slants repeat.
+fn curves_of(designs: &[SolvedDesign], values: CurveValues) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
         let Some([points, crosses]) = values(solved) else { continue };
@@ -169,23 +174,23 @@ fn curves_of(designs: &[Solved], values: Values) -> Vec<Curve> {
     curves
 }
 
-/// Axes for points, both from zero.
-fn axes(text: &Text, points: &[[f64; 2]]) -> (Axis, Axis) {
+/// Fits axes to points, both from zero.
+fn axes(text: &FigureText, points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     let axis = |name: &str, k: usize| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
-        Axis::linear(name, low.min(0.0), high)
+        ChartAxis::linear(name, low.min(0.0), high)
     };
     (axis(text.x, 0), axis(text.y, 1))
 }
 
-/// An axis that shows the smallest of curves whose ends differ by decades.
-fn logarithmic(text: &Text, curves: &[Curve]) -> Option<Axis> {
+/// Returns an axis that shows the smallest of curves whose ends differ by decades.
+fn logarithmic(text: &FigureText, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.points.iter().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
-    (low > 0.0 && high > 30.0 * low).then(|| Axis::fit(text.y, [low / 30.0, high].into_iter()))
+    (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(text.y, [low / 30.0, high].into_iter()))
 }
 
-fn drawn(panel: &Panel, curve: &Curve) -> Element {
+fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
     let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
         points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
     };
@@ -207,12 +212,12 @@ fn legend(curve: &Curve, y: f64) -> Element {
     Element::group("legend").containing([sample, name.with("fill", INK)])
 }
 
-/// A panel for each design, with axes of its own.
+/// Returns a panel for each design, with axes of its own.
 fn panels(
     name: &str,
-    text: &Text,
-    designs: &[Solved],
-    values: fn(&Solved) -> Option<Energies>,
+    text: &FigureText,
+    designs: &[SolvedDesign],
+    values: fn(&SolvedDesign) -> Option<Energies>,
 ) -> Option<String> {
     let solved: Vec<_> = designs.iter().filter_map(|d| Some((d, values(d)?))).collect();
     if solved.is_empty() {
@@ -233,12 +238,17 @@ fn panels(
     Some(sheet(paper, 86.0 + rows * (h + 84.0) - 20.0, &title, inside))
 }
 
-/// The energies of one design.
-fn energies_of(text: &Text, solved: &Solved, energies: &Energies, area: Area) -> Vec<Element> {
+/// Returns the energies of one design.
+fn energies_of(
+    text: &FigureText,
+    solved: &SolvedDesign,
+    energies: &Energies,
+    area: Area,
+) -> Vec<Element> {
     let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
     let (x, y) = axes(text, &points);
     let title = format!("{}:  {}", solved.number, geometry_label(solved.design));
-    let panel = Panel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),
         color: slant_color(solved.design.slant_deg),

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use sweep::Results;
+use results::Results;
 
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,7 +14,7 @@ pub struct Designs {
 }
 
 impl Designs {
-    /// The designs with these columns, each a header and its cells from the top.
+    /// Creates the designs with these columns, each a header and its cells from the top.
     pub fn new(columns: impl IntoIterator<Item = (String, Vec<String>)>) -> Self {
         let columns: Vec<_> = columns.into_iter().collect();
         let count = columns.first().map_or(0, |(_, cells)| cells.len());
@@ -22,7 +22,7 @@ impl Designs {
         Self { headers, cells: columns.into_iter().collect(), count }
     }
 
-    /// The designs of a run.
+    /// Returns the designs of a run.
     pub fn of(results: &Results) -> Self {
         let column = |(k, header): (usize, &String)| {
             let cells = (0..results.len()).map(|row| results.text(row, k).to_owned()).collect();
@@ -31,37 +31,37 @@ impl Designs {
         Self::new(results.header().iter().enumerate().map(column))
     }
 
-    /// Headers, from the left.
+    /// Returns the headers, from the left.
     pub fn headers(&self) -> &[String] {
         &self.headers
     }
 
-    /// How many designs there are.
+    /// Returns the number of designs.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// A cell; empty if there is none.
+    /// Returns a cell; empty if there is none.
     pub fn text(&self, column: &str, row: usize) -> &str {
         self.cells.get(column).and_then(|cells| cells.get(row)).map_or("", String::as_str)
     }
 
-    /// A cell as a number.
+    /// Returns a cell as a number.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         self.text(column, row).parse().ok()
     }
 
-    /// Whether any design has a number in a column.
+    /// Returns whether any design has a number in a column.
     pub(crate) fn has(&self, column: &str) -> bool {
         (0..self.count).any(|row| self.number(column, row).is_some())
     }
 
-    /// The numbers of a column, where there are any.
+    /// Returns the numbers of a column, where there are any.
     pub(crate) fn numbers(&self, column: &str) -> impl Iterator<Item = f64> {
         (0..self.count).filter_map(move |row| self.number(column, row))
     }
 
-    /// The different numbers of a column, sorted.
+    /// Returns the different numbers of a column, sorted.
     pub(crate) fn values(&self, column: &str) -> Vec<f64> {
         let mut values: Vec<f64> = self.numbers(column).collect();
         values.sort_by(f64::total_cmp);

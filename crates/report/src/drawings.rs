@@ -8,8 +8,8 @@ mod strip;
 mod view;
 
 pub use bodies::overlaps;
-pub use row::Puncture;
-pub use strip::Flexure;
+pub use row::PunctureDrawing;
+pub use strip::FlexureDrawing;
 
 use skin::Design;
 
@@ -19,7 +19,7 @@ use crate::svg::{Element, document};
 
 /// Width of a drawing, px.
 const WIDTH: f64 = 960.0;
-/// Air around it, px.
+/// The margin around a drawing, px.
 const MARGIN: f64 = 24.0;
 /// Height of the title, px.
 const HEAD: f64 = 40.0;
@@ -34,7 +34,7 @@ struct Frames {
 }
 
 impl Frames {
-    fn new(panels: Vec<Panel>) -> Self {
+    fn new(panels: Vec<DrawingPanel>) -> Self {
         let height = panels.iter().map(|panel| panel.height).fold(0.0, f64::max);
         let states = panels.into_iter().map(|panel| (panel.caption, panel.inside)).collect();
         Self { height, states }
@@ -42,14 +42,14 @@ impl Frames {
 }
 
 /// A part of a drawing, drawn from its own upper left corner.
-struct Panel {
+struct DrawingPanel {
     height: f64,
     caption: String,
     inside: Vec<Element>,
 }
 
-/// `panels` under each other under a title.
-fn stacked(title: &str, panels: Vec<Panel>) -> String {
+/// Stacks `panels` under a title.
+fn stacked(title: &str, panels: Vec<DrawingPanel>) -> String {
     let mut inside = vec![
         label(title, [MARGIN, 28.0], 16.0, Anchor::Start)
             .with("fill", INK)
@@ -64,8 +64,8 @@ fn stacked(title: &str, panels: Vec<Panel>) -> String {
     document(WIDTH, top + 0.5 * MARGIN, &plain(title), inside)
 }
 
-/// A panel with its letter and caption at a height.
-fn placed(Panel { caption, inside, .. }: Panel, top: f64, number: usize) -> Element {
+/// Returns a panel with its letter and caption at a height.
+fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: usize) -> Element {
     let letter = char::from(b'a' + u8::try_from(number % 26).unwrap_or(0));
     let text = format!("({letter})  {caption}");
     // A caption that would leave the paper is set smaller.
@@ -79,12 +79,12 @@ fn placed(Panel { caption, inside, .. }: Panel, top: f64, number: usize) -> Elem
         .containing([caption, body])
 }
 
-/// The geometry of a design as labels have it.
+/// Returns the geometry of a design as labels have it.
 pub fn geometry_label(design: &Design) -> String {
     format!("$d/t$ = {}, $L/t$ = {}, $α$ = {}°", design.gap, design.length, design.slant_deg)
 }
 
-/// `count` contacts, in words.
+/// Formats a number of contacts in words.
 fn contacts_label(count: usize) -> String {
     match count {
         0 => "no contact".to_owned(),

@@ -6,7 +6,7 @@ mod pareto;
 mod quaternary;
 mod stiffness;
 
-use sweep::Ranking;
+use ranking::Ranking;
 
 use crate::designs::Designs;
 use crate::label::{Anchor, label, plain};
@@ -42,7 +42,7 @@ pub(crate) const COMPLIANCE: Quantity = Quantity {
     label: "flexural compliance $C_f^*$ = $C_f E_m I_m/t$, dimensionless",
 };
 
-/// Every figure that the table has the values for; the Pareto front and the best designs for all weights
+/// Draws every figure for which the table has values; the Pareto front and the best designs for all weights
 /// if they can be ranked.
 pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
     let multiples = [
@@ -75,7 +75,7 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
     figures
 }
 
-/// A sheet of paper with a title.
+/// Returns a sheet of paper with a title.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     let head = label(title, [20.0, 26.0], 15.0, Anchor::Start)
         .with("fill", INK)
@@ -83,7 +83,7 @@ pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) 
     document(width, height, &plain(title), std::iter::once(head).chain(inside).collect())
 }
 
-/// Where panels stand that share their axes: `columns` in a row.
+/// Returns the number of columns in which `count` panels stand that share their axes.
 pub(crate) fn columns(count: usize) -> usize {
     match count {
         0..=3 => count.max(1),

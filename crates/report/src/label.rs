@@ -1,8 +1,8 @@
-//! Labels with symbols: a small part of TeX's notation.
+//! Labels with symbols, in a small part of TeX's notation.
 
 use crate::svg::{Element, Spot};
 
-/// Where a label is held.
+/// The point of a label that stands at its spot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -10,19 +10,19 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// A run of characters of one kind.
+/// A run of characters of one style.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Run {
+struct TextRun {
     text: String,
     italic: bool,
-    /// -1 below, 1 above the line.
+    /// The level: -1 below, 0 on, 1 above the line.
     level: i8,
 }
 
-/// The runs of `source`, in which `$` begins and ends italics, and `_x`, `^x`, `_{xy}`, `^{xy}` stand
+/// Splits `source` into runs, in which `$` begins and ends italics, and `_x`, `^x`, `_{xy}`, `^{xy}` stand
 /// below and above the line.
-fn runs(source: &str) -> Vec<Run> {
-    let mut runs = vec![Run::default()];
+fn runs(source: &str) -> Vec<TextRun> {
+    let mut runs = vec![TextRun::default()];
     let (mut italic, mut level) = (false, 0);
     let mut braced = false;
     for c in source.chars() {
@@ -44,25 +44,37 @@ fn runs(source: &str) -> Vec<Run> {
     runs
 }
 
-fn push(runs: &mut Vec<Run>, c: char, italic: bool, level: i8) {
+fn push(runs: &mut Vec<TextRun>, c: char, italic: bool, level: i8) {
     match runs.last_mut() {
         Some(run) if run.italic == italic && run.level == level => run.text.push(c),
-        _ => runs.push(Run { text: c.to_string(), italic, level }),
+        _ => runs.push(TextRun { text: c.to_string(), italic, level }),
     }
 }
 
-/// The characters of `source` alone.
+/// Returns the characters of `source` without its notation.
 pub(crate) fn plain(source: &str) -> String {
     runs(source).into_iter().map(|run| run.text).collect()
 }
 
-/// About the width of `source`, px.
+/// Returns `source` as HTML.
+pub(crate) fn html(source: &str) -> String {
+    let run = |run: TextRun| match (run.level, run.italic) {
+        (1, _) => format!("<sup>{}</sup>", run.text),
+        (-1, _) => format!("<sub>{}</sub>", run.text),
+        (_, true) => format!("<i>{}</i>", run.text),
+        _ => run.text,
+    };
+    runs(source).into_iter().map(run).collect()
+}
+
+/// Returns the approximate width of `source`, px.
 pub(crate) fn width(source: &str, size: f64) -> f64 {
-    let run = |run: Run| run.text.chars().count() as f64 * if run.level == 0 { 0.53 } else { 0.38 };
+    let run =
+        |run: TextRun| run.text.chars().count() as f64 * if run.level == 0 { 0.53 } else { 0.38 };
     runs(source).into_iter().map(run).sum::<f64>() * size
 }
 
-/// `source` as an SVG text at `spot`.
+/// Returns `source` as an SVG text at a spot.
 pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> Element {
     let mut text = Element::new("text").at("x", x).at("y", y).at("font-size", size);
     match anchor {
@@ -89,7 +101,7 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
     text
 }
 
-/// `source` turned to be read from the right.
+/// Returns `source` as an SVG text that reads upwards.
 pub(crate) fn upright(source: &str, spot: Spot, size: f64) -> Element {
     let turn = format!("rotate(-90 {} {})", crate::svg::px(spot[0]), crate::svg::px(spot[1]));
     label(source, spot, size, Anchor::Middle).with("transform", turn)

@@ -1,28 +1,34 @@
-//! Drawings of designs, figures of sweeps.
+//! Drawings of designs, and figures and pages of sweeps.
+//!
+//! All reports are made from the tables of a run or from solved designs, without solving anything. A drawing maps a point
+//! `(x, y)` of the plane, in units of `t`, to px by `(x₀ + s x, y₀ − s y)`.
 //!
 //! | Item | Role |
 //! |---|---|
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
 //! | [`curves()`] | paths of solved designs |
-//! | [`figures()`] | what a sweep found, from its table |
-//! | [`Page`] | all of it on one page |
-//! | [`png`] | any of them as an image |
+//! | [`figures()`] | figures of a sweep, from its table |
+//! | [`Designs`] | the table of a sweep, column by column |
+//! | [`Page`], [`RankingEntry`] | figures, ranking, table and drawings on one HTML page |
+//! | `png` | conversion of a drawing or figure to an image (feature `png`) |
+//! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!
 //! ```
-//! use report::drawings::Puncture;
+//! use report::drawings::PunctureDrawing;
 //! use skin::puncture::{At, Parameters, RowLength, snapshots};
-//! use skin::{Base, Design};
+//! use skin::{Base, Common, Design};
 //! use substrate::calibrate;
 //!
 //! // A row of five scales at rest and when the middle one has tilted by 10°.
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
 //! let springs = calibrate(&design.footprint(0.5)?)?;
 //! let parameters = Parameters { scales: RowLength::Scales(5), ..Parameters::default() };
-//! let solved = snapshots(&design, &springs, &parameters, &[At::Tilt(10.0)])?;
+//! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
-//! let svg = Puncture { name, design: &design, load_position: 1.0, states: &states }.svg()?;
+//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
+//! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -32,16 +38,22 @@ mod chart;
 mod curves;
 mod designs;
 pub mod drawings;
+#[cfg(feature = "xlsx")]
+mod export;
 mod figures;
 mod label;
 mod page;
 mod palette;
+#[cfg(feature = "png")]
 mod png;
 mod svg;
 
-pub use curves::{Solved, curves};
+pub use curves::{SolvedDesign, curves};
 pub use designs::Designs;
+#[cfg(feature = "xlsx")]
+pub use export::{ExportError, Exported, export};
 pub use figures::{Figure, figures};
-pub use page::{Fact, Page};
+pub use page::{Fact, Page, RankingEntry};
 pub use palette::{Mark, slant_color};
+#[cfg(feature = "png")]
 pub use png::{NoImage, png};

@@ -1,7 +1,12 @@
 //! The page of a sweep: one self-contained HTML file.
+//!
+//! The scripts of the page draw and rank, but the axes of its charts, the rescaled criteria and the Pareto front come from
+//! here, so that the page cannot differ from figures and tables.
 
-use serde_json::{Value, json};
+use ranking::{Ranking, Weights};
+use serde_json::{Map, Value, json};
 
+use crate::axis::ChartAxis;
 use crate::designs::Designs;
 use crate::palette::{Mark, slant_color};
 
@@ -9,7 +14,7 @@ const PAGE: &str = include_str!("../assets/page/page.html");
 const STYLE: &str = include_str!("../assets/page/style.css");
 const PLOTLY: &str = include_str!("../assets/plotly/plotly-gl3d.min.js");
 const LICENCE: &str = include_str!("../assets/plotly/LICENSE");
-/// In the order in which they run.
+/// The scripts of the page, in the order in which they run.
 const SCRIPTS: [&str; 8] = [
     include_str!("../assets/page/1-designs.js"),
     include_str!("../assets/page/2-ranking.js"),
@@ -21,34 +26,76 @@ const SCRIPTS: [&str; 8] = [
     include_str!("../assets/page/8-page.js"),
 ];
 
-/// A name and what belongs to it.
+/// A name and its value.
 pub type Fact = (String, String);
 
-/// What a page shows.
+/// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
-    /// Name of the sweep.
+    /// The name of the sweep.
     pub name: String,
-    /// Version of the program.
+    /// The version of the program.
     pub version: String,
-    /// Folder of the results, as commands name it.
+    /// The folder of the results, as commands name it.
     pub folder: String,
-    /// The table.
+    /// The designs of the table.
     pub designs: Designs,
-    /// Keys of the axes of the grid.
+    /// The designs that can be ranked.
+    pub ranking: Vec<RankingEntry>,
+    /// The keys of the axes of the grid.
     pub axes: Vec<String>,
-    /// Unit and meaning of each column.
+    /// The unit and the meaning of each column.
     pub columns: Vec<(String, String)>,
-    /// What the run was.
+    /// Facts about the run.
     pub run: Vec<Fact>,
-    /// Key, value and meaning of the parameters that all designs share.
+    /// The key, the value and the meaning of each parameter that all designs share.
     pub shared: Vec<[String; 3]>,
-    /// Drawings, by the number of their design.
+    /// Drawings by the number of their design.
     pub drawings: Vec<Fact>,
 }
 
+/// A design that can be ranked, with all that its rank depends on besides the weights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RankingEntry {
+    /// The row of the design in the table, from 0.
+    pub row: usize,
+    /// The criteria, larger being better.
+    pub criteria: [f64; 4],
+    /// The criteria from 0, the worst of all designs, to 1, the best.
+    pub rescaled: [f64; 4],
+    /// Whether no other design is better in every criterion.
+    pub on_front: bool,
+}
+
+impl RankingEntry {
+    /// Returns the designs of a ranking, in the order of the table.
+    pub fn all(ranking: &Ranking<'_>) -> Vec<Self> {
+        let ranked = ranking.by_fitness(Weights::BALANCED);
+        let entry = ranked.iter().map(|design| Self {
+            row: design.row(),
+            criteria: design.criteria(),
+            rescaled: design.rescaled(),
+            on_front: design.on_front(),
+        });
+        let mut entries: Vec<Self> = entry.collect();
+        entries.sort_by_key(|entry| entry.row);
+        entries
+    }
+}
+
+/// The columns that charts of the page show along their axes.
+const CHARTED: [&str; 7] = [
+    "gap_over_t",
+    "length_over_t",
+    "critical_force",
+    "penetration",
+    "compliance",
+    "max_stiffness",
+    "secant_stiffness",
+];
+
 impl Page {
-    /// The page as HTML, which needs nothing besides itself.
+    /// Returns the page as HTML that needs no other file.
     pub fn html(&self) -> String {
         let scripts: Vec<_> =
             SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>")).collect();
@@ -81,6 +128,8 @@ impl Page {
             "name": self.name,
             "folder": self.folder,
             "axes": self.axes,
+            "scales": self.scales(),
+            "ranking": self.ranking(),
             "columns": columns,
             "rows": (0..self.designs.count()).map(row).collect::<Vec<_>>(),
             "slants": self.designs.values("slant_deg").into_iter().map(slant).collect::<Vec<_>>(),
@@ -90,7 +139,31 @@ impl Page {
         })
     }
 
-    /// A number where the cell is one; the number of a design keeps its zeros.
+    /// Returns the axes of the charts: by column, and for each criterion those of the designs that are ranked.
+    fn scales(&self) -> Value {
+        let column = |name: &str| {
+            (name.to_owned(), ChartAxis::fit(name, self.designs.numbers(name)).to_plotly())
+        };
+        let columns: Map<String, Value> = CHARTED.into_iter().map(column).collect();
+        let criterion = |k: usize| {
+            ChartAxis::fit("", self.ranking.iter().map(|entry| entry.criteria[k])).to_plotly()
+        };
+        let criteria = [0, 1, 2, 3].map(criterion);
+        json!({"columns": columns, "criteria": criteria})
+    }
+
+    /// Returns the designs that can be ranked, list by list.
+    fn ranking(&self) -> Value {
+        let front = self.ranking.iter().filter(|entry| entry.on_front);
+        json!({
+            "rows": self.ranking.iter().map(|entry| entry.row).collect::<Vec<_>>(),
+            "criteria": self.ranking.iter().map(|entry| entry.criteria).collect::<Vec<_>>(),
+            "rescaled": self.ranking.iter().map(|entry| entry.rescaled).collect::<Vec<_>>(),
+            "front": front.map(|entry| entry.row).collect::<Vec<_>>(),
+        })
+    }
+
+    /// Returns a cell as a number where it is one; the number of a design keeps its zeros.
     fn cell(&self, header: &str, row: usize) -> Value {
         let text = self.designs.text(header, row);
         match self.designs.number(header, row) {
@@ -101,7 +174,7 @@ impl Page {
     }
 }
 
-/// Colour, symbol and path of the mark of a slant.
+/// Returns the colour, the symbol and the path of the mark of a slant.
 fn slant(degrees: f64) -> Value {
     let mark = Mark::of(degrees);
     json!({
@@ -112,7 +185,7 @@ fn slant(degrees: f64) -> Value {
     })
 }
 
-/// `template` with each place filled; what is filled in is not searched again.
+/// Returns `template` with each place filled; text that is filled in is not searched again.
 fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut page = String::new();
     let mut rest = template;

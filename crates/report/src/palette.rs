@@ -1,4 +1,4 @@
-//! Colours and marks: the same slant has the same everywhere.
+//! Colours and marks of slants, the same in every figure and on the page.
 
 use std::f64::consts::PI;
 
@@ -6,11 +6,11 @@ use crate::svg::{Element, Spot, circle, polygon, through};
 
 /// Ink of axes and labels.
 pub(crate) const INK: &str = "#222222";
-/// Ink of what matters less.
+/// Ink of secondary marks and notes.
 pub(crate) const FAINT: &str = "#767676";
 /// Lines of a grid.
 pub(crate) const GRID: &str = "#e6e6e6";
-/// Contacts.
+/// Colour of contacts.
 pub(crate) const RED: &str = "#d0021b";
 
 /// Colours at every 15° from 0°, of Okabe and Ito's palette for the colour-blind.
@@ -37,17 +37,17 @@ const SEQUENCE: [[u8; 3]; 9] = [
     [255, 234, 70],
 ];
 
-/// The colour of a slant; between the steps of 15° a mixture.
+/// Returns the colour of a slant; between the steps of 15° a mixture.
 pub fn slant_color(slant_deg: f64) -> String {
     mixed(&SLANTS, slant_deg / 90.0)
 }
 
-/// The colour of a value from 0 to 1 in a map.
+/// Returns the colour of a value from 0 to 1 in a map.
 pub(crate) fn map_color(fraction: f64) -> String {
     mixed(&SEQUENCE, fraction)
 }
 
-/// A colour mixed with white, or, below 0, with black.
+/// Returns a colour mixed with white, or, below 0, with black.
 pub(crate) fn shaded(color: &str, part: f64) -> String {
     let channel = |k: usize| {
         let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
@@ -91,7 +91,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// The mark of the step of 15° that is nearest to a slant.
+    /// Returns the mark of the step of 15° that is nearest to a slant.
     pub fn of(slant_deg: f64) -> Self {
         const MARKS: [Mark; 7] = [
             Mark::Circle,
@@ -106,7 +106,7 @@ impl Mark {
         MARKS[((slant_deg / 15.0).round() as usize).min(MARKS.len() - 1)]
     }
 
-    /// Its name in the charting library of the page.
+    /// Returns the name of the mark in the charting library of the page.
     pub(crate) fn plotly_symbol(self) -> &'static str {
         match self {
             Self::Circle => "circle",
@@ -119,20 +119,20 @@ impl Mark {
         }
     }
 
-    /// The data of a path around the origin, some 10 px across.
+    /// Returns the data of a path around the origin, some 10 px across.
     pub(crate) fn path(self) -> String {
         const CIRCLE: &str = "M-5 0 A5 5 0 1 1 5 0 A5 5 0 1 1 -5 0 Z";
         let corners = self.corners([0.0, 0.0], 5.0);
         corners.map_or_else(|| CIRCLE.to_owned(), |corners| through(&corners, true))
     }
 
-    /// The mark at a place, about as large as a circle of `radius`.
+    /// Returns the mark at a place, about as large as a circle of `radius`.
     pub(crate) fn draw(self, center: Spot, radius: f64) -> Element {
         let corners = self.corners(center, radius);
         corners.map_or_else(|| circle(center, radius), |corners| polygon(&corners))
     }
 
-    /// Its corners; a circle has none.
+    /// Returns the corners of the mark; a circle has none.
     fn corners(self, center: Spot, radius: f64) -> Option<Vec<Spot>> {
         Some(match self {
             Self::Circle => return None,
@@ -146,7 +146,7 @@ impl Mark {
     }
 }
 
-/// Corners of a polygon, the first at an angle; with `inner` below 1 those of a star.
+/// Returns the corners of a polygon, the first at an angle; with `inner` below 1 those of a star.
 fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) -> Vec<Spot> {
     let corner = |k: usize| {
         let angle = start + k as f64 * PI / corners as f64;

@@ -1,11 +1,11 @@
-//! SVG to PNG, with the fonts that the program carries, so that every machine draws the same.
+//! Conversion from SVG to PNG, with embedded fonts, so that every machine draws the same.
 
 use std::sync::{Arc, LazyLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-/// Pixels of the image for each px of the drawing.
+/// Pixels of the image for each px of the drawing: sharp on screens of twice the usual density.
 const SHARPNESS: f32 = 2.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
@@ -20,12 +20,12 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// A drawing that cannot become an image.
+/// A drawing that cannot be converted to an image.
 #[derive(Debug, thiserror::Error)]
 #[error("drawing: cannot be made a PNG ({0}), expected a drawing of a size that fits in memory")]
 pub struct NoImage(String);
 
-/// `svg` as a PNG, twice as sharp.
+/// Renders `svg` as a PNG with two pixels for each px.
 ///
 /// # Errors
 /// If the text is no SVG or the image does not fit in memory.

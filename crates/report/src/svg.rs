@@ -13,11 +13,11 @@ pub(crate) type Spot = [f64; 2];
 pub(crate) struct Element {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
-    inside: Vec<Node>,
+    inside: Vec<SvgNode>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-enum Node {
+enum SvgNode {
     Element(Element),
     Text(String),
 }
@@ -27,7 +27,7 @@ impl Element {
         Self { name, attributes: Vec::new(), inside: Vec::new() }
     }
 
-    /// A group with a class, which says what it shows.
+    /// Returns a group with a class, which says what it shows.
     pub(crate) fn group(class: &str) -> Self {
         Self::new("g").with("class", class)
     }
@@ -37,22 +37,22 @@ impl Element {
         self
     }
 
-    /// An attribute in px.
+    /// Returns an attribute in px.
     pub(crate) fn at(self, name: &'static str, value: f64) -> Self {
         self.with(name, px(value))
     }
 
     pub(crate) fn add(&mut self, element: Self) {
-        self.inside.push(Node::Element(element));
+        self.inside.push(SvgNode::Element(element));
     }
 
     pub(crate) fn containing(mut self, elements: impl IntoIterator<Item = Self>) -> Self {
-        self.inside.extend(elements.into_iter().map(Node::Element));
+        self.inside.extend(elements.into_iter().map(SvgNode::Element));
         self
     }
 
     pub(crate) fn text(mut self, text: &str) -> Self {
-        self.inside.push(Node::Text(text.to_owned()));
+        self.inside.push(SvgNode::Text(text.to_owned()));
         self
     }
 
@@ -70,22 +70,22 @@ impl Element {
         let lines = self.name != "text" && self.name != "tspan";
         for node in &self.inside {
             match node {
-                Node::Element(element) => {
+                SvgNode::Element(element) => {
                     if lines {
                         new_line(out, depth + 1);
                     }
                     element.write(out, depth + 1);
                 }
-                Node::Text(text) => out.push_str(&escaped(text)),
+                SvgNode::Text(text) => out.push_str(&escaped(text)),
             }
         }
-        if lines && self.inside.iter().any(|node| matches!(node, Node::Element(_))) {
+        if lines && self.inside.iter().any(|node| matches!(node, SvgNode::Element(_))) {
             new_line(out, depth);
         }
         let _ = write!(out, "</{}>", self.name);
     }
 
-    /// The element as text.
+    /// Returns the element as text.
     pub(crate) fn to_text(&self) -> String {
         let mut out = String::new();
         self.write(&mut out, 0);
@@ -102,14 +102,14 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// A coordinate to the hundredth of a pixel.
+/// Returns a coordinate to the hundredth of a pixel.
 pub(crate) fn px(value: f64) -> String {
     let rounded = (value * 100.0).round() / 100.0;
     // Negative zero is zero.
     (rounded + 0.0).to_string()
 }
 
-/// A whole drawing of `width` by `height` px on white paper.
+/// Returns a whole drawing of `width` by `height` px on white paper.
 pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
     let paper = Element::new("rect").at("width", width).at("height", height).with("fill", "#fff");
     let root = Element::new("svg")
@@ -124,7 +124,7 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
     format!("{}\n", root.to_text())
 }
 
-/// The data of a path through `points`.
+/// Returns the data of a path through `points`.
 pub(crate) fn through(points: &[Spot], closed: bool) -> String {
     let mut data = String::new();
     for (k, [x, y]) in points.iter().enumerate() {
@@ -159,7 +159,7 @@ pub(crate) fn circle(center: Spot, radius: f64) -> Element {
     Element::new("circle").at("cx", center[0]).at("cy", center[1]).at("r", radius)
 }
 
-/// An arrow whose head ends in `to`; the head shrinks with a short arrow.
+/// Returns an arrow whose head ends in `to`; the head shrinks with a short arrow.
 pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let [dx, dy] = [to[0] - from[0], to[1] - from[1]];
     let length = dx.hypot(dy);

@@ -8,8 +8,8 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::prelude::*;
-use skin::Base;
 use skin::flexure::{Method, Parameters, solve};
+use skin::{Base, Common};
 
 fn reference_study(c: &mut Criterion) {
     let designs = samples::reference_study(Base::L);
@@ -19,7 +19,7 @@ fn reference_study(c: &mut Criterion) {
     group.bench_function("unit cell", |b| {
         b.iter(|| {
             designs.par_iter().for_each(|design| {
-                black_box(solve(design, &parameters)).expect("a design");
+                black_box(solve(design, &Common::default(), &parameters)).expect("a design");
             });
         });
     });
@@ -40,7 +40,9 @@ fn chain_length(c: &mut Criterion) {
         };
         group.throughput(Throughput::Elements(u64::from(gaps)));
         group.bench_function(BenchmarkId::from_parameter(gaps), |b| {
-            b.iter(|| black_box(solve(&design, &parameters)).expect("a design"));
+            b.iter(|| {
+                black_box(solve(&design, &Common::default(), &parameters)).expect("a design")
+            });
         });
     }
     group.finish();

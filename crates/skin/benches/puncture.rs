@@ -8,8 +8,8 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::prelude::*;
-use skin::Base;
 use skin::puncture::{Parameters, solve};
+use skin::{Base, Common};
 use substrate::Calibrations;
 
 fn reference_study(c: &mut Criterion) {
@@ -38,7 +38,9 @@ fn row_length(c: &mut Criterion) {
     for scales in [41, 401, 4001] {
         group.throughput(Throughput::Elements(scales as u64));
         group.bench_function(BenchmarkId::from_parameter(scales), |b| {
-            b.iter(|| black_box(solve(&design, &springs, &samples::on_row(scales))));
+            b.iter(|| {
+                black_box(solve(&design, &springs, &Common::default(), &samples::on_row(scales)))
+            });
         });
     }
     group.finish();

@@ -12,6 +12,7 @@
 mod samples;
 
 use std::collections::BTreeMap;
+use std::iter::zip;
 use std::time::Instant;
 
 use contact::Law;
@@ -21,26 +22,28 @@ use skin::Status;
 use skin::puncture::{Parameters, Puncture};
 use substrate::Calibrations;
 
-const LAWS: [(&str, Law); 2] = [("as printed", Law::PRINTED), ("exchanged", Law::EXCHANGED)];
+/// Names of the laws, in their order.
+const NAMES: [&str; 2] = ["as printed", "exchanged"];
 
 fn main() {
     let known = Calibrations::default();
     let study = samples::BASES.map(samples::reference_study).concat();
-    for (name, law) in LAWS {
+    for (name, law) in zip(NAMES, samples::LAWS) {
         for factor in [1e-2, 1.0, 1e2, 1e4] {
-            let mut parameters = Parameters { law, ..samples::on_row(41) };
+            let mut parameters = samples::on_row(41);
             parameters.contact_modulus_over_substrate *= factor;
             report(
                 &format!("study, law {name}, modulus × {factor:e}"),
                 &known,
                 &study,
+                law,
                 &parameters,
             );
         }
     }
-    for (name, law) in LAWS {
-        let parameters = Parameters { law, ..samples::on_row(41) };
-        report(&format!("random, law {name}"), &known, &samples::random(10_000, 1), &parameters);
+    for (name, law) in zip(NAMES, samples::LAWS) {
+        let (name, designs) = (format!("random, law {name}"), samples::random(10_000, 1));
+        report(&name, &known, &designs, law, &samples::on_row(41));
     }
 }
 
@@ -54,11 +57,17 @@ fn end(puncture: &Puncture) -> End {
     End { status: puncture.status, iterations: puncture.history.len() }
 }
 
-fn report(title: &str, known: &Calibrations, designs: &[Design], parameters: &Parameters) {
+fn report(
+    title: &str,
+    known: &Calibrations,
+    designs: &[Design],
+    law: Law,
+    parameters: &Parameters,
+) {
     let start = Instant::now();
     let ends: Vec<End> = designs
         .par_iter()
-        .map(|design| end(&samples::solve_with(known, design, parameters)))
+        .map(|design| end(&samples::solve_as(known, design, &samples::with_law(law), parameters)))
         .collect();
     let seconds = start.elapsed().as_secs_f64();
     let mut counts = BTreeMap::<String, usize>::new();

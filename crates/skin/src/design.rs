@@ -1,7 +1,7 @@
 //! The parameters of one design.
 
-use geometry::{InvalidGeometry, Parallelogram, Row};
-use substrate::{Footprint, InvalidFootprint};
+use geometry::{OutOfRange, Parallelogram, Row};
+use substrate::Footprint;
 
 /// Meaning of the `L` in `L/t`: the base of a scale, or half of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Design {
     ///
     /// # Errors
     /// If a length is not positive or the slant is outside `[0°, 90°)`.
-    pub fn row(&self) -> Result<Row, InvalidGeometry> {
+    pub fn row(&self) -> Result<Row, OutOfRange> {
         Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
     }
 
@@ -48,7 +48,7 @@ impl Design {
     ///
     /// # Errors
     /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.
-    pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, InvalidFootprint> {
+    pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, OutOfRange> {
         let a = self.half_base();
         Footprint::new(self.gap / a, self.width / a, poisson_ratio)
     }

@@ -12,7 +12,7 @@ mod uneven_tests;
 
 use std::collections::HashSet;
 
-use contact::{ContactLaw, Law};
+use contact::ContactLaw;
 use frame::{Frame, Step};
 use geometry::Row;
 use membrane::{GapMembrane, Section, Span};
@@ -22,7 +22,7 @@ use strip::{Extent, Strip};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, State};
 use crate::record::{ContactEvent, Iteration, Record};
-use crate::{ContactChange, Design, InvalidDesign, Sample, Status};
+use crate::{Common, ContactChange, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
 pub use point::PathPoint;
@@ -40,8 +40,6 @@ pub enum Method {
 /// Parameters of bending besides the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parameters {
-    /// Contact law between scales.
-    pub law: Law,
     /// `E_ct / E_m`.
     pub contact_modulus_over_membrane: f64,
     /// One gap or all.
@@ -56,8 +54,6 @@ pub struct Parameters {
     pub elements_per_gap: usize,
     /// Rotation of each end at which bending ends, degrees.
     pub max_end_rotation_deg: f64,
-    /// Path following.
-    pub solver: Settings,
 }
 
 impl Default for Parameters {
@@ -65,7 +61,6 @@ impl Default for Parameters {
     /// `E_m = 4.5 MPa`, 1 mm thick.
     fn default() -> Self {
         Self {
-            law: Law::PRINTED,
             contact_modulus_over_membrane: 667.0,
             method: Method::UnitCell,
             membrane_length: 100.0,
@@ -73,7 +68,6 @@ impl Default for Parameters {
             membrane_axis_offset: 0.0,
             elements_per_gap: 1,
             max_end_rotation_deg: 180.0,
-            solver: Settings::default(),
         }
     }
 }
@@ -129,8 +123,12 @@ pub fn gaps(row: &Row, membrane_length: f64) -> usize {
 ///
 /// # Errors
 /// If a length, a modulus, or a constant of the contact law is not positive.
-pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, InvalidDesign> {
-    Ok(Problem::even(design, parameters)?.solve(parameters))
+pub fn solve(
+    design: &Design,
+    common: &Common,
+    parameters: &Parameters,
+) -> Result<Flexure, InvalidDesign> {
+    Ok(Problem::even(design, common, parameters)?.solve())
 }
 
 /// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
@@ -142,47 +140,55 @@ pub fn solve(design: &Design, parameters: &Parameters) -> Result<Flexure, Invali
 /// As [`solve`], or if the scales cannot be made to stand clear of each other.
 pub fn solve_sample(
     design: &Design,
+    common: &Common,
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Flexure, InvalidDesign> {
-    Ok(Problem::sample(design, parameters, sample)?.solve(parameters))
+    Ok(Problem::sample(design, common, parameters, sample)?.solve())
 }
 
 /// A strip to be bent.
 struct Problem {
     row: Arrangement,
     strip: Strip,
+    settings: Settings,
 }
 
 impl Problem {
     /// The strip of a design.
-    fn even(design: &Design, parameters: &Parameters) -> Result<Self, InvalidDesign> {
+    fn even(
+        design: &Design,
+        common: &Common,
+        parameters: &Parameters,
+    ) -> Result<Self, InvalidDesign> {
         let row = design.row()?;
         let gaps = gaps(&row, parameters.membrane_length);
         let solved = match parameters.method {
             Method::UnitCell => 1,
             Method::Chain => gaps,
         };
-        Self::new(design, parameters, Arrangement::Even(row), gaps, solved)
+        Self::new(design, common, parameters, Arrangement::Even(row), [gaps, solved])
     }
 
     /// A sample of the strip, with all its gaps.
     fn sample(
         design: &Design,
+        common: &Common,
         parameters: &Parameters,
         sample: &Sample,
     ) -> Result<Self, InvalidDesign> {
         let gaps = gaps(&design.row()?, parameters.membrane_length);
         let row = Arrangement::Uneven(sample.row(0, gaps)?);
-        Self::new(design, parameters, row, gaps, gaps)
+        Self::new(design, common, parameters, row, [gaps; 2])
     }
 
+    /// A strip of so many gaps, of which so many are solved for.
     fn new(
         design: &Design,
+        common: &Common,
         parameters: &Parameters,
         row: Arrangement,
-        gaps: usize,
-        solved: usize,
+        [gaps, solved]: [usize; 2],
     ) -> Result<Self, InvalidDesign> {
         let section = Section::new(design.width, parameters.membrane_thickness)?;
         let membrane = |gap: usize| {
@@ -199,19 +205,20 @@ impl Problem {
         };
         let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
         let modulus = parameters.contact_modulus_over_membrane;
-        let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
+        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
         let whole = 2.0 * parameters.max_end_rotation_deg.to_radians();
         let rotation = whole * solved as f64 / gaps as f64;
         let extent = Extent { gaps: solved, repeats: gaps / solved, rotation };
-        Ok(Self { strip: Strip::new(row.clone(), membranes, law, section, extent), row })
+        let strip = Strip::new(row.clone(), membranes, law, section, extent);
+        Ok(Self { row, strip, settings: common.solver })
     }
 
-    fn solve(self, parameters: &Parameters) -> Flexure {
-        let Self { row, strip } = self;
+    fn solve(self) -> Flexure {
+        let Self { row, strip, settings } = self;
         let rest = State::at_rest(&strip);
         let alike = matches!(row, Arrangement::Even(_));
         let mut steps = vec![strip.steps(&rest.z)];
-        let mut path = Path::new(strip, rest, parameters.solver);
+        let mut path = Path::new(strip, rest, settings);
         let mut record = Record::new(&path);
         let mut flush = false;
         while let Some(point) = path.next() {

@@ -1,6 +1,6 @@
 //! Rows that are not perfect: random gaps and slants.
 
-use geometry::{Parallelogram, UnevenRow, clearance};
+use geometry::{OutOfRange, Parallelogram, UnevenRow, clearance};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
 use rand_distr::{Distribution as _, StandardNormal};
@@ -41,18 +41,6 @@ pub struct Imperfection {
     pub slant_sd_deg: f64,
 }
 
-/// A number that no imperfection can have, or scales that never stand clear of each other.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidImperfection {
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// The values that are allowed.
-    pub expected: &'static str,
-}
-
 impl Imperfection {
     /// Whether nothing scatters.
     pub fn is_none(&self) -> bool {
@@ -75,7 +63,7 @@ impl Imperfection {
         for (quantity, value) in rules {
             if !(value >= 0.0 && value.is_finite()) {
                 let expected = "a number of at least 0";
-                return Err(InvalidImperfection { quantity, value, expected }.into());
+                return Err(OutOfRange { quantity, value, expected }.into());
             }
         }
         // Only the check.
@@ -193,7 +181,7 @@ impl Sample {
     }
 
     fn crowded(&self) -> InvalidDesign {
-        InvalidImperfection {
+        OutOfRange {
             quantity: "standard deviation of the slants",
             value: self.imperfection.slant_sd_deg,
             expected: "one small enough for scales to stand clear of each other",

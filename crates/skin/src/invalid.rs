@@ -1,28 +1,15 @@
 //! Parameters without mechanical meaning.
 
 use contact::InvalidLaw;
-use geometry::InvalidGeometry;
-use membrane::InvalidMembrane;
-
-use crate::imperfection::InvalidImperfection;
-use crate::puncture::InvalidPuncture;
+use geometry::OutOfRange;
 
 /// A parameter without mechanical meaning.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidDesign {
-    /// In the geometry.
+    /// A parameter of the geometry, the membrane, the puncture or the imperfection.
     #[error(transparent)]
-    Geometry(#[from] InvalidGeometry),
-    /// In the contact law.
+    OutOfRange(#[from] OutOfRange),
+    /// A constant of the contact law.
     #[error(transparent)]
     Law(#[from] InvalidLaw),
-    /// In the membrane.
-    #[error(transparent)]
-    Membrane(#[from] InvalidMembrane),
-    /// In the imperfection.
-    #[error(transparent)]
-    Imperfection(#[from] InvalidImperfection),
-    /// In what the puncture depends on besides.
-    #[error(transparent)]
-    Puncture(#[from] InvalidPuncture),
 }

@@ -26,12 +26,12 @@
 //!
 //! ```
 //! use skin::puncture::{self, Parameters};
-//! use skin::{Base, Design, Status};
+//! use skin::{Base, Common, Design, Status};
 //!
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
 //! let parameters = Parameters::default();
 //! let springs = substrate::calibrate(&design.footprint(parameters.poisson_ratio)?)?;
-//! let puncture = puncture::solve(&design, &springs, &parameters)?;
+//! let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters)?;
 //! assert_eq!(puncture.status, Status::Complete);
 //!
 //! // More scales share the load than the one that carries it.
@@ -42,6 +42,7 @@
 //! ```
 
 mod arrangement;
+mod common;
 mod contacts;
 mod crossing;
 mod design;
@@ -52,9 +53,10 @@ pub mod puncture;
 mod record;
 mod status;
 
+pub use common::Common;
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
-pub use imperfection::{Imperfection, InvalidImperfection, Sample};
+pub use imperfection::{Imperfection, Sample};
 pub use invalid::InvalidDesign;
 pub use record::{ContactEvent, Iteration};
 pub use status::Status;

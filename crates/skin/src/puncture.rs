@@ -8,8 +8,8 @@ mod system;
 mod tests;
 mod window;
 
-use contact::{ContactLaw, Law};
-use geometry::Row;
+use contact::ContactLaw;
+use geometry::{OutOfRange, Row};
 use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
@@ -19,7 +19,7 @@ use window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
 use crate::record::{ContactEvent, Iteration, Record};
-use crate::{Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, InvalidDesign, Sample, Status};
 
 pub use measures::Measures;
 pub use point::{PathPoint, ScaleState};
@@ -43,8 +43,6 @@ pub enum RowLength {
 pub struct Parameters {
     /// Poisson's ratio `ν` of the substrate.
     pub poisson_ratio: f64,
-    /// Contact law between scales.
-    pub law: Law,
     /// `E_ct / E_s`.
     pub contact_modulus_over_substrate: f64,
     /// Row length.
@@ -53,8 +51,6 @@ pub struct Parameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
-    /// Path following.
-    pub solver: Settings,
 }
 
 impl Default for Parameters {
@@ -62,12 +58,10 @@ impl Default for Parameters {
     fn default() -> Self {
         Self {
             poisson_ratio: 0.5,
-            law: Law::PRINTED,
             contact_modulus_over_substrate: 9677.0,
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
-            solver: Settings::default(),
         }
     }
 }
@@ -98,9 +92,10 @@ pub struct Puncture {
 pub fn solve(
     design: &Design,
     substrate: impl Into<RowStiffness>,
+    common: &Common,
     parameters: &Parameters,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Even(design.row()?), design, substrate.into(), parameters)?.solve()
+    Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
 /// Follows the puncture of an imperfect row as [`solve`] does: gaps and slants are those of `sample`, the substrate stays
@@ -111,10 +106,11 @@ pub fn solve(
 pub fn solve_sample(
     design: &Design,
     substrate: impl Into<RowStiffness>,
+    common: &Common,
     parameters: &Parameters,
     sample: &Sample,
 ) -> Result<Puncture, InvalidDesign> {
-    Problem::new(Rows::Sample(sample), design, substrate.into(), parameters)?.solve()
+    Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
 /// Source of rows of any length.
@@ -133,20 +129,8 @@ impl Rows<'_> {
     }
 }
 
-/// A number that no puncture can have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidPuncture {
-    /// Name of the quantity.
-    pub quantity: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// The values that are allowed.
-    pub expected: &'static str,
-}
-
 impl Parameters {
-    fn check(&self) -> Result<(), InvalidPuncture> {
+    fn check(&self) -> Result<(), OutOfRange> {
         let scales = match self.scales {
             RowLength::Auto => 1.0,
             RowLength::Scales(scales) => scales as f64,
@@ -160,9 +144,7 @@ impl Parameters {
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
         match rules.into_iter().find(|(holds, ..)| !holds) {
-            Some((_, quantity, value, expected)) => {
-                Err(InvalidPuncture { quantity, value, expected })
-            }
+            Some((_, quantity, value, expected)) => Err(OutOfRange { quantity, value, expected }),
             None => Ok(()),
         }
     }
@@ -173,6 +155,7 @@ struct Problem<'a> {
     design: &'a Design,
     stiffness: RowStiffness,
     law: ContactLaw,
+    settings: Settings,
     parameters: &'a Parameters,
 }
 
@@ -181,13 +164,14 @@ impl<'a> Problem<'a> {
         rows: Rows<'a>,
         design: &'a Design,
         stiffness: RowStiffness,
+        common: &Common,
         parameters: &'a Parameters,
     ) -> Result<Self, InvalidDesign> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
-        let law = ContactLaw::new(parameters.law, design.length, design.width, modulus)?;
-        Ok(Self { rows, design, stiffness, law, parameters })
+        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
+        Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
     }
 
     fn solve(&self) -> Result<Puncture, InvalidDesign> {
@@ -208,7 +192,7 @@ impl<'a> Problem<'a> {
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
         let rest = State::at_rest(&chain);
-        let mut path = Path::new(chain, rest, self.parameters.solver);
+        let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
         let mut has_room = true;
         while has_room {

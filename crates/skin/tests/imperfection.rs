@@ -1,18 +1,15 @@
 //! Rows and strips with random gaps and slants.
 
 use approx::assert_relative_eq;
-use contact::Law;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, RowLength};
-use skin::{Base, ContactChange, Design, Imperfection, Sample, Status};
-use solver::Settings;
+use skin::{Base, Common, ContactChange, Design, Imperfection, Sample, Status};
 use substrate::calibrate;
 
 const STEEP: Design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
 
 fn strip() -> flexure::Parameters {
     flexure::Parameters {
-        law: Law::PRINTED,
         contact_modulus_over_membrane: 667.0,
         method: Method::Chain,
         membrane_length: 22.0,
@@ -20,7 +17,6 @@ fn strip() -> flexure::Parameters {
         membrane_axis_offset: 0.0,
         elements_per_gap: 1,
         max_end_rotation_deg: 40.0,
-        solver: Settings::default(),
     }
 }
 
@@ -29,7 +25,7 @@ fn sample(gap_cv: f64, slant_sd_deg: f64, seed: u64, number: u64) -> Sample {
 }
 
 fn bent(sample: &Sample) -> Flexure {
-    let flexure = flexure::solve_sample(&STEEP, &strip(), sample).unwrap();
+    let flexure = flexure::solve_sample(&STEEP, &Common::default(), &strip(), sample).unwrap();
     assert_eq!(flexure.status, Status::Complete);
     flexure
 }
@@ -115,11 +111,12 @@ fn more_scatter_is_the_same_row_with_larger_deviations() {
 #[test]
 fn without_scatter_a_row_is_the_perfect_one() {
     let sample = sample(0.0, 0.0, 1, 1);
+    let common = Common::default();
     let springs = calibrate(&STEEP.footprint(0.5).unwrap()).unwrap();
     for scales in [RowLength::Auto, RowLength::Scales(8)] {
         let parameters = puncture::Parameters { scales, ..puncture::Parameters::default() };
-        let perfect = puncture::solve(&STEEP, &springs, &parameters).unwrap();
-        let ours = puncture::solve_sample(&STEEP, &springs, &parameters, &sample).unwrap();
+        let perfect = puncture::solve(&STEEP, &springs, &common, &parameters).unwrap();
+        let ours = puncture::solve_sample(&STEEP, &springs, &common, &parameters, &sample).unwrap();
         assert_eq!(ours.status, perfect.status);
         assert_eq!(ours.measures.scales, perfect.measures.scales);
         let pairs = [
@@ -143,7 +140,7 @@ fn closing_range(gap_cv: f64, slant_sd_deg: f64) -> f64 {
 /// by one, the farther apart the more they scatter.
 #[test]
 fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
-    let perfect = flexure::solve(&STEEP, &strip()).unwrap();
+    let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     assert!(perfect.closing_range().unwrap() < 1e-12);
     let first = perfect.measures.first_contact_curvature.unwrap();
     let (mut last, mut by_slants) = (0.0, 0.0);
@@ -171,7 +168,7 @@ fn the_gaps_of_an_imperfect_strip_close_one_by_one() {
 /// gap that closes.
 #[test]
 fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
-    let perfect = flexure::solve(&STEEP, &strip()).unwrap();
+    let perfect = flexure::solve(&STEEP, &Common::default(), &strip()).unwrap();
     let imperfect = bent(&sample(0.05, 0.4, 1, 1));
     // Curvature between twice the slope at rest and ten times that.
     let width = |strip: &Flexure| {

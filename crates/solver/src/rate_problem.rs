@@ -113,7 +113,7 @@ impl<S: System> Path<S> {
                 continue;
             }
             if slope < 0.0 {
-                direction.iter_mut().for_each(|x| *x = -*x);
+                direction = direction.into_iter().map(|x| -x).collect();
             }
             *state = trial;
             return Ok(direction);

@@ -1,4 +1,4 @@
-//! Reactions of three rigid rectangles on an elastic half-space, by collocation.
+//! Reactions of rigid rectangles on an elastic half-space, by collocation.
 //!
 //! The traction is uniform in each cell `j` and the displacement is met at one point `i` of each,
 //!
@@ -24,45 +24,46 @@ use faer::{ColRef, Mat, Par, Spec};
 
 use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
-use crate::mesh::{Axis, Mesh};
+use crate::mesh::{GradedAxis, Mesh};
 
-/// Rectangles that cannot be told apart in double precision.
+/// A row of rectangles that double precision cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error(
     "no tractions found under rectangles of gap/a = {:e} and width/a = {:e} with {cells} cells a side",
     .footprint.gap_over_a(), .footprint.width_over_a()
 )]
 pub struct Unresolved {
-    /// The geometry.
+    /// The footprint of the row.
     pub footprint: Footprint,
-    /// Cells across half a rectangle.
+    /// Cells a side of the mesh.
     pub cells: usize,
 }
 
 /// Reactions on one mesh, for `E* = a = 1`; signs as in Eq. (1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reactions {
-    /// `α_x`, `α_y`, `α_φ`.
+    /// The direct reactions `α_x`, `α_y`, `α_φ`.
     pub direct: [f64; 3],
-    /// `β_x`, `β_y`, `β_φ`.
+    /// The coupling reactions `β_x`, `β_y`, `β_φ`.
     pub coupling: [f64; 3],
-    /// Normal force on the right neighbour from a unit rotation of the middle rectangle, and moment on
-    /// the middle rectangle from a unit normal displacement of the right neighbour: equal by Betti's
-    /// theorem, as far as the mesh is fine.
-    pub cross: [f64; 2],
+    /// Coupling of the rotation of the middle rectangle and the normal displacement of the right neighbour.
+    pub cross: CrossTerms,
+}
+
+/// The two cross terms of a pair of rectangles, equal by Betti's theorem as far as the mesh is fine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrossTerms {
+    /// Normal force on the neighbour from a unit rotation of the middle rectangle.
+    pub force: f64,
+    /// Moment on the middle rectangle from a unit normal displacement of the neighbour.
+    pub moment: f64,
 }
 
 impl Reactions {
-    /// `α_x, α_y, α_φ, β_x, β_y, β_φ`.
+    /// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ`.
     pub fn coefficients(&self) -> [f64; 6] {
         let ([a, b, c], [d, e, f]) = (self.direct, self.coupling);
         [a, b, c, d, e, f]
-    }
-
-    /// How far the two cross terms are from equal, over their size.
-    pub fn reciprocity_defect(&self) -> f64 {
-        let [force, moment] = self.cross;
-        (force - moment).abs() / force.abs().max(moment.abs())
     }
 }
 
@@ -70,14 +71,12 @@ impl Reactions {
 /// unit and the others are held.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowReactions {
-    /// On the middle rectangle, in the direction of the displacement: `x`, `y`, `φ`.
+    /// Reactions on the middle rectangle, in the direction of the displacement: `x`, `y`, `φ`.
     pub direct: [f64; 3],
-    /// On the neighbours on the right, the nearest first, likewise.
+    /// Reactions on the neighbours on the right, the nearest first, in the same directions.
     pub neighbours: Vec<[f64; 3]>,
-    /// Normal force on each neighbour from a unit rotation of the middle rectangle, and moment on the
-    /// middle rectangle from a unit normal displacement of that neighbour: equal by Betti's
-    /// theorem, as far as the mesh is fine.
-    pub cross: Vec<[f64; 2]>,
+    /// Coupling of the rotation of the middle rectangle and the normal displacement of each neighbour.
+    pub cross: Vec<CrossTerms>,
 }
 
 /// Displaces the middle one of three rectangles with its neighbours held, on `n × n` cells a quarter
@@ -96,7 +95,8 @@ pub fn reactions(footprint: &Footprint, n: usize) -> Result<Reactions, Unresolve
     Ok(Reactions { direct: found.direct, coupling: neighbour.map(|force| -force), cross })
 }
 
-/// The same for the middle one of a row with `neighbours ≥ 1` rectangles on each side.
+/// Displaces the middle one of a row with `neighbours ≥ 1` rectangles on each side, with the others held, and returns
+/// the reactions on all of them.
 ///
 /// # Errors
 /// As [`reactions`].
@@ -113,25 +113,26 @@ pub fn row_reactions(
 impl RowReactions {
     fn is_finite(&self) -> bool {
         let numbers = self.direct.iter().chain(self.neighbours.iter().flatten());
-        numbers.chain(self.cross.iter().flatten()).all(|number| number.is_finite())
+        let cross = self.cross.iter().flat_map(|terms| [&terms.force, &terms.moment]);
+        numbers.chain(cross).all(|number| number.is_finite())
     }
 }
 
-/// A displacement, or the arm of a traction, as a function of `x`.
+/// A displacement of a rectangle, or the arm of its tractions, as a function of `x`.
 type Profile = fn(f64) -> f64;
 
 const ONE: Profile = |_| 1.0;
 const ZERO: Profile = |_| 0.0;
 const ARM: Profile = |x| x;
 
-/// The displacement of the middle rectangle, and which neighbour is displaced by 1 besides.
+/// A load case: the displacement of the middle rectangle, and the neighbour that is displaced by 1 besides.
 struct Load {
     middle: Profile,
     neighbour: Option<usize>,
 }
 
 impl Load {
-    /// Of a point of the middle rectangle, number 0, or of a neighbour, from 1.
+    /// Returns the displacement of a point of rectangle `body`: 0 is the middle one, 1 its nearest neighbour.
     fn displacement(&self, body: usize, x: f64) -> f64 {
         match body {
             0 => (self.middle)(x),
@@ -164,7 +165,7 @@ impl Mesh {
         };
         let cross = |k: usize| {
             let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
-            [self.neighbour_sum(k, rotation, ONE), moment]
+            CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment }
         };
         RowReactions {
             direct: [
@@ -177,16 +178,16 @@ impl Mesh {
         }
     }
 
-    /// The axes along `x`, in the order of the unknowns: column by column, `z` fastest.
-    fn across(&self) -> impl Iterator<Item = &Axis> + Clone {
+    /// Returns the axes along `x`, in the order of the unknowns: column by column, `z` fastest.
+    fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
 
     fn unknowns(&self) -> usize {
-        self.across().map(Axis::cells).sum::<usize>() * self.depth.cells()
+        self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
-    /// One column for each load: the displacements that it imposes.
+    /// Returns a column for each load: the displacements that it imposes.
     fn imposed(&self, loads: &[Load]) -> Mat<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
@@ -200,21 +201,21 @@ impl Mesh {
         })
     }
 
-    /// `∬ p arm(x)` over the middle rectangle, four times its quarter.
+    /// Returns `∬ p arm(x)` over the middle rectangle, four times that over its quarter.
     fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
-    /// `∬ p arm(x)` over the neighbour `k`, from 0, twice its half.
+    /// Returns `∬ p arm(x)` over the neighbour `k`, from 0, twice that over its half.
     fn neighbour_sum(&self, k: usize, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
-        let before = self.across().take(k + 1).map(Axis::cells).sum::<usize>();
+        let before = self.across().take(k + 1).map(GradedAxis::cells).sum::<usize>();
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
 
-    /// `first` is the first unknown of the rectangle.
+    /// Returns `∬ p arm(x)` over the meshed part of a rectangle whose first unknown is `first`.
     fn sum(
         &self,
-        axis: &Axis,
+        axis: &GradedAxis,
         first: usize,
         tractions: ColRef<'_, f64>,
         arm: impl Fn(f64) -> f64,
@@ -240,9 +241,9 @@ impl Equations {
         let mut equations =
             Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
         let depth = mesh.depth.cells();
-        let fields: Vec<f64> = mesh.across().flat_map(Axis::points).copied().collect();
+        let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
-            let mut columns = Columns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
             for (i, &x) in fields.iter().enumerate() {
                 columns.both_sides(mesh, x, &mut sides);
@@ -265,14 +266,14 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct Columns {
+struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
 }
 
-impl Columns {
-    /// `line` holds the edges of cells and of their mirror images, an odd number.
+impl CellColumns {
+    /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
     fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }
@@ -308,7 +309,7 @@ impl Columns {
     }
 }
 
-/// Solves by LU factors with partial pivoting, on the calling thread alone: the same bits every time.
+/// Solves a dense system by LU factors with partial pivoting, on the calling thread alone: the same bits every time.
 fn solve_in_place(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Mat<f64> {
     let n = matrix.nrows();
     let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);

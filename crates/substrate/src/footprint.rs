@@ -1,18 +1,8 @@
-//! What the springs depend on.
+//! The footprint of a row: all that its springs depend on.
 
 use std::hash::{Hash, Hasher};
 
-/// A number that no footprint can have.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{quantity} is {value}, expected {expected}")]
-pub struct InvalidFootprint {
-    /// Which quantity.
-    pub quantity: &'static str,
-    /// What was given.
-    pub value: f64,
-    /// What would be right.
-    pub expected: &'static str,
-}
+use geometry::OutOfRange;
 
 /// The bases of a row of scales as the substrate sees them: rectangles `2a × b` at gaps `d`, over
 /// the half-width `a`, and the Poisson's ratio of the substrate.
@@ -35,45 +25,35 @@ pub struct Footprint {
 }
 
 impl Footprint {
-    /// Rectangles with gap `d/a` and out-of-plane width `b/a`, on a substrate of Poisson's ratio `ν`.
+    /// Creates the footprint of rectangles with gap `d/a` and out-of-plane width `b/a`, on a substrate of Poisson's ratio `ν`.
     ///
     /// # Errors
     /// If a length is not positive and finite, or `ν` lies outside `[0, 0.5]`.
-    pub fn new(
-        gap_over_a: f64,
-        width_over_a: f64,
-        poisson_ratio: f64,
-    ) -> Result<Self, InvalidFootprint> {
+    pub fn new(gap_over_a: f64, width_over_a: f64, poisson_ratio: f64) -> Result<Self, OutOfRange> {
         positive("gap over a", gap_over_a)?;
         positive("width over a", width_over_a)?;
-        if !(0.0..=0.5).contains(&poisson_ratio) {
-            let expected = "a ratio from 0 to 0.5";
-            return Err(InvalidFootprint {
-                quantity: "poisson's ratio",
-                value: poisson_ratio,
-                expected,
-            });
-        }
+        let possible = (0.0..=0.5).contains(&poisson_ratio);
+        OutOfRange::unless(possible, "poisson's ratio", poisson_ratio, "a ratio from 0 to 0.5")?;
         // −0 + 0 = 0: one key for one number.
         Ok(Self { gap_over_a, width_over_a, poisson_ratio: poisson_ratio + 0.0 })
     }
 
-    /// Gap `d/a` between neighbouring rectangles.
+    /// Returns the gap `d/a` between neighbouring rectangles.
     pub fn gap_over_a(&self) -> f64 {
         self.gap_over_a
     }
 
-    /// Out-of-plane width `b/a` of the rectangles, whose other side is `2a`.
+    /// Returns the out-of-plane width `b/a` of the rectangles, whose other side is `2a`.
     pub fn width_over_a(&self) -> f64 {
         self.width_over_a
     }
 
-    /// Poisson's ratio `ν` of the substrate.
+    /// Returns Poisson's ratio `ν` of the substrate.
     pub fn poisson_ratio(&self) -> f64 {
         self.poisson_ratio
     }
 
-    /// Pitch `p/a = 2 + d/a`.
+    /// Returns the pitch `p/a = 2 + d/a`.
     pub fn pitch_over_a(&self) -> f64 {
         2.0 + self.gap_over_a
     }
@@ -97,10 +77,6 @@ impl Hash for Footprint {
     }
 }
 
-fn positive(quantity: &'static str, value: f64) -> Result<(), InvalidFootprint> {
-    if value > 0.0 && value.is_finite() {
-        Ok(())
-    } else {
-        Err(InvalidFootprint { quantity, value, expected: "a positive length" })
-    }
+fn positive(quantity: &'static str, value: f64) -> Result<(), OutOfRange> {
+    OutOfRange::unless(value > 0.0 && value.is_finite(), quantity, value, "a positive length")
 }

@@ -33,12 +33,12 @@ pub struct Influence {
 }
 
 impl Influence {
-    /// `E* u_y` for a unit normal traction: `(A + B)/π` (S1).
+    /// Returns `E* u_y` for a unit normal traction: `(A + B)/π` (S1).
     pub fn normal(self) -> f64 {
         (self.across + self.along) / PI
     }
 
-    /// `E* u_x` for a unit tangential traction along `x`: `(A + B/(1 − ν))/π` (S2).
+    /// Returns `E* u_x` for a unit tangential traction along `x`: `(A + B/(1 − ν))/π` (S2).
     pub fn tangential(self, poisson_ratio: f64) -> f64 {
         (self.across + self.along / (1.0 - poisson_ratio)) / PI
     }
@@ -60,7 +60,7 @@ impl Sub for Influence {
     }
 }
 
-/// The corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
+/// Returns the corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
 pub fn corner(x: f64, z: f64) -> Influence {
     let half = |s: f64, t: f64| {
         if s == 0.0 { 0.0 } else { s * (t / s.abs()).asinh() }
@@ -68,7 +68,7 @@ pub fn corner(x: f64, z: f64) -> Influence {
     Influence { across: half(x, z), along: half(z, x) }
 }
 
-/// Influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0, 0)` (S3).
+/// Returns the influence of the cell `x[0] < x < x[1]`, `z[0] < z < z[1]` at the field point `(0, 0)` (S3).
 pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
     corner(x[1], z[1]) - corner(x[0], z[1]) - corner(x[1], z[0]) + corner(x[0], z[0])
 }
@@ -87,24 +87,24 @@ pub struct CornerLine {
 }
 
 impl CornerLine {
-    /// Corners at the depths `edges`, seen from the depth `field`.
+    /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
     pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
         let z: Vec<f64> = edges.into_iter().map(|edge| edge - field).collect();
         let ln = z.iter().map(|&z| ln_or_zero(z)).collect();
         Self { logarithms: vec![1.0; 2 * z.len()], z, ln }
     }
 
-    /// Number of corners.
+    /// Returns the number of corners.
     pub fn len(&self) -> usize {
         self.z.len()
     }
 
-    /// Whether there are no corners.
+    /// Returns whether there are no corners.
     pub fn is_empty(&self) -> bool {
         self.z.is_empty()
     }
 
-    /// The corner functions along the line at the offset `x`, into `corners`.
+    /// Returns the corner functions along the line at the offset `x`, into `corners`.
     ///
     /// The field point must not be a corner (a collocation point never is).
     pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
@@ -125,7 +125,7 @@ impl CornerLine {
     }
 }
 
-/// `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
+/// Returns `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
 fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
 }

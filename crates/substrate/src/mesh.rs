@@ -17,18 +17,18 @@ use crate::Footprint;
 
 /// Cells along one side of a rectangle: edges, and the collocation points between them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Axis {
+pub struct GradedAxis {
     edges: Vec<f64>,
     points: Vec<f64>,
 }
 
-impl Axis {
-    /// `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its two ends.
+impl GradedAxis {
+    /// Creates `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its two ends.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
         Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
-    /// `cells` cells over `0 … half_length`, the upper half of a graded axis of twice the length.
+    /// Creates `cells` cells over `0 … half_length`, the upper half of a graded axis of twice the length.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
         let mut axis = Self::between(&grading, 0.5, cells);
@@ -37,7 +37,7 @@ impl Axis {
         axis
     }
 
-    /// The points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
+    /// Creates the points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
     /// in length, the error would be ten times as large and of second order only.
     fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let at = |k: f64| grading.at(start + (1.0 - start) * k / cells as f64);
@@ -47,34 +47,34 @@ impl Axis {
         }
     }
 
-    /// Edges of the cells, ascending, one more than there are cells.
+    /// Returns the edges of the cells, ascending, one more than there are cells.
     pub fn edges(&self) -> &[f64] {
         &self.edges
     }
 
-    /// Collocation points, one in each cell.
+    /// Returns the collocation points, one in each cell.
     pub fn points(&self) -> &[f64] {
         &self.points
     }
 
-    /// Number of cells.
+    /// Returns the number of cells.
     pub fn cells(&self) -> usize {
         self.points.len()
     }
 
-    /// Width of cell `k`.
+    /// Returns the width of cell `k`.
     pub fn width(&self, k: usize) -> f64 {
         self.edges[k + 1] - self.edges[k]
     }
 
-    /// Middle of cell `k`, through which the resultant of its uniform traction passes.
+    /// Returns the middle of cell `k`, through which the resultant of its uniform traction passes.
     pub fn middle(&self, k: usize) -> f64 {
         f64::midpoint(self.edges[k], self.edges[k + 1])
     }
 
-    /// Edges of this axis and of its mirror image below 0, ascending, the edge at 0 once.
+    /// Returns the edges of this axis and of its mirror image below 0, ascending, the edge at 0 once.
     ///
-    /// Meant for an upper half.
+    /// The result is a whole axis if this one is an upper half.
     pub fn mirrored_edges(&self) -> impl Iterator<Item = f64> + Clone + '_ {
         self.edges.iter().skip(1).rev().map(|e| -e).chain(self.edges.iter().copied())
     }
@@ -85,20 +85,20 @@ impl Axis {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Middle rectangle, from its centre to its right edge.
-    pub middle: Axis,
+    pub middle: GradedAxis,
     /// Neighbours on the right, the nearest first.
-    pub neighbours: Vec<Axis>,
+    pub neighbours: Vec<GradedAxis>,
     /// All, from the centre line to the edge.
-    pub depth: Axis,
+    pub depth: GradedAxis,
 }
 
 impl Mesh {
-    /// Three rectangles, `n` cells across each: half the middle one, its neighbour, half the depth.
+    /// Creates the mesh of three rectangles, `n` cells across each: half the middle one, its neighbour, half the depth.
     pub fn new(footprint: &Footprint, n: usize) -> Self {
         Self::row(footprint, 1, n)
     }
 
-    /// A rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
+    /// Returns a rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
     /// one, a neighbour, half the depth.
     pub fn row(footprint: &Footprint, neighbours: usize, n: usize) -> Self {
         let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
@@ -108,20 +108,20 @@ impl Mesh {
         let neighbour = |k: usize| {
             let before = (k - 1) as f64 * footprint.pitch_over_a();
             let outer = if k == neighbours { free } else { facing };
-            Axis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
+            GradedAxis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
         };
         Self {
-            middle: Axis::upper_half(1.0, facing, n),
+            middle: GradedAxis::upper_half(1.0, facing, n),
             neighbours: (1..=neighbours).map(neighbour).collect(),
-            depth: Axis::upper_half(0.5 * width, free, n),
+            depth: GradedAxis::upper_half(0.5 * width, free, n),
         }
     }
 
-    /// Whether rounding has left a gap and every cell a width.
+    /// Returns whether rounding has left a gap and every cell a width.
     pub fn is_resolved(&self) -> bool {
-        let open = |axis: &Axis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
+        let open = |axis: &GradedAxis| axis.edges.windows(2).all(|pair| pair[0] < pair[1]);
         let mut last = self.middle.edges[self.middle.cells()];
-        let mut apart = |axis: &Axis| {
+        let mut apart = |axis: &GradedAxis| {
             let before = std::mem::replace(&mut last, axis.edges[axis.cells()]);
             axis.edges[0] > before
         };
@@ -142,7 +142,7 @@ impl Grading {
         Self { ends, steepness: layers.map(|layer| ((ends[1] - ends[0]) / layer).sqrt()) }
     }
 
-    /// The point at the fraction `t` of the range of `U`, found by Newton's method in the angle `θ`
+    /// Returns the point at the fraction `t` of the range of `U`, found by Newton's method in the angle `θ`
     /// of `s = length · sin²(θ/2)`, in which `U` is smooth; bisection guards it.
     fn at(&self, t: f64) -> f64 {
         if t <= 0.0 || t >= 1.0 {
@@ -164,7 +164,7 @@ impl Grading {
         self.position(angle)
     }
 
-    /// `U` and `dU/dθ`.
+    /// Returns `U` and `dU/dθ`.
     fn mapped(&self, angle: f64) -> (f64, f64) {
         let (sin, cos) = (0.5 * angle).sin_cos();
         let [lower, upper] = [self.steepness[0] * sin, self.steepness[1] * cos];
@@ -173,7 +173,7 @@ impl Grading {
         (2.0 * (lower.asinh() - upper.asinh()), slope)
     }
 
-    /// Measured from the nearer end, to keep the small cells there exact.
+    /// Returns the point at an angle, measured from the nearer end to keep the small cells there exact.
     fn position(&self, angle: f64) -> f64 {
         let [low, high] = self.ends;
         let (sin, cos) = (0.5 * angle).sin_cos();

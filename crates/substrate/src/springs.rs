@@ -1,4 +1,4 @@
-//! The coefficients of Eq. (1).
+//! The springs: the coefficients of Eq. (1).
 
 use crate::Footprint;
 use crate::boundary_element::{Unresolved, reactions};
@@ -18,7 +18,7 @@ pub struct Springs {
     pub error: f64,
 }
 
-/// The springs of a footprint, from three meshes, extrapolated in the number of cells.
+/// Returns the springs of a footprint, from three meshes, extrapolated in the number of cells.
 ///
 /// ```text
 /// c = c_n + (c_n − c_m) / ((n/m)³ − 1)                                (S7)
@@ -47,7 +47,7 @@ pub fn calibrate(footprint: &Footprint) -> Result<Springs, Unresolved> {
     })
 }
 
-/// `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes, the coarser first: what
+/// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes, the coarser first: what
 /// [`calibrate`] does, with as many cells as one can afford.
 ///
 /// # Errors
@@ -57,23 +57,24 @@ pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6]
     Ok(extrapolate(cells, [&coarse, &fine]))
 }
 
-/// Cells a side of the meshes of [`calibrate`].
+/// Cells a side of the meshes of [`calibrate`]: the coarsest that meet the errors stated there, in 2 ms.
 pub(crate) const CELLS: [usize; 3] = [4, 6, 8];
 
 /// Order of convergence of the reactions, as observed: that of piecewise constant tractions, since
 /// the grading takes care of the edges.
 const ORDER: i32 = 3;
 
-/// Share of the extrapolated step in the estimated error (S8).
+/// Share of the extrapolated step in the estimated error (S8): the least that bounds the actual error for all reference
+/// values of the tests.
 const CAUTION: f64 = 0.3;
 
-/// (S8), absolute: from the extrapolation of the coarser meshes, the finest mesh, and the best
+/// Returns the absolute error (S8) from the extrapolation of the coarser meshes, the finest mesh, and the best
 /// extrapolation.
 pub(crate) fn estimated_error([check, finest, best]: [f64; 3]) -> f64 {
     (best - check).abs() + CAUTION * (best - finest).abs()
 }
 
-/// (S7) for any list of numbers, from two meshes, the coarser first.
+/// Extrapolates any list of numbers by (S7) from two meshes, the coarser first.
 pub(crate) fn extrapolation(cells: [usize; 2], [coarse, fine]: [&[f64]; 2]) -> Vec<f64> {
     let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
     coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()

@@ -1,9 +1,9 @@
 //! The graded axes.
 
 use substrate::Footprint;
-use substrate::mesh::{Axis, Mesh};
+use substrate::mesh::{GradedAxis, Mesh};
 
-fn assert_graded(axis: &Axis) {
+fn assert_graded(axis: &GradedAxis) {
     let edges = axis.edges();
     assert_eq!(edges.len(), axis.cells() + 1);
     for (k, point) in axis.points().iter().enumerate() {
@@ -14,10 +14,10 @@ fn assert_graded(axis: &Axis) {
 #[test]
 fn points_lie_in_their_cells_for_any_layer() {
     for layer in [1e-9, 1e-3, 0.1, 2.0, 1e3] {
-        let axis = Axis::graded([-1.0, 1.0], [layer, 2.0], 9);
+        let axis = GradedAxis::graded([-1.0, 1.0], [layer, 2.0], 9);
         assert_graded(&axis);
         assert_eq!((axis.edges()[0], axis.edges()[9]), (-1.0, 1.0));
-        assert_graded(&Axis::upper_half(40.0, layer, 7));
+        assert_graded(&GradedAxis::upper_half(40.0, layer, 7));
     }
 }
 
@@ -25,7 +25,7 @@ fn points_lie_in_their_cells_for_any_layer() {
 #[test]
 fn cells_are_equal_in_the_mapped_coordinate() {
     let (layers, length) = ([0.05, 0.7], 2.0);
-    let axis = Axis::graded([0.0, length], layers, 8);
+    let axis = GradedAxis::graded([0.0, length], layers, 8);
     let mapped =
         |s: f64| 2.0 * ((s / layers[0]).sqrt().asinh() - ((length - s) / layers[1]).sqrt().asinh());
     let step = (mapped(length) - mapped(0.0)) / 8.0;
@@ -38,8 +38,8 @@ fn cells_are_equal_in_the_mapped_coordinate() {
 
 #[test]
 fn an_upper_half_is_half_of_the_whole() {
-    let whole = Axis::graded([-3.0, 3.0], [0.2, 0.2], 10);
-    let half = Axis::upper_half(3.0, 0.2, 5);
+    let whole = GradedAxis::graded([-3.0, 3.0], [0.2, 0.2], 10);
+    let half = GradedAxis::upper_half(3.0, 0.2, 5);
     for (a, b) in half.mirrored_edges().zip(whole.edges()) {
         assert!((a - b).abs() < 1e-14, "{a}, {b}");
     }

@@ -1,41 +1,46 @@
-//! Everything that one design of a sweep is solved with.
+//! The case of one design: everything that it is solved with.
 
+use geometry::OutOfRange;
 use skin::flexure;
 use skin::puncture;
-use skin::{Base, Design, Imperfection};
-use substrate::Coupling;
+use skin::{Base, Common, Design, Imperfection};
+use substrate::{Coupling, Footprint};
 
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
     /// The geometry.
     pub design: Design,
-    /// What the puncture depends on besides.
+    /// The contact law and the solver's settings, of puncture and bending.
+    pub common: Common,
+    /// The other parameters of the puncture.
     pub puncture: puncture::Parameters,
-    /// What bending depends on besides. Its contact law and its steps are those of the puncture.
+    /// The other parameters of bending.
     pub flexure: flexure::Parameters,
-    /// Which neighbours of a scale the substrate couples it with.
+    /// The neighbours of a scale that the substrate couples it with.
     pub coupling: Coupling,
-    /// How far gaps and slants scatter.
+    /// The scatter of gaps and slants.
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
     pub samples: Samples,
 }
 
-/// Which imperfect rows are solved.
+/// The imperfect rows that are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Samples {
-    /// How many.
+    /// The number of rows.
     pub count: usize,
     /// Seed of their random numbers.
     pub seed: usize,
 }
 
 impl Case {
-    /// Gives bending the contact law and the steps of the puncture.
-    pub(crate) fn share(&mut self) {
-        self.flexure.law = self.puncture.law;
-        self.flexure.solver = self.puncture.solver;
+    /// The ratios and Poisson's ratio that the springs of the substrate depend on.
+    ///
+    /// # Errors
+    /// If the lengths of the design are too far apart for their ratios to be an `f64`.
+    pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
+        self.design.footprint(self.puncture.poisson_ratio)
     }
 }
 
@@ -44,6 +49,7 @@ impl Default for Case {
     fn default() -> Self {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
+            common: Common::default(),
             puncture: puncture::Parameters::default(),
             flexure: flexure::Parameters::default(),
             coupling: Coupling::Nearest,

@@ -1,16 +1,23 @@
 //! The validated sweep.
 
+mod axes;
+pub(crate) mod invalid;
+pub(crate) mod measure;
+mod reader;
+pub(crate) mod setting;
+pub(crate) mod suggestion;
+mod to_toml;
+
 use std::path::Path;
 
 use crate::grid::Grid;
-use crate::invalid::{InvalidDefinition, reason};
-use crate::measure::Measure;
-use crate::parameter::Parameter;
-use crate::parameters::PARAMETERS;
-use crate::reader::Reader;
-use crate::scalar::Scalar;
-use crate::setting::Setting;
-use crate::written::{self, Entry, Place, Table, Value};
+use crate::parameter::Scalar;
+use crate::parameter::{PARAMETERS, Parameter};
+use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
+use invalid::{InvalidDefinition, reason};
+use measure::Measure;
+use reader::Reader;
+use setting::Setting;
 
 /// A sweep that can run: its name, what it measures, its designs.
 #[derive(Clone, Debug)]
@@ -38,7 +45,7 @@ impl Sweep {
     /// # Errors
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let mut table = definition_of(written::parse(text, name)?);
+        let mut table = definition_of(toml_source::parse(text, name)?);
         for setting in settings {
             setting.apply(&mut table);
         }
@@ -54,7 +61,7 @@ impl Sweep {
         &self.name
     }
 
-    /// What is measured.
+    /// The measures that every design is solved for.
     pub fn measures(&self) -> &[Measure] {
         &self.measures
     }
@@ -64,7 +71,7 @@ impl Sweep {
         &self.grid
     }
 
-    /// The same sweep with design `index` alone.
+    /// The sweep with design `index` alone.
     #[must_use]
     pub fn only(&self, index: u64) -> Self {
         Self { grid: self.grid.only(index), ..self.clone() }
@@ -88,9 +95,9 @@ impl Sweep {
 }
 
 /// A run's own record holds its definition in a table of that name.
-fn definition_of(mut table: Table) -> Table {
+fn definition_of(mut table: KeyValues) -> KeyValues {
     let holds =
-        |key: &str, entry: &Entry| entry.key == key && matches!(entry.value, Value::Table(_));
+        |key: &str, entry: &KeyValue| entry.key == key && matches!(entry.value, Value::Table(_));
     if table.iter().any(|entry| holds("run", entry))
         && let Some(position) = table.iter().position(|entry| holds("definition", entry))
         && let Value::Table(definition) = table.swap_remove(position).value

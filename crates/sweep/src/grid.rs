@@ -1,27 +1,27 @@
 //! Every combination of the values of some parameters, numbered and never stored.
 
 use crate::case::Case;
-use crate::decimal::DecimalRange;
 use crate::parameter::Parameter;
-use crate::scalar::Scalar;
+use crate::parameter::Scalar;
 
 /// A parameter that takes several values.
 #[derive(Clone, Debug)]
 pub struct Axis {
     parameter: &'static Parameter,
-    values: Values,
-}
-
-/// The values of an axis.
-#[derive(Clone, Debug)]
-pub(crate) enum Values {
-    List(Vec<Scalar>),
-    Range(DecimalRange),
+    values: Vec<Scalar>,
+    /// The range in TOML, if the values were written as one.
+    range: Option<String>,
 }
 
 impl Axis {
-    pub(crate) fn new(parameter: &'static Parameter, values: Values) -> Self {
-        Self { parameter, values }
+    /// An axis whose values were written as a list.
+    pub(crate) fn list(parameter: &'static Parameter, values: Vec<Scalar>) -> Self {
+        Self { parameter, values, range: None }
+    }
+
+    /// An axis whose values were written as the range `range`.
+    pub(crate) fn range(parameter: &'static Parameter, values: Vec<Scalar>, range: String) -> Self {
+        Self { parameter, values, range: Some(range) }
     }
 
     /// The parameter that varies.
@@ -29,45 +29,35 @@ impl Axis {
         self.parameter
     }
 
-    pub(crate) fn values(&self) -> &Values {
-        &self.values
-    }
-
-    /// How many values it takes, at least one.
+    /// The number of values, at least one.
     #[expect(clippy::len_without_is_empty, reason = "an axis is never empty")]
     pub fn len(&self) -> u64 {
-        match &self.values {
-            Values::List(list) => list.len() as u64,
-            Values::Range(range) => range.len(),
-        }
+        self.values.len() as u64
     }
 
     /// Value `index`, from 0.
     pub fn value(&self, index: u64) -> Scalar {
-        match &self.values {
-            Values::List(list) => list[usize::try_from(index).unwrap_or(usize::MAX)],
-            Values::Range(range) => self.parameter.pick(range, index),
-        }
+        self.values[usize::try_from(index).unwrap_or(usize::MAX)]
     }
 
     /// The smallest and the largest value, if they are numbers.
     pub(crate) fn span(&self) -> (f64, f64) {
-        let ends = match &self.values {
-            Values::List(list) => list.clone(),
-            Values::Range(range) => [0, range.len() - 1].map(|index| self.value(index)).to_vec(),
-        };
-        let numbers = ends.into_iter().filter_map(Scalar::number);
+        let numbers = self.values.iter().filter_map(|value| value.number());
         numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     }
 
-    /// Which of the values `value` is.
+    /// The index of `value` among the values.
     pub fn position(&self, value: Scalar) -> Option<u64> {
-        match (&self.values, value) {
-            (Values::List(list), _) => list.iter().position(|&v| v == value).map(|i| i as u64),
-            (Values::Range(range), Scalar::Number(number)) => range.position(number),
-            (Values::Range(range), Scalar::Count(count)) => range.position(count as f64),
-            (Values::Range(_), Scalar::Word(_)) => None,
-        }
+        self.values.iter().position(|&other| other == value).map(|index| index as u64)
+    }
+
+    /// The values as a definition writes them.
+    pub fn to_toml(&self) -> String {
+        let list = || {
+            let values: Vec<_> = self.values.iter().map(|value| value.to_toml()).collect();
+            format!("[{}]", values.join(", "))
+        };
+        self.range.clone().unwrap_or_else(list)
     }
 }
 
@@ -75,7 +65,7 @@ impl Axis {
 #[derive(Clone, Debug)]
 pub struct Grid {
     axes: Vec<Axis>,
-    /// What all designs share.
+    /// The case that all designs share.
     base: Case,
     count: u64,
 }
@@ -91,7 +81,7 @@ pub struct TooManyDesigns;
 pub struct NoSuchDesign {
     /// The text.
     pub found: String,
-    /// How many designs there are.
+    /// The number of designs.
     pub count: u64,
 }
 
@@ -116,12 +106,12 @@ impl Grid {
         self.axes.iter().find(|axis| axis.parameter.key == key)
     }
 
-    /// What all designs share; on the axes it says nothing.
+    /// The case that all designs share. Its values on the axes mean nothing.
     pub fn base(&self) -> &Case {
         &self.base
     }
 
-    /// How many designs there are, at least one.
+    /// The number of designs, at least one.
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> u64 {
         self.count
@@ -149,8 +139,7 @@ impl Grid {
     /// The grid of design `index` alone.
     pub(crate) fn only(&self, index: u64) -> Self {
         let case = self.case(index);
-        let fix =
-            |axis: &Axis| Axis::new(axis.parameter, Values::List(vec![axis.parameter.get(&case)]));
+        let fix = |axis: &Axis| Axis::list(axis.parameter, vec![axis.parameter.get(&case)]);
         Self { axes: self.axes.iter().map(fix).collect(), base: self.base, count: 1 }
     }
 

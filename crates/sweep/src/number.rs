@@ -3,7 +3,7 @@
 /// The shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
 ///
 /// Very small and very large numbers take the exponent form, which spreadsheets read as well.
-pub(crate) fn text(value: f64) -> String {
+pub fn text(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 {
         "0".to_owned()

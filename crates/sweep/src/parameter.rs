@@ -1,15 +1,19 @@
-//! A parameter of a sweep: which values are right, and where they go.
+//! A parameter of a sweep: the values that it takes, and the field of a case that it sets.
+
+mod list;
+mod scalar;
 
 use std::fmt;
 
 use skin::puncture::RowLength;
 
 use crate::case::Case;
-use crate::decimal::{Decimal, DecimalRange};
+use crate::decimal::Decimal;
 use crate::number;
-use crate::parameters::PARAMETERS;
-use crate::scalar::Scalar;
-use crate::written::Value;
+use crate::toml_source::Value;
+
+pub use list::PARAMETERS;
+pub use scalar::Scalar;
 
 /// A scalar that a sweep definition may set, in its section or as an axis of the grid.
 #[derive(Debug)]
@@ -20,15 +24,21 @@ pub struct Parameter {
     pub section: &'static str,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// What it is, in half a sentence.
+    /// The meaning, in half a sentence.
     pub meaning: &'static str,
-    /// Which values are right, and where they go.
-    pub(crate) kind: Kind,
+    /// The values that the parameter takes, and the field of a case that it sets.
+    pub(crate) kind: ParameterKind,
 }
 
-/// Which values are right, and where they go.
+impl PartialEq for Parameter {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+/// The values that the parameter takes, and the field of a case that it sets.
 #[derive(Debug)]
-pub(crate) enum Kind {
+pub(crate) enum ParameterKind {
     Number { noun: &'static str, range: Range, field: fn(&mut Case) -> &mut f64 },
     Count { range: CountRange, field: fn(&mut Case) -> &mut usize },
     Word { words: &'static [&'static str], get: fn(&Case) -> usize, set: fn(&mut Case, usize) },
@@ -59,7 +69,7 @@ pub(crate) struct CountRange {
 /// The word of `scales` for a row as long as it needs to be.
 const AUTO: &str = "auto";
 
-/// What is wrong with a value.
+/// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WrongValue {
     /// The right type, but outside of the bounds.
@@ -67,7 +77,7 @@ pub enum WrongValue {
     OutOfRange {
         /// The value.
         found: String,
-        /// What would be right.
+        /// The values that would be right.
         expected: String,
     },
     /// Not what this key takes.
@@ -75,7 +85,7 @@ pub enum WrongValue {
     NotAccepted {
         /// The value.
         found: String,
-        /// What would be right.
+        /// The values that would be right.
         expected: String,
     },
 }
@@ -95,10 +105,10 @@ impl Parameter {
     pub fn get(&self, case: &Case) -> Scalar {
         let mut case = *case;
         match &self.kind {
-            Kind::Number { field, .. } => Scalar::Number(*field(&mut case)),
-            Kind::Count { field, .. } => Scalar::Count(*field(&mut case)),
-            Kind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
-            Kind::RowLength { .. } => match case.puncture.scales {
+            ParameterKind::Number { field, .. } => Scalar::Number(*field(&mut case)),
+            ParameterKind::Count { field, .. } => Scalar::Count(*field(&mut case)),
+            ParameterKind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
+            ParameterKind::RowLength { .. } => match case.puncture.scales {
                 RowLength::Auto => Scalar::Word(AUTO),
                 RowLength::Scales(count) => Scalar::Count(count),
             },
@@ -110,22 +120,23 @@ impl Parameter {
         self.get(&Case::default())
     }
 
-    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::pick`] gave.
+    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
-            (Kind::Number { field, .. }, Scalar::Number(number)) => *field(case) = number,
-            (Kind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
-            (Kind::Word { words, set, .. }, Scalar::Word(word)) => {
+            (ParameterKind::Number { field, .. }, Scalar::Number(number)) => *field(case) = number,
+            (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
+            (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
                 // `read` takes no other words.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
-            (Kind::RowLength { .. }, Scalar::Count(count)) => {
+            (ParameterKind::RowLength { .. }, Scalar::Count(count)) => {
                 case.puncture.scales = RowLength::Scales(count);
             }
-            (Kind::RowLength { .. }, Scalar::Word(_)) => case.puncture.scales = RowLength::Auto,
+            (ParameterKind::RowLength { .. }, Scalar::Word(_)) => {
+                case.puncture.scales = RowLength::Auto;
+            }
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
-        case.share();
     }
 
     /// The value `written`, if it is right for this parameter.
@@ -134,15 +145,20 @@ impl Parameter {
     /// If it is of another type or out of range.
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
-            (Kind::Number { .. }, Value::Number(text)) => text.parse().ok().map(Scalar::Number),
-            (Kind::Count { .. } | Kind::RowLength { .. }, Value::Number(text)) => {
+            (ParameterKind::Number { .. }, Value::Number(text)) => {
+                text.parse().ok().map(Scalar::Number)
+            }
+            (
+                ParameterKind::Count { .. } | ParameterKind::RowLength { .. },
+                Value::Number(text),
+            ) => {
                 let decimal = text.parse::<Decimal>().ok();
                 decimal.and_then(Decimal::to_usize).map(Scalar::Count)
             }
-            (Kind::Word { words, .. }, Value::Text(text)) => {
+            (ParameterKind::Word { words, .. }, Value::Text(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
-            (Kind::RowLength { .. }, Value::Text(text)) => {
+            (ParameterKind::RowLength { .. }, Value::Text(text)) => {
                 (text == AUTO).then_some(Scalar::Word(AUTO))
             }
             _ => None,
@@ -153,29 +169,30 @@ impl Parameter {
         }
     }
 
-    /// Value `index` of `range`.
-    pub(crate) fn pick(&self, range: &DecimalRange, index: u64) -> Scalar {
-        let decimal = range.value(index);
+    /// The value that a number of a range stands for.
+    pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
-            Kind::Number { .. } | Kind::Word { .. } => Scalar::Number(decimal.to_f64()),
-            Kind::Count { .. } | Kind::RowLength { .. } => {
-                // Whole and in bounds: `read` has seen both ends and the step.
-                Scalar::Count(decimal.to_usize().unwrap_or(usize::MAX))
+            ParameterKind::Number { .. } | ParameterKind::Word { .. } => {
+                Scalar::Number(number.to_f64())
+            }
+            ParameterKind::Count { .. } | ParameterKind::RowLength { .. } => {
+                // Whole and in bounds: whoever reads a range has seen both ends and the step.
+                Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
         }
     }
 
     /// Whether it takes numbers, so that a range of it makes sense.
     pub(crate) fn takes_numbers(&self) -> bool {
-        !matches!(self.kind, Kind::Word { .. })
+        !matches!(self.kind, ParameterKind::Word { .. })
     }
 
     /// Whether its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
-        matches!(self.kind, Kind::Count { .. } | Kind::RowLength { .. })
+        matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::RowLength { .. })
     }
 
-    /// What is wrong with a value that [`Self::read`] refuses.
+    /// The error of a value that [`Self::read`] refuses.
     fn wrong(&self, written: &Value) -> WrongValue {
         let found = written.to_string();
         let expected = self.expected();
@@ -190,21 +207,22 @@ impl Parameter {
 
     fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
-            (Kind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
-            (Kind::Count { range, .. } | Kind::RowLength { range }, Scalar::Count(count)) => {
-                (range.low..=range.high).contains(&count)
-            }
+            (ParameterKind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
+            (
+                ParameterKind::Count { range, .. } | ParameterKind::RowLength { range },
+                Scalar::Count(count),
+            ) => (range.low..=range.high).contains(&count),
             _ => true,
         }
     }
 
-    /// Which values are right, in words.
+    /// The values that the parameter takes, in words.
     pub fn expected(&self) -> String {
         match &self.kind {
-            Kind::Number { noun, range, .. } => format!("{noun} {range}"),
-            Kind::Count { range, .. } => format!("a whole number {range}"),
-            Kind::Word { words, .. } => any_of(words),
-            Kind::RowLength { range } => format!("a whole number {range} or \"{AUTO}\""),
+            ParameterKind::Number { noun, range, .. } => format!("{noun} {range}"),
+            ParameterKind::Count { range, .. } => format!("a whole number {range}"),
+            ParameterKind::Word { words, .. } => any_of(words),
+            ParameterKind::RowLength { range } => format!("a whole number {range} or \"{AUTO}\""),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Problems with known answers.
+//! Benchmarks: problems with known answers.
 
 mod frame;
 mod half_space;
@@ -6,26 +6,27 @@ mod membranes;
 mod paths;
 mod skins;
 
-use crate::Error;
+use crate::ValidationError;
 
-/// A number that is known, and what comes out here.
+/// A quantity with a known value, and the value that the program finds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Benchmark {
-    /// The problem and the quantity.
+    /// The names of the problem and the quantity.
     pub name: String,
-    /// Where the reference comes from.
+    /// The source of the reference.
     pub source: &'static str,
     /// The known value.
     pub reference: f64,
-    /// Ours.
+    /// The value that the program finds.
     pub ours: f64,
-    /// Largest relative difference that is right; where the reference is itself an approximation, its known error.
+    /// The largest relative difference that is right: the known error of the reference where that is an approximation itself.
     pub band: f64,
-    /// Observed order of convergence, where meshes are refined.
+    /// The observed order of convergence, where meshes are refined.
     pub order: Option<f64>,
 }
 
 impl Benchmark {
+    /// Creates a benchmark from the reference and our value, without an order of convergence.
     fn new(
         name: impl Into<String>,
         source: &'static str,
@@ -35,22 +36,22 @@ impl Benchmark {
         Self { name: name.into(), source, reference, ours, band, order: None }
     }
 
-    /// The relative difference.
+    /// Returns the relative difference.
     pub fn difference(&self) -> f64 {
         self.ours / self.reference - 1.0
     }
 
-    /// Whether ours lies within the band.
+    /// Returns whether the difference lies within the band.
     pub fn holds(&self) -> bool {
         self.difference().abs() <= self.band
     }
 }
 
-/// All benchmarks.
+/// Solves all benchmarks.
 ///
 /// # Errors
 /// If one of them cannot be set up or has no solution.
-pub fn benchmarks() -> Result<Vec<Benchmark>, Error> {
+pub fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
     let mut all = half_space::benchmarks()?;
     all.extend(membranes::benchmarks()?);
     all.extend(paths::benchmarks()?);

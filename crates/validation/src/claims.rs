@@ -1,4 +1,4 @@
-//! The claims of the paper, one by one.
+//! The claims of the paper and their checks.
 
 mod bending;
 mod finding;
@@ -10,48 +10,48 @@ use serde::Deserialize;
 
 pub use finding::{Finding, Verdict};
 pub(crate) use finding::{digits, named};
-pub(crate) use statistics::Value;
+pub(crate) use statistics::DesignValue;
 
-use crate::Error;
+use crate::ValidationError;
 use crate::study::Study;
 
-/// The claims as they are written down, with where the paper has them.
+/// The claims and their places in the paper, as a table.
 const CLAIMS: &str = include_str!("../claims.csv");
 
 /// A checkable statement of Shafiei et al. (2021).
 #[derive(Clone, Debug, Deserialize)]
 pub struct Claim {
-    /// Its number, `C01` and so on.
+    /// The number of the claim: `C01` and so on.
     pub id: String,
-    /// Section or figure.
+    /// The section or figure of the paper.
     #[serde(rename = "where")]
     pub place: String,
-    /// Which measure it is about.
+    /// The measure that the claim is about.
     pub about: String,
-    /// What it says.
+    /// The claim in words.
     pub claim: String,
-    /// What it is checked by.
+    /// The quantity by which the claim is checked.
     pub quantity: String,
-    /// What the paper reports.
+    /// The value or trend that the paper reports.
     pub reported: String,
 }
 
-/// A claim with what was found, for each sweep.
+/// A claim with the finding of each sweep.
 #[derive(Clone, Debug)]
 pub struct CheckedClaim {
     /// The claim.
     pub claim: Claim,
-    /// With a base of `L`, and of `2L`.
+    /// The findings with a base of `L` and of `2L`.
     pub found: [Finding; 2],
-    /// Why, where it is known.
+    /// The reason for the verdicts, where it is known.
     pub reason: &'static str,
 }
 
-/// How a claim is checked against a sweep.
-type Check = fn(&Study) -> Option<Finding>;
+/// A check of a claim against a sweep; `None` where designs that it needs are missing.
+type ClaimCheck = fn(&Study) -> Option<Finding>;
 
-/// The check of each claim, and the reason for what comes out, where it is known.
-const CHECKS: [(&str, Check, &str); 30] = [
+/// The check of each claim, and the reason for its verdict, where it is known.
+const CHECKS: [(&str, ClaimCheck, &str); 30] = [
     ("C01", puncture::unslanted_coverage, "by the definition of coverage"),
     (
         "C02",
@@ -112,12 +112,12 @@ const CHECKS: [(&str, Check, &str); 30] = [
     ("C30", puncture::two_blocks, ""),
 ];
 
-/// Numbers of the claims.
+/// Returns the numbers of the claims.
 pub(crate) fn ids() -> impl Iterator<Item = &'static str> {
     CHECKS.iter().map(|(id, ..)| *id)
 }
 
-/// The claims as the paper has them.
+/// Returns the claims as the paper has them.
 ///
 /// # Errors
 /// If the table of claims cannot be read.
@@ -125,7 +125,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
     csv::Reader::from_reader(CLAIMS.as_bytes()).deserialize().collect()
 }
 
-/// The claims that a study reproduces, and those that it reproduces in part.
+/// Returns the claims that a study reproduces, and those that it reproduces in part.
 pub(crate) fn score(study: &Study) -> [Vec<&'static str>; 2] {
     let graded: Vec<_> =
         CHECKS.iter().filter_map(|(id, check, _)| Some((*id, check(study)?.verdict))).collect();
@@ -134,11 +134,12 @@ pub(crate) fn score(study: &Study) -> [Vec<&'static str>; 2] {
     })
 }
 
-/// Every claim against two studies: with the base `L`, and with `2L`.
-pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, Error> {
+/// Checks every claim against two studies: with the base `L`, and with `2L`.
+pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
     let checked = claims()?.into_iter().map(|claim| {
         let known = CHECKS.iter().find(|(id, ..)| *id == claim.id);
-        let (_, check, reason) = known.ok_or_else(|| Error::UncheckedClaim(claim.id.clone()))?;
+        let (_, check, reason) =
+            known.ok_or_else(|| ValidationError::UncheckedClaim(claim.id.clone()))?;
         let found = studies.map(|study| check(study).unwrap_or_else(Finding::nothing));
         Ok(CheckedClaim { claim, found, reason })
     });

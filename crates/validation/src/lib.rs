@@ -1,22 +1,32 @@
-//! What squama reproduces, and why a reader may believe it.
+//! The validation of squama: benchmarks with known answers, the claims of the paper, and the sensitivity to open choices.
+//!
+//! A benchmark holds if the number of the program differs from the reference by no more than its band,
+//!
+//! ```text
+//! |ours/reference − 1| ≤ band
+//! ```
+//!
+//! where the band is the error of the reference where that is an approximation itself. A claim of Shafiei et al. (2021,
+//! doi 10.1016/j.jmps.2020.104176) is reproduced, reproduced in part, or not; nothing is tuned.
 //!
 //! | Item | Role |
 //! |---|---|
-//! | [`benchmarks()`], [`Benchmark`] | problems with known answers |
-//! | [`claims()`], [`Claim`], [`CheckedClaim`] | what the paper reports, and what comes out here |
-//! | [`sensitivity()`], [`Sensitivity`], [`Headlines`] | how far the headline results depend on what the paper leaves open |
-//! | [`Search`], [`Scored`] | every combination of open choices, by how many claims it reproduces |
-//! | [`Validation`] | all of it, and the page that says so |
+//! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
+//! | [`claims()`], [`Claim`], [`CheckedClaim`] | the statements of the paper, and their verdicts |
+//! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
+//! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
+//! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
 //! ```
 //! for benchmark in validation::benchmarks()? {
 //!     assert!(benchmark.holds(), "{}: {}", benchmark.name, benchmark.ours);
 //! }
-//! # Ok::<(), validation::Error>(())
+//! # Ok::<(), validation::ValidationError>(())
 //! ```
 
 mod benchmarks;
 mod claims;
+mod error;
 mod page;
 mod search;
 mod sensitivity;
@@ -26,67 +36,70 @@ use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
 pub use claims::{CheckedClaim, Claim, Finding, Verdict, claims};
-pub use search::{Scored, Search};
-pub use sensitivity::{CouplingEffect, Headlines, Sensitivity, sensitivity};
+pub use error::ValidationError;
+pub use search::{ScoredSetting, SettingSearch};
+pub use sensitivity::{CouplingEffect, Headlines, Sensitivity};
 use study::Study;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
-const SWEEPS: [&str; 2] = ["name = \"paper\"", "name = \"paper-as-written\"\nscale.base = \"2L\""];
+const SWEEPS: [(&str, &str); 2] = [
+    ("paper sweep, base L", "name = \"paper\""),
+    ("paper sweep, base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
+];
 
-/// A validation that cannot be carried out.
-#[derive(Debug, thiserror::Error)]
-pub enum Error {
-    /// A benchmark has no result.
-    #[error("benchmark: {0}")]
-    Benchmark(String),
-    /// A claim has no check.
-    #[error("claim {0} has no check")]
-    UncheckedClaim(String),
-    /// The table of claims is none.
-    #[error(transparent)]
-    Claims(#[from] csv::Error),
-    /// A sweep cannot be run.
-    #[error(transparent)]
-    Run(#[from] sweep::RunError),
-    /// A definition is not right.
-    #[error(transparent)]
-    Definition(#[from] sweep::InvalidDefinition),
-    /// Results cannot be read.
-    #[error(transparent)]
-    Results(#[from] sweep::InvalidResults),
-    /// There is no temporary folder.
-    #[error("no temporary folder: {0}")]
-    Folder(#[from] std::io::Error),
-}
-
-/// What was found.
+/// The results of all parts of the validation.
 #[derive(Clone, Debug)]
 pub struct Validation {
-    /// Benchmarks.
+    /// Problems with known answers.
     pub benchmarks: Vec<Benchmark>,
-    /// Claims of the paper.
+    /// The claims of the paper with their verdicts.
     pub claims: Vec<CheckedClaim>,
-    /// What the headline results depend on.
+    /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
-    /// What the paper's simplified coupling through the substrate does to the measures.
+    /// The effect on the measures of the paper's simplified coupling through the substrate.
     pub coupling: Vec<CouplingEffect>,
 }
 
+/// The part of a validation that begins now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartProgress<'a> {
+    /// The number of parts that are done.
+    pub done: usize,
+    /// The number of all parts.
+    pub parts: usize,
+    /// The name of the part that begins.
+    pub part: &'a str,
+}
+
 impl Validation {
-    /// Solves the benchmarks and both sweeps.
+    /// Carries out all parts; `progress` is called when a part begins.
     ///
     /// # Errors
-    /// If a benchmark has no result or the temporary folder does not take the tables.
-    pub fn run() -> Result<Self, Error> {
+    /// If a benchmark has no result or the temporary folder cannot be written.
+    pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
+        let settings = sensitivity::settings()?;
+        // Benchmarks, two sweeps, claims, and a part for each setting.
+        let parts = 2 + SWEEPS.len() + settings.len();
+        let mut done = 0;
+        let mut begin = |part: &str| {
+            progress(PartProgress { done, parts, part });
+            done += 1;
+        };
+        begin("benchmarks");
         let benchmarks = benchmarks()?;
-        let study = |text: &str| Study::run(Sweep::parse(text, "paper", &[])?);
-        let [paper, as_written] = [study(SWEEPS[0])?, study(SWEEPS[1])?];
+        let [paper, as_written] = SWEEPS.map(|(part, text)| {
+            begin(part);
+            Study::run(Sweep::parse(text, "paper", &[])?)
+        });
+        let (paper, as_written) = (paper?, as_written?);
+        begin("claims");
         let claims = claims::check([&paper, &as_written])?;
-        let (sensitivity, coupling) = sensitivity()?;
+        let (sensitivity, coupling) =
+            sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
         Ok(Self { benchmarks, claims, sensitivity, coupling })
     }
 
-    /// Whether every benchmark lies within its band.
+    /// Returns whether every benchmark lies within its band.
     pub fn holds(&self) -> bool {
         self.benchmarks.iter().all(Benchmark::holds)
     }

@@ -1,4 +1,4 @@
-//! The page that says what was found.
+//! The validation page in Markdown.
 
 use std::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use crate::{
 };
 
 impl Validation {
-    /// All tables as Markdown.
+    /// Returns the page: all tables in Markdown.
     pub fn page(&self) -> String {
         let mut page = String::from(
             "# Validation\n\n\
@@ -95,7 +95,7 @@ impl Validation {
 }
 
 impl CouplingEffect {
-    /// A row of the table.
+    /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
@@ -109,7 +109,7 @@ impl CouplingEffect {
 }
 
 impl Sensitivity {
-    /// A row of the table.
+    /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let Headlines { force, balanced, corners } = &self.headlines;
         format!(
@@ -122,7 +122,7 @@ impl Sensitivity {
 }
 
 impl Benchmark {
-    /// A row of the table.
+    /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let order = self.order.map_or_else(String::new, |order| format!("{order:.2}"));
         // Differences at the level of round-off are not the same on every machine.
@@ -138,7 +138,7 @@ impl Benchmark {
 }
 
 impl CheckedClaim {
-    /// A row of the table.
+    /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let cell = |finding: &Finding| match finding.verdict {
             Verdict::Reproduced => format!("**{}**: {}", finding.verdict, finding.ours),

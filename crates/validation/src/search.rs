@@ -1,4 +1,4 @@
-//! Which settings of the open choices come closest to all claims at once.
+//! A search for the settings of the open choices that reproduce most claims at once.
 
 use std::fmt::Write as _;
 
@@ -6,38 +6,38 @@ use rayon::prelude::*;
 use sweep::Sweep;
 
 use crate::study::Study;
-use crate::{Error, Headlines, claims};
+use crate::{Headlines, ValidationError, claims};
 
-/// A setting and what it reproduces.
+/// A setting with the claims that it reproduces.
 #[derive(Clone, Debug)]
-pub struct Scored {
-    /// The setting.
+pub struct ScoredSetting {
+    /// The setting, as `key = value`.
     pub setting: String,
-    /// Claims that are reproduced.
+    /// The claims that are reproduced.
     pub reproduced: Vec<&'static str>,
-    /// Claims that are reproduced in part.
+    /// The claims that are reproduced in part.
     pub in_part: Vec<&'static str>,
-    /// The results.
+    /// The main results.
     pub headlines: Headlines,
 }
 
 /// A sweep over combinations of open choices, on the designs of the paper.
 #[derive(Clone, Debug)]
-pub struct Search {
+pub struct SettingSearch {
     /// Every setting, the one that reproduces most first.
-    pub settings: Vec<Scored>,
+    pub settings: Vec<ScoredSetting>,
 }
 
-impl Search {
+impl SettingSearch {
     /// Solves the sweep and checks every claim on each setting.
     ///
     /// # Errors
-    /// If the temporary folder does not take the tables.
-    pub fn run(sweep: Sweep) -> Result<Self, Error> {
+    /// If the temporary folder cannot be written.
+    pub fn run(sweep: Sweep) -> Result<Self, ValidationError> {
         let study = Study::run(sweep)?;
         let score = |(setting, study): (String, Study)| {
             let [reproduced, in_part] = claims::score(&study);
-            Scored { setting, reproduced, in_part, headlines: Headlines::of(&study) }
+            ScoredSetting { setting, reproduced, in_part, headlines: Headlines::of(&study) }
         };
         let mut settings: Vec<_> = study.settings().into_par_iter().map(score).collect();
         // Stable: of equal ones the first in the sweep comes first.
@@ -45,7 +45,7 @@ impl Search {
         Ok(Self { settings })
     }
 
-    /// The settings as a table in Markdown.
+    /// Returns the settings as a table in Markdown.
     pub fn table(&self) -> String {
         let mut text = String::from(
             "| Setting | Reproduced | In part | F_c* at (0.1, 0.1, 75°) | Balanced optimum | Not reproduced |\n\
@@ -53,7 +53,7 @@ impl Search {
         );
         let all: Vec<_> = claims::ids().collect();
         for scored in &self.settings {
-            let Scored { setting, reproduced, in_part, headlines } = scored;
+            let ScoredSetting { setting, reproduced, in_part, headlines } = scored;
             let found = |id: &&&str| !reproduced.contains(*id) && !in_part.contains(*id);
             let missing: Vec<_> = all.iter().filter(found).copied().collect();
             let _ = writeln!(

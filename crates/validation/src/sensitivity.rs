@@ -1,10 +1,11 @@
-//! How far the headline results depend on what the paper leaves open.
+//! The dependence of the main results on the choices that the paper leaves open.
 
-use sweep::{Ranking, Sweep, TetrahedralGrid, Weights};
+use ranking::{Ranking, TetrahedralGrid, Weights};
+use sweep::{Axis, Setting, Sweep};
 
-use crate::Error;
-use crate::claims::{Value, digits, named};
-use crate::study::Study;
+use crate::ValidationError;
+use crate::claims::{DesignValue, digits, named};
+use crate::study::{Study, is_geometry};
 
 /// Sweeps over one open choice each: the files of `sweeps/sensitivity/`.
 const SWEEPS: [(&str, &str); 10] = [
@@ -29,12 +30,12 @@ const SWEEPS: [(&str, &str); 10] = [
 /// The sweep over the coupling of the substrate.
 const COUPLING: &str = "coupling";
 
-/// What comes out with one setting.
+/// The main results with one setting of an open choice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// The sweep.
+    /// The name of the sweep.
     pub sweep: &'static str,
-    /// The setting.
+    /// The setting, as `key = value`.
     pub setting: String,
     /// The results.
     pub headlines: Headlines,
@@ -47,51 +48,108 @@ pub struct Headlines {
     pub force: String,
     /// The best design with equal weights.
     pub balanced: String,
-    /// The best by coverage, critical force, penetration resistance and compliance alone.
+    /// The best designs by coverage, critical force, penetration resistance and compliance alone.
     pub corners: [String; 4],
 }
 
-/// How much a measure changes, design by design, when the whole substrate is coupled.
+/// The change of a measure, design by design, when the whole substrate is coupled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CouplingEffect {
     /// The measure.
     pub measure: &'static str,
-    /// Designs that have it with either coupling.
+    /// The number of designs that have the measure with either coupling.
     pub designs: usize,
-    /// Designs that lack it with full coupling.
+    /// The number of designs that lack the measure with full coupling alone.
     pub lost: usize,
-    /// Relative changes: the smallest, the median, and the largest.
+    /// The smallest, the median and the largest relative change.
     pub changes: [f64; 3],
 }
 
-/// Solves every sweep: what becomes of the headline results, and what full coupling does.
+/// One setting of a sweep over open choices.
+pub(crate) struct OpenSetting {
+    sweep: &'static str,
+    label: String,
+    definition: Sweep,
+}
+
+/// Returns every setting of every sweep, as a sweep of its own over the geometry.
 ///
 /// # Errors
-/// If the temporary folder does not take the tables.
-pub fn sensitivity() -> Result<(Vec<Sensitivity>, Vec<CouplingEffect>), Error> {
-    let (mut all, mut effects) = (Vec::new(), Vec::new());
+/// If a definition is not valid.
+pub(crate) fn settings() -> Result<Vec<OpenSetting>, ValidationError> {
+    let mut all = Vec::new();
     for (name, text) in SWEEPS {
-        let settings = Study::run(Sweep::parse(text, name, &[])?)?.settings();
-        if let (COUPLING, [(_, nearest), (_, full)]) = (name, settings.as_slice()) {
-            effects = CouplingEffect::of(nearest, full);
+        let whole = Sweep::parse(text, name, &[])?;
+        let open: Vec<&Axis> =
+            whole.grid().axes().iter().filter(|axis| !is_geometry(axis.parameter())).collect();
+        for values in combinations(&open) {
+            let label: Vec<_> =
+                values.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+            let fixed = values.iter().map(|(key, value)| {
+                Setting::parse(&format!("designs.{key}=[{}]", value.to_toml()))
+            });
+            let fixed: Vec<_> = fixed.collect::<Result<_, _>>()?;
+            let definition = Sweep::parse(text, name, &fixed)?;
+            all.push(OpenSetting { sweep: name, label: label.join(", "), definition });
         }
-        all.extend(settings.into_iter().map(|(setting, study)| {
-            let headlines = Headlines::of(&study);
-            Sensitivity { sweep: name, setting, headlines }
-        }));
     }
+    Ok(all)
+}
+
+/// The value of each open parameter, by its key.
+type OpenValues = Vec<(&'static str, sweep::Scalar)>;
+
+/// Returns every combination of the values of the axes, the last axis fastest.
+fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
+    axes.iter().fold(vec![Vec::new()], |known, axis| {
+        let longer = known.iter().flat_map(|values: &OpenValues| {
+            (0..axis.len()).map(|index| {
+                let mut longer = values.clone();
+                longer.push((axis.parameter().key, axis.value(index)));
+                longer
+            })
+        });
+        longer.collect()
+    })
+}
+
+/// Compares the main results of all settings, and the measures of both couplings of the substrate.
+///
+/// Settings that are part of the studies `known` are not solved again. `begin` is called with the name of each setting.
+///
+/// # Errors
+/// If the temporary folder cannot be written.
+pub(crate) fn sensitivity(
+    settings: Vec<OpenSetting>,
+    known: &[Study],
+    mut begin: impl FnMut(&str),
+) -> Result<(Vec<Sensitivity>, Vec<CouplingEffect>), ValidationError> {
+    let (mut all, mut couplings) = (Vec::new(), Vec::new());
+    for OpenSetting { sweep, label, definition } in settings {
+        begin(&label);
+        let part = known.iter().find_map(|study| study.part(&definition));
+        let study = part.map_or_else(|| Study::run(definition), Ok)?;
+        all.push(Sensitivity { sweep, setting: label, headlines: Headlines::of(&study) });
+        if sweep == COUPLING {
+            couplings.push(study);
+        }
+    }
+    let effects = match couplings.as_slice() {
+        [nearest, full] => CouplingEffect::of(nearest, full),
+        _ => Vec::new(),
+    };
     Ok((all, effects))
 }
 
 impl CouplingEffect {
     fn of(nearest: &Study, full: &Study) -> Vec<Self> {
-        let measures: [(&str, Value); 4] = [
+        let measures: [(&str, DesignValue); 4] = [
             ("coverage", |design| design.coverage.filter(|coverage| *coverage > 0.0)),
             ("critical force", |design| design.critical_force),
             ("penetration", |design| design.penetration),
             ("compliance", |design| design.compliance),
         ];
-        let effect = |(measure, value): (&'static str, Value)| {
+        let effect = |(measure, value): (&'static str, DesignValue)| {
             let pairs = nearest.designs.iter().zip(&full.designs);
             let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
             let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
@@ -108,6 +166,7 @@ impl CouplingEffect {
 }
 
 impl Headlines {
+    /// Returns the main results of a study.
     pub(crate) fn of(study: &Study) -> Self {
         let nothing = || "none".to_owned();
         let best = study.design(0.1, 0.1, 75.0);

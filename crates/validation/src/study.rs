@@ -1,19 +1,26 @@
-//! A sweep that was run, design by design.
+//! A sweep with its results, design by design.
 
 use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use sweep::{Axis, Case, InvalidResults, Options, Parameter, Part, Program, Results, Start, Sweep};
+use results::{InvalidResults, Results};
+use run::{Options, Program, Start};
+use sweep::{Axis, Case, Parameter, Subset, Sweep};
 
-use crate::Error;
+use crate::ValidationError;
 
-/// Keys of the axes of the geometry.
+/// Keys of the parameters of the geometry, over which every study varies.
 const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
 
-/// What a design measures; `None` where a value does not exist.
+/// Returns whether a parameter is one of the geometry, and not an open choice.
+pub(crate) fn is_geometry(parameter: &Parameter) -> bool {
+    GEOMETRY.contains(&parameter.key)
+}
+
+/// The parameters and measures of a design; `None` where a value does not exist.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Design {
+pub(crate) struct MeasuredDesign {
     pub(crate) gap: f64,
     pub(crate) length: f64,
     pub(crate) slant: f64,
@@ -31,34 +38,34 @@ pub(crate) struct Design {
 /// A sweep with its results, or a part of it.
 pub(crate) struct Study {
     sweep: Sweep,
-    /// What its designs share.
+    /// The first design: its parameters besides the geometry are those of all.
     pub(crate) base: Case,
     pub(crate) results: Results,
-    pub(crate) designs: Vec<Design>,
+    pub(crate) designs: Vec<MeasuredDesign>,
 }
 
 impl Study {
     /// Solves every design of a sweep.
     ///
     /// # Errors
-    /// If the temporary folder does not take the tables.
-    pub(crate) fn run(sweep: Sweep) -> Result<Self, Error> {
+    /// If the temporary folder cannot be written.
+    pub(crate) fn run(sweep: Sweep) -> Result<Self, ValidationError> {
         let folder = tempfile::tempdir()?;
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
-            dialect: None,
+            format: None,
             fail_fast: false,
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
         };
-        sweep::run(&sweep, Part::default(), folder.path(), Start::New, &options, &program, |_| {})?;
+        run::run(&sweep, Subset::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;
         let designs = designs(&results)?;
-        Ok(Self { base: *sweep.grid().base(), sweep, results, designs })
+        Ok(Self { base: sweep.grid().case(0), sweep, results, designs })
     }
 
-    /// The study of each setting: of each combination of the values of the axes that are not those of the geometry.
+    /// Returns the study of each setting: of each combination of the values of the axes that are not those of the geometry.
     pub(crate) fn settings(&self) -> Vec<(String, Self)> {
         let mut settings = Vec::<(String, Vec<usize>)>::new();
         for row in 0..self.results.len() {
@@ -72,7 +79,7 @@ impl Study {
     }
 
     fn setting(&self, row: usize) -> String {
-        let open = |parameter: &&Parameter| !GEOMETRY.contains(&parameter.key);
+        let open = |parameter: &&Parameter| !is_geometry(parameter);
         let axes = self.sweep.grid().axes().iter().map(Axis::parameter).filter(open);
         let value = |parameter: &'static Parameter| {
             format!("{} = {}", parameter.key, self.results.parameter(row, parameter))
@@ -90,17 +97,31 @@ impl Study {
         }
     }
 
-    /// The design with these parameters, the first if there are several.
-    pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&Design> {
+    /// Returns the designs of `sweep` as a study of their own, if this study has them all: with its geometries, and all
+    /// other parameters alike.
+    pub(crate) fn part(&self, sweep: &Sweep) -> Option<Self> {
+        let (ours, wanted) = (self.sweep.grid(), sweep.grid());
+        // The index in the grid is the row: a study solves all of its designs.
+        let row = |index| {
+            let case = wanted.case(index);
+            let row = ours.find(&case)?;
+            (ours.case(row) == case).then_some(row as usize)
+        };
+        let rows: Vec<usize> = (0..wanted.len()).map(row).collect::<Option<_>>()?;
+        (sweep.measures() == self.sweep.measures()).then(|| self.only(&rows))
+    }
+
+    /// Returns the first design with these parameters.
+    pub(crate) fn design(&self, gap: f64, length: f64, slant: f64) -> Option<&MeasuredDesign> {
         self.designs.iter().find(|d| (d.gap, d.length, d.slant) == (gap, length, slant))
     }
 
-    /// The design of which a value is largest, among those of which it exists.
+    /// Returns the design of which a value is largest, among those of which it exists.
     pub(crate) fn largest(
         &self,
-        among: impl Fn(&Design) -> bool,
-        value: impl Fn(&Design) -> Option<f64>,
-    ) -> Option<(&Design, f64)> {
+        among: impl Fn(&MeasuredDesign) -> bool,
+        value: impl Fn(&MeasuredDesign) -> Option<f64>,
+    ) -> Option<(&MeasuredDesign, f64)> {
         let all = self.designs.iter().filter(|design| among(design));
         let valued = all.filter_map(|design| Some((design, value(design)?)));
         // The first of equal ones.
@@ -108,11 +129,11 @@ impl Study {
     }
 }
 
-fn designs(results: &Results) -> Result<Vec<Design>, InvalidResults> {
+fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
     let number = |row, column| results.number(row, results.column(column)?);
     let design = |row| {
         let parameter = |column| Ok(number(row, column)?.unwrap_or(f64::NAN));
-        Ok(Design {
+        Ok(MeasuredDesign {
             gap: parameter("gap_over_t")?,
             length: parameter("length_over_t")?,
             slant: parameter("slant_deg")?,

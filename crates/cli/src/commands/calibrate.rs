@@ -2,14 +2,14 @@
 
 use anyhow::{Context as _, ensure};
 use substrate::{Footprint, Springs};
-use sweep::{Setting, Sweep, footprint};
+use sweep::{Setting, Sweep};
 
 use super::DONE;
 use crate::args;
 use crate::print::{aligned, print};
 
 /// Prints the springs under a row of scales.
-pub fn calibrate(arguments: &args::Calibrate) -> anyhow::Result<u8> {
+pub fn calibrate(arguments: &args::CalibrateArguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
     let springs = substrate::calibrate(&footprint)?;
     print(&report(&footprint, &springs))?;
@@ -17,7 +17,7 @@ pub fn calibrate(arguments: &args::Calibrate) -> anyhow::Result<u8> {
 }
 
 /// The arguments are validated as the keys of a sweep that they are.
-fn footprint_of(arguments: &args::Calibrate) -> anyhow::Result<Footprint> {
+fn footprint_of(arguments: &args::CalibrateArguments) -> anyhow::Result<Footprint> {
     let options = [
         ("--gap", "designs.gap_over_t", &arguments.gap),
         ("--length", "designs.length_over_t", &arguments.length),
@@ -33,7 +33,8 @@ fn footprint_of(arguments: &args::Calibrate) -> anyhow::Result<Footprint> {
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
-    footprint(&sweep.grid().case(0)).context("lengths too far apart, expected comparable ones")
+    let case = sweep.grid().case(0);
+    case.footprint().context("lengths too far apart, expected comparable ones")
 }
 
 fn report(footprint: &Footprint, springs: &Springs) -> String {

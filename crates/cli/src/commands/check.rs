@@ -12,7 +12,7 @@ use crate::print::{aligned, counted, print};
 const LISTED: u64 = 12;
 
 /// Says what would run.
-pub fn check(arguments: &args::Check) -> anyhow::Result<u8> {
+pub fn check(arguments: &args::CheckArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     print(&report(&sweep, &arguments.definition.path))?;
     Ok(DONE)

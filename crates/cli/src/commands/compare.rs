@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use anyhow::{bail, ensure};
-use sweep::{ColumnDifference, Comparison, Extreme, Results};
+use ranking::{ColumnDifference, Comparison, Extreme};
+use results::Results;
 
 use super::{DIFFERENT, DONE};
 use crate::args;
@@ -13,14 +14,14 @@ use crate::print::{aligned, counted, digits, print};
 const LISTED: usize = 8;
 
 /// Says where two runs differ.
-pub fn compare(arguments: &args::Compare) -> anyhow::Result<u8> {
+pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
     let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
     let (first, second) = (first?, second?);
-    let comparison = sweep::compare(&first, &second, tolerance)?;
+    let comparison = ranking::compare(&first, &second, tolerance)?;
     let mut text = report(&comparison, &first, &second);
     if let Some(folder) = &arguments.out {
-        let files = sweep::write_comparison(folder, &comparison)?;
+        let files = ranking::write_comparison(folder, &comparison)?;
         let _ = writeln!(text, "{}: {}", folder.display(), files.join(" "));
     }
     print(&text)?;

@@ -3,26 +3,28 @@
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
-use sweep::columns::design_columns;
-use sweep::{Case, DesignNumber, PARAMETERS, Setting, Solved, Sweep, Workbench};
+use results::columns::design_columns;
+use results::{RunFolder, SolvedDesign, write_path_tables};
+use run::Evaluator;
+use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
 
 use super::{DONE, INCOMPLETE, folder_of, settings};
 use crate::args;
 use crate::print::{aligned, print};
 
-/// Solves one design, prints its measures and writes its course.
-pub fn design(arguments: &args::Design) -> anyhow::Result<u8> {
+/// Solves one design, prints its measures and writes its path tables.
+pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
     let chosen = choose(arguments)?;
     let grid = chosen.sweep.grid();
-    let workbench = Workbench::new(chosen.sweep.measures());
+    let evaluator = Evaluator::new(chosen.sweep.measures());
     let number = chosen.number.unwrap_or(grid.number(0));
-    let solved = workbench.solve(number, &grid.case(0));
-    let folder = chosen.folder(arguments);
-    let files = sweep::write_course(&folder, &solved)?;
-    sweep::write_text(&folder, "design.toml", &chosen.sweep.to_toml())?;
+    let solved = evaluator.solve(number, &grid.case(0));
+    let folder = RunFolder::new(chosen.folder(arguments));
+    let files = write_path_tables(&folder, &solved)?;
+    folder.write_text("design.toml", &chosen.sweep.to_toml())?;
     let report = chosen.report(&solved);
-    print(&format!("{report}\n{}: {} design.toml\n", folder.display(), files.join(" ")))?;
-    Ok(if solved.record.failed() { INCOMPLETE } else { DONE })
+    print(&format!("{report}\n{}: {} design.toml\n", folder.path().display(), files.join(" ")))?;
+    Ok(if solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
 /// The design that is asked for.
@@ -37,14 +39,14 @@ struct Chosen {
     original: Option<Case>,
 }
 
-fn choose(arguments: &args::Design) -> anyhow::Result<Chosen> {
+fn choose(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
     match &arguments.number {
         Some(number) => by_number(arguments, number),
         None => by_values(arguments),
     }
 }
 
-fn by_number(arguments: &args::Design, number: &str) -> anyhow::Result<Chosen> {
+fn by_number(arguments: &args::DesignArguments, number: &str) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
     let sweep = Sweep::read(path, &settings(&arguments.definition)?)?;
     let grid = sweep.grid();
@@ -61,7 +63,7 @@ fn by_number(arguments: &args::Design, number: &str) -> anyhow::Result<Chosen> {
     })
 }
 
-fn by_values(arguments: &args::Design) -> anyhow::Result<Chosen> {
+fn by_values(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
     let mut settings = settings(&arguments.definition)?;
     let options = [
@@ -93,7 +95,7 @@ fn by_values(arguments: &args::Design) -> anyhow::Result<Chosen> {
 }
 
 /// `sweep`, of one design, with the number that the definition as it is written gives it.
-fn located(arguments: &args::Design, sweep: Sweep) -> Chosen {
+fn located(arguments: &args::DesignArguments, sweep: Sweep) -> Chosen {
     let whole = Sweep::read(&arguments.definition.path, &[]).ok();
     let found = whole.and_then(|whole| {
         let grid = whole.grid();
@@ -108,7 +110,7 @@ fn located(arguments: &args::Design, sweep: Sweep) -> Chosen {
 }
 
 impl Chosen {
-    fn folder(&self, arguments: &args::Design) -> PathBuf {
+    fn folder(&self, arguments: &args::DesignArguments) -> PathBuf {
         let folder = || folder_of(&self.sweep, None).join("designs").join(self.label());
         arguments.out.clone().unwrap_or_else(folder)
     }
@@ -126,11 +128,11 @@ impl Chosen {
         axes.map(value).collect::<Vec<_>>().join(separator)
     }
 
-    fn report(&self, solved: &Solved) -> String {
+    fn report(&self, solved: &SolvedDesign) -> String {
         let columns = design_columns(&self.sweep);
         // The number stands in the title.
         let rows = columns.iter().skip(1).map(|column| {
-            let value = match column.cell(&solved.record).to_string() {
+            let value = match column.cell(&solved.row).to_string() {
                 text if text.is_empty() => "none".to_owned(),
                 text => text,
             };

@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use report::drawings;
 use skin::{flexure, puncture};
 use substrate::RowStiffness;
-use sweep::{Case, DesignNumber, Sweep, footprint};
+use sweep::{Case, DesignNumber, Sweep};
 
 use super::figure_file::{Written, write_html, write_svg};
 use super::{DONE, folder_of, read};
@@ -20,11 +20,11 @@ const FRAMES: u32 = 60;
 const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 
 /// Draws designs.
-pub fn draw(arguments: &args::Draw) -> anyhow::Result<u8> {
+pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = arguments.out.clone();
     let folder = folder.unwrap_or_else(|| folder_of(&sweep, None).join("drawings"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let designs = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
     let mut files = Written::default();
     for (number, case) in designs {
@@ -59,7 +59,7 @@ struct Drawing<'a> {
     sweep: &'a Sweep,
     number: DesignNumber,
     case: Case,
-    arguments: &'a args::Draw,
+    arguments: &'a args::DrawArguments,
     folder: &'a PathBuf,
 }
 
@@ -83,7 +83,7 @@ impl Drawing<'_> {
         };
         let states = self.puncture_states(&at)?;
         let name = self.name();
-        let drawing = drawings::Puncture {
+        let drawing = drawings::PunctureDrawing {
             name: &name,
             design: &case.design,
             load_position: case.puncture.load_position,
@@ -114,7 +114,8 @@ impl Drawing<'_> {
     fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::Snapshot>> {
         let case = &self.case;
         let substrate = substrate(case)?;
-        let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, at)?;
+        let solved =
+            puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::Snapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
@@ -132,14 +133,14 @@ impl Drawing<'_> {
             [] => ROTATIONS_DEG.into_iter().filter(|&rotation| rotation <= last).collect(),
             at => at.to_vec(),
         };
-        let solved = flexure::snapshots(&self.case.design, &parameters, &at)?;
+        let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
         let reached = |(at, state): (&f64, Option<flexure::Snapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: bending does not turn the ends by {at}°", self.number),
         };
         let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
         let name = self.name();
-        let drawing = drawings::Flexure {
+        let drawing = drawings::FlexureDrawing {
             name: &name,
             design: &self.case.design,
             membrane_thickness: parameters.membrane_thickness,
@@ -157,7 +158,7 @@ impl Drawing<'_> {
 
 /// The substrate under a row.
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
-    let footprint = footprint(case);
+    let footprint = case.footprint();
     let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
     Ok(RowStiffness::of(&footprint, case.coupling)?)
 }

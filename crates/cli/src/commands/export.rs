@@ -6,12 +6,12 @@ use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, print};
 
 /// Writes the tables of a run as one workbook.
-pub fn export(arguments: &args::Export) -> anyhow::Result<u8> {
+pub fn export(arguments: &args::ExportArguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
     Interrupt::survive_file_limits()?;
-    let exported = sweep::export(&arguments.results, &arguments.xlsx)?;
-    let row = |(table, rows): &(&str, u32)| [(*table).to_owned(), counted(u64::from(*rows), "row")];
+    let exported = report::export(&arguments.results, &arguments.xlsx)?;
+    let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
     let rows: Vec<_> = exported.tables.iter().map(row).collect();
     print(&format!("{}\n{}", arguments.xlsx.display(), aligned(&rows)))?;
     Ok(DONE)

@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use sweep::WholeFile;
+use results::AtomicFile;
 
 /// Names of the files that were written.
 #[derive(Debug, Default)]
@@ -26,11 +26,25 @@ pub fn write_svg(
     png: bool,
     files: &mut Written,
 ) -> anyhow::Result<()> {
+    let image = png.then(|| image(svg)).transpose()?;
     write(folder, format!("{name}.svg"), svg.as_bytes(), files)?;
-    if png {
-        write(folder, format!("{name}.png"), &report::png(svg)?, files)?;
+    match image {
+        Some(image) => write(folder, format!("{name}.png"), &image, files),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+#[cfg(feature = "png")]
+fn image(svg: &str) -> anyhow::Result<Vec<u8>> {
+    Ok(report::png(svg)?)
+}
+
+#[cfg(not(feature = "png"))]
+fn image(_: &str) -> anyhow::Result<Vec<u8>> {
+    anyhow::bail!(
+        "--png: this squama was built without images, expected one that is built with them: \
+         cargo run --release --features png -- followed by the same arguments"
+    )
 }
 
 /// Writes a page.
@@ -44,7 +58,7 @@ pub fn write_html(
 }
 
 fn write(folder: &Path, name: String, bytes: &[u8], files: &mut Written) -> anyhow::Result<()> {
-    let mut file = WholeFile::create(folder, &name)?;
+    let mut file = AtomicFile::create(folder, &name)?;
     let written = file.write_all(bytes);
     written.with_context(|| format!("{}: cannot be written", file.path().display()))?;
     file.finish()?;

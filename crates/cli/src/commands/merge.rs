@@ -12,10 +12,10 @@ use crate::print::{counted, print};
 const NAMED: usize = 20;
 
 /// Puts the shards of a sweep together.
-pub fn merge(arguments: &args::Merge) -> anyhow::Result<u8> {
+pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
     // A merger is short and may be repeated: signals end it, but a limit on files is an error.
     Interrupt::survive_file_limits()?;
-    let merged = sweep::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
+    let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
     if !arguments.quiet {
         print(&report(arguments, &merged))?;
     }
@@ -24,7 +24,7 @@ pub fn merge(arguments: &args::Merge) -> anyhow::Result<u8> {
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
-fn report(arguments: &args::Merge, merged: &sweep::Merged) -> String {
+fn report(arguments: &args::MergeArguments, merged: &run::Merged) -> String {
     let folders = counted(arguments.folders.len() as u64, "folder");
     let added = counted(merged.added, "design");
     let name = merged.sweep.name();
@@ -33,7 +33,7 @@ fn report(arguments: &args::Merge, merged: &sweep::Merged) -> String {
 }
 
 /// The numbers of the designs that are missing, runs of them as `first-last`.
-fn missing(merged: &sweep::Merged) -> String {
+fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();
     }

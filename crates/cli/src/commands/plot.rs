@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::bail;
-use report::{Solved, curves, figures};
+use report::{SolvedDesign, curves, figures};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
@@ -23,7 +23,7 @@ const CURVE_STEP: f64 = 0.004;
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
 /// Draws the figures of a sweep, or the curves of designs.
-pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
+pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
         (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
         (None, Some(results)) => plot_results(results, arguments),
@@ -31,10 +31,10 @@ pub fn plot(arguments: &args::Plot) -> anyhow::Result<u8> {
     }
 }
 
-fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
+fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(results)?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
     for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
@@ -44,7 +44,7 @@ fn plot_results(results: &Path, arguments: &args::Plot) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
+fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let chosen = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
     let solve = |(_, case): &(DesignNumber, Case)| solve(case, arguments.to);
@@ -52,7 +52,7 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
     let shown: Vec<_> = solved
         .iter()
         .zip(&chosen)
-        .map(|((puncture, flexure), (number, case))| Solved {
+        .map(|((puncture, flexure), (number, case))| SolvedDesign {
             number: number.to_string(),
             design: &case.design,
             puncture: Some(puncture),
@@ -60,7 +60,7 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
         })
         .collect();
     let folder = arguments.out.clone().unwrap_or_else(|| folder_of(&sweep, None).join("curves"));
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let mut files = Written::default();
     let names = numbers(&sweep, &arguments.designs);
     for figure in curves(sweep.name(), &shown) {
@@ -80,20 +80,19 @@ fn plot_curves(arguments: &args::Curves) -> anyhow::Result<u8> {
 /// The puncture of a design, to the critical tilt or to a displacement, and its bending.
 fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let substrate = substrate(case)?;
-    let (mut parameters, mut bending) = (case.puncture, case.flexure);
+    let mut common = case.common;
     // Close enough for a line.
-    for solver in [&mut parameters.solver, &mut bending.solver] {
-        solver.max_step = solver.max_step.min(CURVE_STEP);
-    }
+    common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
-    let mut puncture = puncture::snapshots(&case.design, &substrate, &parameters, &at)?.puncture;
+    let mut puncture =
+        puncture::snapshots(&case.design, &substrate, &common, &case.puncture, &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
     }
-    Ok((puncture, flexure::solve(&case.design, &bending)?))
+    Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
 /// The numbers of designs, for the name of a file.

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use sweep::{CRITERIA, Ranking, Results, Standing, TetrahedralGrid, Weights};
+use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
+use results::Results;
 
 use super::DONE;
 use crate::args;
@@ -14,14 +15,14 @@ use crate::print::{aligned, counted, digits, print};
 const LISTED: usize = 10;
 
 /// Finds the best designs of a run and writes them down.
-pub fn rank(arguments: &args::Rank) -> anyhow::Result<u8> {
+pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let weights: Weights = option("--weights", &arguments.weights)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let results = Results::read(&arguments.results)?;
     let ranking = Ranking::new(&results, grid)?;
     let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
-    let files = sweep::write_ranking(folder, &ranking, weights)?;
-    let report = Report { results: &results, ranking: &ranking };
+    let files = ranking::write_ranking(folder, &ranking, weights)?;
+    let report = RankReport { results: &results, ranking: &ranking };
     let text = report.text(weights, arguments.top);
     print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     Ok(DONE)
@@ -35,12 +36,12 @@ where
     text.parse().with_context(|| format!("{name} {text}"))
 }
 
-struct Report<'a> {
+struct RankReport<'a> {
     results: &'a Results,
     ranking: &'a Ranking<'a>,
 }
 
-impl Report<'_> {
+impl RankReport<'_> {
     fn text(&self, weights: Weights, top: usize) -> String {
         let folder = self.results.folder();
         let best = self.ranking.by_fitness(weights);
@@ -95,9 +96,9 @@ impl Report<'_> {
 
     fn table(
         &self,
-        standings: &[&Standing<'_>],
+        standings: &[&RankedDesign<'_>],
         first: &str,
-        cell: fn(&Standing<'_>) -> String,
+        cell: fn(&RankedDesign<'_>) -> String,
     ) -> String {
         let mut rows = vec![self.header(first)];
         rows.extend(standings.iter().map(|standing| self.row(standing, cell(standing))));
@@ -111,7 +112,7 @@ impl Report<'_> {
         header.into_iter().map(str::to_owned).collect()
     }
 
-    fn row(&self, standing: &Standing<'_>, first: String) -> Vec<String> {
+    fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
         let mut row = vec![first, standing.design().to_owned()];
         let parameters = self.results.parameters();
         row.extend(parameters.map(|p| self.results.parameter(standing.row(), p).to_owned()));
@@ -120,7 +121,7 @@ impl Report<'_> {
     }
 }
 
-fn fitness(standing: &Standing<'_>) -> String {
+fn fitness(standing: &RankedDesign<'_>) -> String {
     format!("{:.6}", standing.fitness)
 }
 

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use ranking::{Ranking, Weights};
 use rayon::prelude::*;
-use report::{Fact, Page, drawings};
+use report::{Fact, Page, RankingEntry, drawings};
+use results::columns::design_columns;
 use skin::puncture;
-use sweep::Weights;
-use sweep::columns::design_columns;
 
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
@@ -21,12 +21,12 @@ const DRAWN: usize = 24;
 const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
-pub fn report(arguments: &args::Report) -> anyhow::Result<u8> {
+pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
     let results = ResultsFolder::read(&arguments.results)?;
     let page = page(&results)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    sweep::make_folder(&folder)?;
+    results::make_folder(&folder)?;
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
@@ -48,6 +48,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let shared = sweep.shared().map(|(parameter, value)| {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
+    let ranking = results.ranking()?;
     Ok(Page {
         name: sweep.name().to_owned(),
         version: PROGRAM.version.to_owned(),
@@ -56,15 +57,15 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        drawings: drawn(results)?,
+        drawings: ranking.as_ref().map_or_else(Vec::new, |ranking| drawn(results, ranking)),
+        ranking: ranking.as_ref().map_or_else(Vec::new, RankingEntry::all),
         designs: results.designs.clone(),
     })
 }
 
 /// Drawings of the designs that are best for all criteria alike, for one alone, or for other weights,
 /// as many as there is room for.
-fn drawn(results: &ResultsFolder) -> anyhow::Result<Vec<Fact>> {
-    let Some(ranking) = results.ranking()? else { return Ok(Vec::new()) };
+fn drawn(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<Fact> {
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let mut rows: Vec<usize> = Vec::new();
@@ -79,7 +80,7 @@ fn drawn(results: &ResultsFolder) -> anyhow::Result<Vec<Fact>> {
         room = room.saturating_sub(svg.len());
         room > 0
     };
-    Ok(drawings.into_iter().take_while(fits).collect())
+    drawings.into_iter().take_while(fits).collect()
 }
 
 /// A drawing, or none if the design cannot be solved: its row in the table says why.
@@ -89,10 +90,11 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
     let case = grid.case(grid.parse_number(number).ok()?);
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &substrate, &case.puncture, &at).ok()?;
+    let solved =
+        puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
-    let drawing = drawings::Puncture {
+    let drawing = drawings::PunctureDrawing {
         name: &name,
         design: &case.design,
         load_position: case.puncture.load_position,

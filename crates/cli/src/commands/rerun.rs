@@ -1,32 +1,33 @@
 //! `squama rerun`.
 
-use sweep::{Choice, Rerun, Setting};
+use run::{Filter, Rerun};
+use sweep::Setting;
 
 use super::run::{exit_code, options, summary};
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 
 /// Designs that are named before the list is cut short.
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
+pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
-    let rerun = Rerun::plan(&arguments.results, &choice(arguments), &settings, &PROGRAM)?;
+    let rerun = Rerun::plan(&arguments.results, &filter(arguments), &settings, &PROGRAM)?;
     if arguments.dry_run || rerun.designs().len() == 0 {
         print(&plan(&rerun))?;
         return Ok(DONE);
     }
     let interrupt = Interrupt::listen()?;
     let options = options(&arguments.work, &arguments.format, &interrupt);
-    let mut progress = Progress::new(arguments.work.quiet);
-    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
-    let finished = rerun.run(&options, &PROGRAM, news);
-    drop(progress);
+    let mut display = ProgressDisplay::new(arguments.work.quiet);
+    let progress = |progress| display.show(progress, interrupt.stop());
+    let finished = rerun.run(&options, &PROGRAM, progress);
+    drop(display);
     let finished = finished?;
     if !arguments.work.quiet {
         let results = summary("all results", &arguments.results, options.threads, &finished);
@@ -35,11 +36,11 @@ pub fn rerun(arguments: &args::Rerun) -> anyhow::Result<u8> {
     Ok(exit_code(&finished, &interrupt))
 }
 
-fn choice(arguments: &args::Rerun) -> Choice {
-    Choice {
+fn filter(arguments: &args::RerunArguments) -> Filter {
+    Filter {
         failed: arguments.failed,
         numbers: arguments.numbers.clone(),
-        conditions: arguments.conditions.clone(),
+        columns: arguments.conditions.clone(),
     }
 }
 

@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
 use report::{Designs, Fact};
-use sweep::written::{self, Entry, Value};
-use sweep::{InvalidRanking, InvalidResults, Ranking, Results, Sweep, TetrahedralGrid};
+use results::{InvalidResults, Results};
+use sweep::Sweep;
+use sweep::toml_source::{self, KeyValue, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -45,12 +47,12 @@ impl ResultsFolder {
 
 /// What stands in the table `run` of `run.toml`.
 fn facts(text: &str) -> Vec<Fact> {
-    let table = written::parse(text, "run.toml").unwrap_or_default();
+    let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
     let Some(Value::Table(entries)) = run else { return Vec::new() };
-    let fact = |entry: Entry| match entry.value {
+    let fact = |entry: KeyValue| match entry.value {
         Value::Table(counts) => {
-            let count = |entry: &Entry| format!("{} {}", entry.value, entry.key);
+            let count = |entry: &KeyValue| format!("{} {}", entry.value, entry.key);
             let counts: Vec<_> = counts.iter().map(count).collect();
             (entry.key.replace('_', " "), counts.join(", "))
         }

@@ -5,28 +5,29 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
-use sweep::{Best, Finished, Options, Part, Sample, Start, Sweep};
+use run::{Best, Finished, Options, Start};
+use sweep::{RandomSample, Subset, Sweep};
 
 use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
 use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, print};
-use crate::progress::Progress;
+use crate::progress::ProgressDisplay;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
+pub fn run(arguments: &args::RunArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
     let interrupt = Interrupt::listen()?;
     let options = options(&arguments.work, &arguments.format, &interrupt);
-    let mut progress = Progress::new(arguments.work.quiet);
-    let news = |news: sweep::News<'_>| progress.show(news, interrupt.stop());
-    let (part, start) = (part(arguments), start(arguments));
-    let finished = sweep::run(&sweep, part, &folder, start, &options, &PROGRAM, news);
-    drop(progress);
+    let mut display = ProgressDisplay::new(arguments.work.quiet);
+    let progress = |progress| display.show(progress, interrupt.stop());
+    let (subset, start) = (subset(arguments), start(arguments));
+    let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
+    drop(display);
     let finished = finished?;
     if !arguments.work.quiet {
         print(&summary(sweep.name(), &folder, options.threads, &finished))?;
@@ -34,7 +35,7 @@ pub fn run(arguments: &args::Run) -> anyhow::Result<u8> {
     Ok(exit_code(&finished, &interrupt))
 }
 
-fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
+fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {
     let folder = folder_of(sweep, arguments.out.as_deref());
     match &arguments.shard {
         Some(shard) if arguments.out.is_none() => {
@@ -44,12 +45,12 @@ fn folder(arguments: &args::Run, sweep: &Sweep) -> PathBuf {
     }
 }
 
-fn part(arguments: &args::Run) -> Part {
-    let sample = arguments.sample.map(|designs| Sample { designs, seed: arguments.seed });
-    Part { sample, shard: arguments.shard }
+fn subset(arguments: &args::RunArguments) -> Subset {
+    let sample = arguments.sample.map(|designs| RandomSample { designs, seed: arguments.seed });
+    Subset { sample, shard: arguments.shard }
 }
 
-fn start(arguments: &args::Run) -> Start {
+fn start(arguments: &args::RunArguments) -> Start {
     match (arguments.resume, arguments.fresh) {
         (true, _) => Start::Resume,
         (_, true) => Start::Fresh,
@@ -66,7 +67,7 @@ pub(super) fn options<'i>(
     let cores = || available_parallelism().map_or(1, usize::from);
     Options {
         threads: work.threads.map_or_else(cores, usize::from),
-        dialect: format.csv,
+        format: format.csv,
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,
         stop: interrupt.stop(),
@@ -97,16 +98,16 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
 }
 
 fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    finished.summary.statuses.iter().map(|(column, counts)| {
+    finished.summary.statuses.iter().map(|(measure, counts)| {
         let counts: Vec<_> = counts.iter().map(|(status, n)| format!("{n} {status}")).collect();
-        [column.trim_end_matches("_status").to_owned(), counts.join(", ")]
+        [measure.key().to_owned(), counts.join(", ")]
     })
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     let row =
         |best: &Best| [best.what.to_owned(), format!("{:.6} (design {})", best.value, best.design)];
-    finished.summary.best.iter().map(row)
+    finished.summary.best().map(row)
 }
 
 /// `duration` to the hundredth of a second, or to the second if it is long.

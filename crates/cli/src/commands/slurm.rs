@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use sweep::{Sweep, make_folder, write_text};
+use results::{make_folder, write_text};
+use sweep::Sweep;
 
 use super::{DONE, folder_of, read};
 use crate::args;
@@ -21,7 +22,7 @@ const SCRIPTS: [(&str, &str); 3] = [
 const LARGEST: u64 = 1000;
 
 /// Writes the scripts that run a sweep as a job array.
-pub fn slurm(arguments: &args::Slurm) -> anyhow::Result<u8> {
+pub fn slurm(arguments: &args::SlurmArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments.shards, &sweep)?;
     let results = folder_of(&sweep, arguments.out.as_deref());

@@ -2,24 +2,26 @@
 
 use std::time::Duration;
 
+use sweep::DesignNumber;
+
 use super::run::short;
 use super::{DONE, INCOMPLETE};
 use crate::args;
 use crate::print::{aligned, counted, print};
 
 /// Says how far a run is.
-pub fn status(arguments: &args::Status) -> anyhow::Result<u8> {
-    let status = sweep::Status::of(&arguments.results)?;
+pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
+    let status = run::RunStatus::of(&arguments.results)?;
     print(&report(&status))?;
     let complete = status.failed == 0 && status.archive.missing().is_empty();
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
-fn report(status: &sweep::Status) -> String {
+fn report(status: &run::RunStatus) -> String {
     let header = status.archive.header();
-    let part = header.part().to_string();
+    let subset = header.subset().to_string();
     let mut rows = vec![
-        row("designs", format!("{}, {part}", status.archive.selection().len())),
+        row("designs", format!("{}, {subset}", status.archive.designs().len())),
         row("done", format!("{}{}", status.archive.done(), again(status))),
         row("failed", status.failed.to_string()),
         row("running", status.running().to_string()),
@@ -38,7 +40,7 @@ fn row(what: &str, value: String) -> [String; 2] {
     [what.to_owned(), value]
 }
 
-fn again(status: &sweep::Status) -> String {
+fn again(status: &run::RunStatus) -> String {
     match status.solved_again {
         0 => String::new(),
         count => format!(", {count} of them solved again"),
@@ -46,7 +48,7 @@ fn again(status: &sweep::Status) -> String {
 }
 
 /// The rate of the last session, and how long the rest then takes.
-fn rate(status: &sweep::Status) -> Option<String> {
+fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
     let left = (status.running() + status.missing()) as f64 / rate;
     let left = match Duration::try_from_secs_f64(left) {
@@ -56,15 +58,16 @@ fn rate(status: &sweep::Status) -> Option<String> {
     Some(format!("{rate:.1} designs/s{left}"))
 }
 
-fn reasons(status: &sweep::Status) -> String {
+fn reasons(status: &run::RunStatus) -> String {
     let rows = status.reasons.iter().map(|((measure, reason), count)| {
-        [measure.clone(), reason.clone(), counted(*count, "design")]
+        [(*measure).to_owned(), (*reason).to_owned(), counted(*count, "design")]
     });
     titled("why designs failed", &rows.collect::<Vec<_>>())
 }
 
-fn slowest(status: &sweep::Status) -> String {
-    let row = |(seconds, number): &(f64, String)| [number.clone(), format!("{seconds:.3} s")];
+fn slowest(status: &run::RunStatus) -> String {
+    let row =
+        |(seconds, number): &(f64, DesignNumber)| [number.to_string(), format!("{seconds:.3} s")];
     titled("slowest designs", &status.slowest.iter().map(row).collect::<Vec<_>>())
 }
 

@@ -3,17 +3,18 @@
 use std::path::Path;
 
 use anyhow::Context as _;
+use indicatif::{ProgressBar, ProgressStyle};
 use sweep::Sweep;
-use validation::{Search, Validation};
+use validation::{SettingSearch, Validation};
 
 use super::{DONE, INCOMPLETE};
 use crate::args;
 use crate::print::print;
 
 /// Carries out the validation, prints its page and writes it down.
-pub fn validate(arguments: &args::Validate) -> anyhow::Result<u8> {
+pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     if let Some(path) = &arguments.search {
-        print(&Search::run(Sweep::read(path, &[])?)?.table())?;
+        print(&SettingSearch::run(Sweep::read(path, &[])?)?.table())?;
         return Ok(DONE);
     }
     let out = &arguments.out;
@@ -23,14 +24,31 @@ pub fn validate(arguments: &args::Validate) -> anyhow::Result<u8> {
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
     // What cannot be written in the end is refused in the beginning.
-    sweep::make_folder(folder)?;
-    let validation = Validation::run()?;
+    results::make_folder(folder)?;
+    let validation = with_bar()?;
     let page = validation.page();
-    sweep::write_text(folder, &name.to_string_lossy(), &page)?;
+    results::write_text(folder, &name.to_string_lossy(), &page)?;
     print(&page)?;
     let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.holds()).collect();
     for benchmark in &outside {
         print(&format!("outside of its band: {}\n", benchmark.row()))?;
     }
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
+}
+
+/// Carries out the validation behind a bar on the terminal that names the part in hand.
+fn with_bar() -> Result<Validation, validation::ValidationError> {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) =
+        ProgressStyle::with_template("{wide_bar} {pos}/{len} parts  {elapsed}  {msg}")
+    {
+        bar.set_style(style);
+    }
+    let validation = Validation::run(|progress| {
+        bar.set_length(progress.parts as u64);
+        bar.set_position(progress.done as u64);
+        bar.set_message(progress.part.to_owned());
+    });
+    bar.finish_and_clear();
+    validation
 }

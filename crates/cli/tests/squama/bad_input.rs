@@ -2,19 +2,11 @@
 
 use crate::{FEW, Place};
 
-/// The message of `squama` with `arguments`.
-fn refused(place: &Place, arguments: &str) -> String {
-    let assert = place.squama(arguments).assert().code(2).stdout("");
-    let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    message
-}
-
 #[test]
 fn of_the_definition() {
     let message = |lines: &str| {
         let place = Place::with(&format!("name = 'x'\n{lines}"));
-        let message = refused(&place, "run x.toml");
+        let message = place.refused("run x.toml");
         assert_eq!(place.list("."), "x.toml", "nothing is written");
         message
     };
@@ -35,7 +27,7 @@ fn of_the_definition() {
 #[test]
 fn of_the_command_line() {
     let place = Place::with(FEW);
-    let message = |arguments: &&str| refused(&place, arguments);
+    let message = |arguments: &&str| place.refused(arguments);
     let messages: Vec<_> = [
         "run missing.toml",
         "run .",
@@ -73,13 +65,13 @@ fn of_the_command_line() {
 fn a_file_that_is_no_text() {
     let place = Place::new();
     std::fs::write(place.path("x.toml"), [0xff, 0xfe, 0x00]).expect("writable");
-    insta::assert_snapshot!(refused(&place, "check x.toml"), @"error: x.toml: cannot be read (stream did not contain valid UTF-8), expected a sweep definition in TOML");
+    insta::assert_snapshot!(place.refused("check x.toml"), @"error: x.toml: cannot be read (stream did not contain valid UTF-8), expected a sweep definition in TOML");
 }
 
 #[test]
 fn an_output_folder_that_cannot_be_written() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(refused(&place, "run x.toml --out x.toml/y"), @"error: x.toml/y: cannot be written (Not a directory), expected a folder that can be written, e.g. with --out DIR");
-    insta::assert_snapshot!(refused(&place, "run x.toml --out x.toml"), @"error: x.toml: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
-    insta::assert_snapshot!(refused(&place, "design x.toml --design 1 --out x.toml"), @"error: x.toml: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
+    insta::assert_snapshot!(place.refused("run x.toml --out x.toml/y"), @"error: x.toml/y: cannot be written (Not a directory), expected a folder that can be written, e.g. with --out DIR");
+    insta::assert_snapshot!(place.refused("run x.toml --out x.toml"), @"error: x.toml: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
+    insta::assert_snapshot!(place.refused("design x.toml --design 1 --out x.toml"), @"error: x.toml: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
 }

@@ -58,12 +58,9 @@ fn the_merger_waits_for_any_end_of_an_array_of_the_right_size() {
 #[test]
 fn shards_that_slurm_or_the_sweep_does_not_have_are_refused() {
     let place = Place::with(FEW);
-    let refused = |shards: &str| {
-        let mut command = place.squama(&format!("slurm x.toml --out r --shards {shards}"));
-        String::from_utf8(command.assert().code(2).get_output().stderr.clone()).expect("text")
-    };
-    insta::assert_snapshot!(refused("1001"), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
-    insta::assert_snapshot!(refused("0"), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
-    insta::assert_snapshot!(refused("9"), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
+    let refused = |shards: u32| place.refused(&format!("slurm x.toml --out r --shards {shards}"));
+    insta::assert_snapshot!(refused(1001), @"error: --shards 1001: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(refused(0), @"error: --shards 0: expected 1 to 1000, because Slurm's job arrays end there (MaxArraySize is 1001 by default); a shard may have any number of designs");
+    insta::assert_snapshot!(refused(9), @"error: --shards 9: there are only 8 designs, expected 1 to 8");
     assert_eq!(place.list("."), "x.toml");
 }

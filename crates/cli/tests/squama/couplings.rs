@@ -1,16 +1,11 @@
 //! The substrate as the paper has it and closer to a half-space, in one sweep.
 
 use crate::Place;
+use crate::table::cells;
 
 const BOTH: &str = "name = 'both'\nmeasures = ['coverage', 'puncture', 'flexure']\n[designs]\n\
                     slant_deg = [0, 45]\ncoupling = ['nearest', 'full']\ngap_over_t = 0.1\n\
                     length_over_t = 1\n";
-
-fn cells<'t>(table: &'t str, column: &str) -> Vec<&'t str> {
-    let names = table.lines().next().expect("a header");
-    let place = names.split(',').position(|name| name == column).expect("a column");
-    table.lines().skip(1).map(|row| row.split(',').nth(place).expect("a cell")).collect()
-}
 
 #[test]
 fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {

@@ -1,18 +1,11 @@
 //! `squama design`: one design as in its sweep, and its files.
 
+use crate::table::{cell, columns};
 use crate::{FEW, Place};
 
 /// What the course of a design is written to.
 const COURSE: &str = "design.toml events.csv flexure_events.csv flexure_path.csv \
                       flexure_scales.csv flexure_steps.csv path.csv scales.csv steps.csv";
-
-/// The cells of row `number` of a table, by column.
-fn row(table: &str, number: usize) -> Vec<(String, String)> {
-    let mut lines = table.lines();
-    let header = lines.next().expect("a header").split(',').map(str::to_owned);
-    let cells = lines.nth(number - 1).expect("a row").split(',').map(str::to_owned);
-    header.zip(cells).collect()
-}
 
 #[test]
 fn prints_what_the_sweep_writes() {
@@ -20,7 +13,9 @@ fn prints_what_the_sweep_writes() {
     place.squama("run x.toml -q").assert().code(0);
     let text = place.prints("design x.toml --design 0006");
     assert!(text.starts_with("few: design 0006 of 8\n"), "{text}");
-    for (name, value) in row(&place.read("results/few/designs.csv"), 6).iter().skip(1) {
+    let table = place.read("results/few/designs.csv");
+    for name in columns(&table).skip(1) {
+        let value = cell(&table, "0006", name);
         let value = if value.is_empty() { "none" } else { value };
         let printed = text.lines().find(|line| line.split_whitespace().next() == Some(name));
         let printed = printed.expect("every column is printed");

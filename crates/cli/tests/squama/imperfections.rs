@@ -1,17 +1,12 @@
 //! Sweeps with imperfect samples: the same numbers however they are run.
 
 use crate::Place;
+use crate::table::cell;
 
 /// Few designs, few samples.
 const UNEVEN: &str = "name = 'uneven'\n[designs]\nlength_over_t = [0.5, 1]\nslant_deg = [0, 45]\n\
                       gap_cv = [0, 0.1]\n[imperfection]\nslant_sd_deg = 0.5\nsamples = 4\n\
                       [flexure]\nmembrane_length_over_t = 20\n";
-
-fn cell<'t>(table: &'t str, design: &str, column: &str) -> &'t str {
-    let place = table.lines().next().and_then(|names| names.split(',').position(|n| n == column));
-    let row = table.lines().find(|row| row.starts_with(design)).expect("a row");
-    row.split(',').nth(place.expect("a column")).expect("a cell")
-}
 
 #[test]
 fn threads_shards_and_subsets_draw_the_same_samples() {
@@ -79,8 +74,6 @@ fn a_rerun_keeps_its_columns_and_repeats_its_samples() {
         .assert()
         .code(0);
     assert!(!place.read("p/designs.csv").contains("_mean"));
-    let refused =
-        place.squama("rerun p --design 2 --set imperfection.slant_sd_deg=1").assert().code(2);
-    let message = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    let message = place.refused("rerun p --design 2 --set imperfection.slant_sd_deg=1");
     insta::assert_snapshot!(message, @"error: imperfections are off in the run and on in the settings, expected the same: a run keeps its columns");
 }

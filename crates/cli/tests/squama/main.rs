@@ -1,17 +1,21 @@
 //! The command as people and scripts use it: exit codes, messages, files.
 
+mod agreement;
 mod bad_input;
 mod clusters;
 mod couplings;
 mod design;
+mod images;
 mod imperfections;
 mod kills;
 mod output;
+mod process;
 mod rankings;
 mod reruns;
 mod runs;
 mod shards;
 mod survival;
+mod table;
 mod tutorial;
 mod validation;
 mod workbooks;
@@ -24,6 +28,11 @@ use tempfile::TempDir;
 /// A few designs, one of each kind: flat and slanted, with contact and without.
 const FEW: &str = "name = 'few'\n[designs]\ngap_over_t = [0.1, 0.5]\nlength_over_t = [0.2, 1]\n\
                    slant_deg = [0, 45]\n[puncture]\nscales = 21\n";
+
+/// Whether the long campaigns are asked for, as `scripts/check` does: `SQUAMA_CAMPAIGNS=long`.
+fn long_campaigns() -> bool {
+    std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
+}
 
 /// An empty folder to work in.
 struct Place {
@@ -78,6 +87,14 @@ impl Place {
             .expect("a shell");
         let message = String::from_utf8(output.stderr).expect("text");
         assert_eq!(output.status.code(), Some(2), "{blocks}: {message}");
+        message
+    }
+
+    /// The one line in which `squama` refuses `arguments`; it prints nothing else.
+    fn refused(&self, arguments: &str) -> String {
+        let assert = self.squama(arguments).assert().code(2).stdout("");
+        let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+        assert_eq!(message.lines().count(), 1, "{message}");
         message
     }
 

@@ -25,13 +25,6 @@ fn put(place: &Place, folder: &str, table: &str) {
     std::fs::write(place.path(folder).join("designs.csv"), table).expect("writable");
 }
 
-fn refused(place: &Place, arguments: &str) -> String {
-    let assert = place.squama(arguments).assert().code(2).stdout("");
-    let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
-    assert_eq!(message.lines().count(), 1, "{message}");
-    message
-}
-
 #[test]
 fn the_best_designs_are_printed() {
     let place = place();
@@ -68,7 +61,7 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
         place.list("results/few"),
         "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
-    let message = refused(&place, "rank results/few");
+    let message = place.refused("rank results/few");
     insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");
 }
 
@@ -87,7 +80,7 @@ fn wrong_weights_and_results_are_refused() {
         "compare a a --tolerance -1",
         "compare a a --tolerance x",
     ];
-    let messages = messages.map(|arguments| refused(&place, arguments));
+    let messages = messages.map(|arguments| place.refused(arguments));
     insta::assert_snapshot!(messages.concat());
     assert_eq!(place.list("a"), "designs.csv", "nothing is written");
 }

@@ -49,8 +49,7 @@ fn shards_of_different_sweeps_are_refused() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --shard 1/2 --out 1").assert().code(0);
     place.squama("run x.toml -q --shard 2/2 --out 2 --set contact.c1=2").assert().code(0);
-    let message = place.squama("merge 1 2 --out all").assert().code(2).get_output().stderr.clone();
-    insta::assert_snapshot!(String::from_utf8_lossy(&message), @"error: 2/journal.jsonl: is of another definition: contact.c1 is 2 in it and 1.1 now; expected shards of one sweep by one program");
+    insta::assert_snapshot!(place.refused("merge 1 2 --out all"), @"error: 2/journal.jsonl: is of another definition: contact.c1 is 2 in it and 1.1 now; expected shards of one sweep by one program");
     assert_eq!(place.list("."), "1 2 x.toml");
 }
 

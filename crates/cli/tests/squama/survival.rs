@@ -1,10 +1,9 @@
 //! A run that is killed, ended, or meets a full disk loses nothing that was done, and its tables
 //! are those of a run that nothing has happened to.
 
-use std::process::{Child, ExitStatus, Stdio};
-use std::thread::sleep;
 use std::time::Duration;
 
+use crate::process::Running;
 use crate::runs::TABLES;
 use crate::{FEW, Place};
 
@@ -14,22 +13,14 @@ pub const MANY: &str = "name = 'many'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\n
                     [puncture]\nscales = 61\n";
 
 impl Place {
-    fn spawn(&self, arguments: &str) -> Child {
-        std::process::Command::new(assert_cmd::cargo::cargo_bin!("squama"))
-            .args(arguments.split_whitespace())
-            .current_dir(self.path(""))
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .expect("the command")
+    fn spawn(&self, arguments: &str) -> Running {
+        Running::spawn(&self.path(""), arguments)
     }
 
-    /// Runs `arguments` and kills it after a while.
-    pub fn kill(&self, arguments: &str, after: Duration) -> ExitStatus {
-        let mut child = self.spawn(arguments);
-        sleep(after);
-        child.kill().expect("a process");
-        child.wait().expect("an end")
+    /// Runs `arguments` and kills the process after a while; false if it was done before.
+    pub fn kill(&self, arguments: &str, after: Duration) -> bool {
+        let mut run = self.spawn(arguments);
+        run.end_within(after).is_none() && run.kill().code().is_none()
     }
 
     pub fn lines(&self, file: &str) -> usize {
@@ -63,18 +54,14 @@ fn results_are_not_overwritten_unasked() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let before = place.read("results/few/designs.csv");
-    let refused = |arguments: &str| {
-        let stderr = place.squama(arguments).assert().code(2).get_output().stderr.clone();
-        String::from_utf8(stderr).expect("text")
-    };
-    insta::assert_snapshot!(refused("run x.toml"), @"error: results/few: holds results already, expected --resume to go on with them or --fresh to throw them away");
-    insta::assert_snapshot!(refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: is of another definition: contact.c1 is 1.1 in it and 2 now; designs.slant_deg is [0, 45] in it and [30] now; expected no difference, or --fresh to throw the results away");
-    insta::assert_snapshot!(refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: is of all designs, not of --sample 3 --seed 0; expected no difference, or --fresh to throw the results away");
+    insta::assert_snapshot!(place.refused("run x.toml"), @"error: results/few: holds results already, expected --resume to go on with them or --fresh to throw them away");
+    insta::assert_snapshot!(place.refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: is of another definition: contact.c1 is 1.1 in it and 2 now; designs.slant_deg is [0, 45] in it and [30] now; expected no difference, or --fresh to throw the results away");
+    insta::assert_snapshot!(place.refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: is of all designs, not of --sample 3 --seed 0; expected no difference, or --fresh to throw the results away");
     assert_eq!(place.read("results/few/designs.csv"), before);
     place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
     assert_ne!(place.read("results/few/designs.csv"), before);
     std::fs::remove_file(place.path("results/few/journal.jsonl")).expect("a file");
-    insta::assert_snapshot!(refused("run x.toml --resume"), @"error: results/few: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR");
+    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR");
 }
 
 #[test]
@@ -87,8 +74,7 @@ fn a_journal_of_another_program_is_refused() {
     let sum = crc32fast::hash(content.as_bytes());
     let forged = format!("{{\"crc\":\"{sum:08x}\",{content}\n{rest}");
     std::fs::write(place.path("results/few/journal.jsonl"), forged).expect("writable");
-    let stderr = place.squama("run x.toml --resume").assert().code(2).get_output().stderr.clone();
-    let message = String::from_utf8(stderr).expect("text");
+    let message = place.refused("run x.toml --resume");
     assert!(message.contains("is by squama 9."), "{message}");
 }
 
@@ -97,19 +83,15 @@ fn the_second_run_on_a_folder_is_refused() {
     let place = Place::with(MANY);
     let slow = "run x.toml -q --threads 1 --resume --set solver.max_step=0.0005";
     let mut first = place.spawn(slow);
-    while place.lines("results/many/journal.jsonl") < 3 {
-        sleep(Duration::from_millis(5));
-    }
-    let second = place.squama(slow).assert().code(2).get_output().stderr.clone();
-    insta::assert_snapshot!(String::from_utf8_lossy(&second), @"error: results/many: another squama is writing there, expected one at a time");
+    first.until(|| place.lines("results/many/journal.jsonl") >= 3);
+    insta::assert_snapshot!(place.refused(slow), @"error: results/many: another squama is writing there, expected one at a time");
     let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8_lossy(&status).into_owned();
     assert!(
         status.starts_with("many: running\n") && status.contains("running     1\n"),
         "{status}"
     );
-    first.kill().expect("a process");
-    first.wait().expect("an end");
+    first.kill();
     let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).starts_with("many: not running\n"));
 }
@@ -120,24 +102,15 @@ mod signals {
 
     use super::*;
 
-    /// Sends `signal` to a process.
-    fn send(child: &Child, signal: i32) {
-        let kill = format!("kill -{signal} {}", child.id());
-        let status = std::process::Command::new("sh").args(["-c", &kill]).status();
-        assert!(status.expect("a shell").success());
-    }
-
     #[test]
     fn the_first_finishes_what_is_in_hand() {
         for (signal, code) in [(SIGINT, 130), (SIGTERM, 143)] {
             let place = Place::with(MANY);
-            let run = "run x.toml -q --threads 2 --resume --set solver.max_step=0.002";
-            let mut child = place.spawn(run);
-            while place.lines("results/many/journal.jsonl") < 4 {
-                sleep(Duration::from_millis(2));
-            }
-            send(&child, signal);
-            assert_eq!(child.wait().expect("an end").code(), Some(code));
+            let mut run =
+                place.spawn("run x.toml -q --threads 2 --resume --set solver.max_step=0.002");
+            run.until(|| place.lines("results/many/journal.jsonl") >= 4);
+            run.send(signal);
+            assert_eq!(run.end().code(), Some(code));
             let journal = place.lines("results/many/journal.jsonl");
             let rows = place.lines("results/many/designs.csv");
             assert_eq!(rows, journal - 1, "a header and a session; a header");
@@ -145,23 +118,23 @@ mod signals {
         }
     }
 
+    /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes.
+    const ENDLESS: &str = "name = 'endless'\nmeasures = ['puncture']\n[designs]\ngap_over_t = 0.1\n\
+                           length_over_t = 1\nslant_deg = 0\nscales = [1, 10001]\n\
+                           [solver]\nmax_step = 1e-4\nfirst_step = 1e-4\n";
+
     #[test]
     fn the_second_leaves_at_once() {
-        let place = Place::with(MANY);
-        // One design takes minutes.
-        let endless = "run x.toml -q --set solver.max_step=1e-7 --set solver.first_step=1e-7 \
-                       --set solver.max_points=1000000000";
-        let mut child = place.spawn(endless);
-        while place.lines("results/many/journal.jsonl") < 2 {
-            sleep(Duration::from_millis(5));
-        }
-        // By then it is in hand.
-        sleep(Duration::from_secs(1));
-        send(&child, SIGINT);
-        sleep(Duration::from_millis(200));
-        assert!(child.try_wait().expect("a process").is_none(), "it waits for what is in hand");
-        send(&child, SIGINT);
-        assert_eq!(child.wait().expect("an end").code(), Some(130));
+        let place = Place::with(ENDLESS);
+        let mut run = place.spawn("run x.toml -q --threads 1");
+        // Once the journal has the first design, after its header and the session, the second is in hand.
+        run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
+        run.send(SIGINT);
+        let ended = run.end_within(Duration::from_millis(200));
+        assert_eq!(ended, None, "it waits for what is in hand");
+        run.send(SIGINT);
+        assert_eq!(run.end().code(), Some(130));
+        assert_eq!(place.lines("results/endless/journal.jsonl"), 3);
     }
 
     #[test]

@@ -22,12 +22,8 @@ fn a_run_becomes_a_workbook() {
 #[test]
 fn a_folder_without_a_run_is_refused() {
     let place = Place::with(FEW);
-    let refused = |arguments: &str| {
-        let stderr = place.squama(arguments).assert().code(2).get_output().stderr.clone();
-        String::from_utf8(stderr).expect("text")
-    };
-    insta::assert_snapshot!(refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
-    insta::assert_snapshot!(refused("export . --xlsx x.csv"), @"error: x.csv: is no name of a workbook, expected one that ends in .xlsx");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: is no name of a workbook, expected one that ends in .xlsx");
     assert_eq!(place.list("."), "x.toml");
 }
 
@@ -46,7 +42,7 @@ fn a_full_disk_is_an_error_and_leaves_the_old_workbook() {
         let message = place.refused_on_a_full_disk(blocks, "export r --xlsx r/x.xlsx");
         assert_eq!(
             message,
-            "error: r/x.xlsx: cannot be written (File too large), expected a disk that takes it\n"
+            "error: r/x.xlsx: cannot be written (File too large), check free space\n"
         );
         assert_eq!(place.read("r/x.xlsx"), "old");
         assert!(!place.list("r").contains("partial"));

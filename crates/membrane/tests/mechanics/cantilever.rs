@@ -1,12 +1,13 @@
 //! A straight strip of unit length along x, clamped on the left and loaded at its tip.
 
-use membrane::{GapMembrane, InvalidMembrane, Section, Span};
+use geometry::OutOfRange;
+use membrane::{GapMembrane, Section, Span};
 use nalgebra::{DVector, Vector3};
 
 const MAX_ITERATIONS: usize = 60;
 
 /// A cantilever of length 1 and bending stiffness 1; `thickness` sets `EA = 12/thickness²`.
-pub fn cantilever(elements: usize, thickness: f64) -> Result<GapMembrane, InvalidMembrane> {
+pub fn cantilever(elements: usize, thickness: f64) -> Result<GapMembrane, OutOfRange> {
     let section = Section::new(12.0 / thickness.powi(3), thickness)?;
     GapMembrane::new(section, Span { half_base: 0.0, gap: 1.0, axis_offset: 0.0 }, elements)
 }

@@ -1,6 +1,6 @@
 //! Every force is the gradient of its energy and every tangent the gradient of its force.
 
-use membrane::{Ends, Pose, Response, RigidArm};
+use membrane::{Ends, NodePose, Response, RigidArm};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::prelude::*;
 
@@ -87,7 +87,7 @@ proptest! {
     fn of_an_arm(x in -1.0..1.0, y in -1.0..1.0, body in prop::array::uniform3(-20.0..20.0)) {
         let arm = RigidArm::new(Vector2::new(x, y));
         let place = |q: &DVector<f64>| {
-            DVector::from_column_slice(arm.attached(&Pose::new(q[0], q[1], q[2])).as_slice())
+            DVector::from_column_slice(arm.attached(&NodePose::new(q[0], q[1], q[2])).as_slice())
         };
         let q = DVector::from_column_slice(&body);
         let gradient = arm.gradient(q[2]);

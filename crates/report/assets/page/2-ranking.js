@@ -1,27 +1,27 @@
 "use strict";
-// The ranking: every criterion rescaled to [0, 1], f = Π criterion^weight.
+// The ranking: f = Π criterion^weight. The program embeds the criteria, rescaled to [0, 1], and the Pareto front.
 
 squama.criteria = [
-  { key: "m", name: "coverage", value: (row) => squama.cell(row, "coverage") },
-  { key: "n", name: "critical force", value: (row) => squama.cell(row, "critical_force") },
-  { key: "k", name: "penetration resistance", value: (row) => 1 / squama.cell(row, "penetration") },
-  { key: "l", name: "flexural compliance", value: (row) => squama.cell(row, "compliance") },
+  { key: "m", name: "coverage" },
+  { key: "n", name: "critical force" },
+  { key: "k", name: "penetration resistance" },
+  { key: "l", name: "flexural compliance" },
 ];
 
 /** Rows that take part: designs with coverage and every criterion. */
-squama.ranked = squama.rowsWith("coverage", "critical_force", "penetration", "compliance")
-  .filter((row) => squama.cell(row, "coverage") > 0 && squama.cell(row, "penetration") > 0);
+squama.ranked = squama.ranking.rows;
+
+/** Rows that no other beats in all criteria. */
+squama.front = new Set(squama.ranking.front);
+
+/** Criteria of a row that takes part, larger being better. */
+squama.criteriaOf = (() => {
+  const criteria = new Map(squama.ranked.map((row, i) => [row, squama.ranking.criteria[i]]));
+  return (row) => criteria.get(row);
+})();
 
 /** Logarithms of the rescaled criteria of the rows that take part. */
-squama.logs = (() => {
-  const columns = squama.criteria.map((criterion) => {
-    const values = squama.ranked.map(criterion.value);
-    const low = values.reduce((a, b) => Math.min(a, b), Infinity);
-    const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
-    return values.map((value) => Math.log(high > low ? (value - low) / (high - low) : 1));
-  });
-  return squama.ranked.map((_, i) => columns.map((column) => column[i]));
-})();
+squama.logs = squama.ranking.rescaled.map((criteria) => criteria.map(Math.log));
 
 /**
  * Logarithm of the fitness of the `i`-th row that takes part. A weight of 0 leaves its criterion out.

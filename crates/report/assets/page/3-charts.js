@@ -27,13 +27,6 @@ squama.layout = (extra) => {
   return layout;
 };
 
-/** Logarithmic where the values span decades. */
-squama.scale = (values) => {
-  const low = values.reduce((a, b) => Math.min(a, b), Infinity);
-  const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
-  return low > 0 && high / low > 30 ? "log" : "linear";
-};
-
 /** Markers of rows: colour and symbol by slant, open where `filled` says no. */
 squama.markers = (rows, size = 7, filled = () => true) => ({
   size,

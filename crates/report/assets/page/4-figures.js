@@ -34,41 +34,6 @@
     return { columns, rows, domain, layout: { height: down + margin.t + margin.b, margin } };
   };
 
-  /** Ticks of a logarithmic axis, `range` in decades: every decade or some, and between them where there are few. */
-  const decades = (range) => {
-    const span = range[1] - range[0];
-    const every = Math.max(1, Math.ceil(span / 7));
-    const ticks = { major: [], minor: [] };
-    for (let decade = Math.floor(range[0]); decade <= range[1]; decade++) {
-      for (let digit = 1; digit <= 9; digit++) {
-        const place = decade + Math.log10(digit);
-        if (place < range[0] || place > range[1]) continue;
-        const labelled = digit === 1 ? decade % every === 0 : span < 2.2 && (digit === 2 || digit === 5);
-        ticks[labelled ? "major" : "minor"].push({ decade, digit });
-      }
-    }
-    const value = ({ decade, digit }) => Number(`${digit}e${decade}`);
-    const text = ({ decade, digit }) => {
-      if (decade >= -2 && decade <= 3) return String(value({ decade, digit }));
-      return `${digit === 1 ? "" : `${digit}·`}10<sup>${String(decade).replace("-", "−")}</sup>`;
-    };
-    return {
-      tickmode: "array", tickvals: ticks.major.map(value), ticktext: ticks.major.map(text),
-      minor: { ticks: "inside", tickmode: "array", tickvals: ticks.minor.map(value) },
-    };
-  };
-
-  /** Type, range and ticks of an axis for values. */
-  const fitted = (values) => {
-    const type = squama.scale(values);
-    const place = type === "log" ? Math.log10 : (value) => value;
-    const low = place(values.reduce((a, b) => Math.min(a, b), Infinity));
-    const high = place(values.reduce((a, b) => Math.max(a, b), -Infinity));
-    const air = 0.06 * (high - low || 1);
-    const range = [low - air, high + air];
-    return { type, range, ...(type === "log" ? decades(range) : { nticks: 5 }) };
-  };
-
   /** The names of the axes that panels share: below and to the left of all. */
   const sharedNames = (x, y) => {
     const name = { showarrow: false, xref: "paper", yref: "paper", font: { size: 13 } };
@@ -91,9 +56,7 @@
     if (panels.length > 15) panels = Array.from({ length: 15 }, (_, k) => panels[Math.floor((k * (panels.length - 1)) / 14)]);
     const shown = rows.filter((row) => panels.includes(squama.cell(row, across)));
     const panel = (row) => panels.indexOf(squama.cell(row, across));
-    const values = shown.map((row) => squama.cell(row, column));
-    const xs = shown.map((row) => squama.cell(row, along));
-    const [axisX, axisY] = [fitted(xs), fitted(values)];
+    const [axisX, axisY] = [along, column].map((key) => squama.scales.columns[key]);
     const make = (width) => {
       const place = grid(panels.length, width, { least: 165, height: 165, gaps: [10, 30], margin: { l: 70, r: 12, t: 26, b: 54 } });
       const layout = { ...place.layout, annotations: sharedNames(dimensionless(alongName), dimensionless(name)) };
@@ -132,7 +95,7 @@
       const traces = [];
       pairs.forEach(([a, b], k) => {
         const domain = place.domain(k);
-        const axis = (quantity) => ({ ...fitted(rows.map(quantity.value)), title: { text: dimensionless(quantity.name), standoff: 6, font: { size: 13 } } });
+        const axis = (quantity) => ({ ...quantity.scale, title: { text: dimensionless(quantity.name), standoff: 6, font: { size: 13 } } });
         layout[axisName(k, "x")] = { ...axis(a), domain: domain.x, anchor: axisRef(k, "y") };
         layout[axisName(k, "y")] = { ...axis(b), domain: domain.y, anchor: axisRef(k, "x") };
         const part = (own, marker) => traces.push({ x: own.map(a.value), y: own.map(b.value), customdata: own, mode: "markers", marker, text: own.map(squama.title), hoverinfo: "text", xaxis: axisRef(k, "x"), yaxis: axisRef(k, "y") });
@@ -189,15 +152,8 @@
     squama.addChart({ id: "coverage", title: "Coverage", description: "Coverage by gap, aspect ratio and slant; faint: none.", rows, make, rings });
   };
 
-  /** Rows that no other beats in all criteria. */
-  const paretoFront = () => {
-    const points = squama.ranked.map((row) => squama.criteria.map((criterion) => criterion.value(row)));
-    const beats = (a, b) => a.every((value, k) => value >= b[k]) && a.some((value, k) => value > b[k]);
-    return new Set(squama.ranked.filter((_, i) => !points.some((other) => beats(other, points[i]))));
-  };
-
   multiples("critical-force", "critical_force", html.force, "Critical force", "Critical force against the aspect ratio, for each gap and slant.");
-  const column = (name, label) => ({ name: label, value: (row) => squama.cell(row, name) });
+  const column = (name, label) => ({ name: label, scale: squama.scales.columns[name], value: (row) => squama.cell(row, name) });
   const force = column("critical_force", html.force);
   scatter("stiffness", [
     [force, column("max_stiffness", "largest stiffness <i>K</i><sub>max</sub>*")],
@@ -207,8 +163,8 @@
   multiples("compliance", "compliance", html.compliance, "Flexural compliance", "Flexural compliance against the aspect ratio, for each gap and slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.",
     (row) => squama.cell(row, "flexure_contact") !== "false" && squama.cell(row, "flexure_contact") !== "no" && squama.cell(row, "flexure_contact") !== 0);
   coverageMaps();
-  const quantities = squama.criteria.map((criterion, k) => ({ name: [html.coverage, html.force, html.resistance, html.compliance][k], value: criterion.value }));
+  const quantities = [html.coverage, html.force, html.resistance, html.compliance]
+    .map((name, k) => ({ name, scale: squama.scales.criteria[k], value: (row) => squama.criteriaOf(row)[k] }));
   const pairs = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]].map(([i, j]) => [quantities[i], quantities[j]]);
-  squama.front = paretoFront();
   scatter("pareto", pairs, "Pareto front", `${squama.front.size} designs that no other beats in all four criteria, in colour; grey: the others.`, squama.ranked, squama.front);
 })();

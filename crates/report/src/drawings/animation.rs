@@ -1,8 +1,8 @@
-//! A path that plays: one page, every frame a solved equilibrium.
+//! Animations of a path: one HTML page, every frame a solved equilibrium.
 
-use geometry::InvalidGeometry;
+use geometry::OutOfRange;
 
-use super::{CAPTION, Flexure, Frames, MARGIN, Puncture, WIDTH};
+use super::{CAPTION, FlexureDrawing, Frames, MARGIN, PunctureDrawing, WIDTH};
 use crate::label::{Anchor, label, plain};
 use crate::palette::INK;
 use crate::svg::{Element, px};
@@ -10,22 +10,22 @@ use crate::svg::{Element, px};
 /// The page around the frames.
 const PAGE: &str = include_str!("../../assets/animation.html");
 
-impl Puncture<'_> {
-    /// The states as the frames of one self-contained HTML page.
+impl PunctureDrawing<'_> {
+    /// Returns the states as the frames of one self-contained HTML page.
     ///
     /// # Errors
-    /// If the design is none.
-    pub fn animation(&self) -> Result<String, InvalidGeometry> {
+    /// If the design is invalid.
+    pub fn animation(&self) -> Result<String, OutOfRange> {
         Ok(page(&self.title(), self.frames()?))
     }
 }
 
-impl Flexure<'_> {
-    /// The states as the frames of one self-contained HTML page.
+impl FlexureDrawing<'_> {
+    /// Returns the states as the frames of one self-contained HTML page.
     ///
     /// # Errors
-    /// If the design is none.
-    pub fn animation(&self) -> Result<String, InvalidGeometry> {
+    /// If the design is invalid.
+    pub fn animation(&self) -> Result<String, OutOfRange> {
         Ok(page(&self.title(), self.frames()?))
     }
 }

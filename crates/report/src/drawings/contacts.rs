@@ -13,7 +13,7 @@ pub(super) const LONGEST: f64 = 64.0;
 /// Arrows shorter than this are left out, px.
 const SHORTEST: f64 = 2.5;
 
-/// The true overlaps. Nearly rigid scales overlap by a millionth of their thickness: coordinates are
+/// Returns the true overlaps. Nearly rigid scales overlap by a millionth of their thickness: coordinates are
 /// written with all their digits.
 pub(super) fn overlaps(view: &View, polygons: &[(usize, Vec<[f64; 2]>)]) -> Element {
     let polygon = |(left, points): &(usize, Vec<[f64; 2]>)| {
@@ -34,7 +34,7 @@ fn exact(points: &[Spot]) -> String {
     data
 }
 
-/// A halo and a dot at each contact, so that it is seen however small its overlap.
+/// Returns a halo and a dot at each contact, so that it is seen however small its overlap.
 pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
     let halo = |contact: &Contact| {
         let center = view.place(contact.point);
@@ -46,7 +46,7 @@ pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
     Element::group("contacts").containing(contacts.iter().flat_map(halo))
 }
 
-/// The force on either scale of each contact, as arrows from where they touch; `unit` px for a force of 1.
+/// Returns the force on either scale of each contact, as arrows from where they touch; `unit` px for a force of 1.
 pub(super) fn forces(view: &View, contacts: &[Contact], unit: f64) -> Element {
     let pair = |contact: &Contact| {
         let from = view.place(contact.point);
@@ -64,7 +64,7 @@ fn force(from: Spot, force: [f64; 2], unit: f64) -> Option<Element> {
     long.then(|| arrow(from, to, "#8f0013", 1.5))
 }
 
-/// The largest force.
+/// Returns the largest force.
 pub(super) fn largest(contacts: &[Contact]) -> f64 {
     contacts.iter().map(|contact| contact.force[0].hypot(contact.force[1])).fold(0.0, f64::max)
 }

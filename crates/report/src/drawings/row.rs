@@ -1,19 +1,19 @@
 //! A row of scales on its substrate, at rest and punctured.
 
 use contact::Pose;
-use geometry::{Corner, InvalidGeometry, Row};
+use geometry::{Corner, OutOfRange, Row};
 use skin::Design;
 use skin::puncture::{ScaleState, Snapshot};
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
 use super::view::View;
-use super::{Frames, MARGIN, Panel, WIDTH, contacts_label, geometry_label, stacked};
+use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
 use crate::palette::{FAINT, INK};
 use crate::svg::{Element, Spot, arrow, line, polygon, polyline, px};
 
-/// Px for a length of `t` at most.
+/// The largest scale of a drawing: px for a length of `t`.
 const LARGEST: f64 = 130.0;
 /// Lengths (over `t`) that a drawing spans at most.
 const WIDEST: f64 = 44.0;
@@ -28,8 +28,8 @@ const AIR: f64 = LONGEST + 24.0;
 
 /// A punctured design, to be drawn.
 #[derive(Clone, Debug)]
-pub struct Puncture<'a> {
-    /// What stands above, before the geometry: the name of the design.
+pub struct PunctureDrawing<'a> {
+    /// The name of the design, which stands before the geometry in the title.
     pub name: &'a str,
     /// The geometry.
     pub design: &'a Design,
@@ -39,13 +39,13 @@ pub struct Puncture<'a> {
     pub states: &'a [Snapshot],
 }
 
-impl Puncture<'_> {
-    /// The drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
+impl PunctureDrawing<'_> {
+    /// Returns the drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
     ///
     /// # Errors
-    /// If the design is none.
-    pub fn svg(&self) -> Result<String, InvalidGeometry> {
-        let sheet = Sheet::new(self)?;
+    /// If the design is invalid.
+    pub fn svg(&self) -> Result<String, OutOfRange> {
+        let sheet = RowSheet::new(self)?;
         // The row without a load is drawn once.
         let loaded = self.states.iter().filter(|state| state.force != 0.0);
         let states = loaded.map(|state| sheet.state(state, sheet.free(state)));
@@ -57,15 +57,15 @@ impl Puncture<'_> {
         format!("{}: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
-        let sheet = Sheet::new(self)?;
+    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
+        let sheet = RowSheet::new(self)?;
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
         Ok(Frames::new(self.states.iter().map(|state| sheet.state(state, free)).collect()))
     }
 }
 
-/// What all panels of a drawing share.
-struct Sheet {
+/// The scales, windows and units that all panels of a drawing share.
+struct RowSheet {
     row: Row,
     load_position: f64,
     coverage: f64,
@@ -73,7 +73,7 @@ struct Sheet {
     first: i64,
     last: i64,
     view: View,
-    /// Where the bars of the reactions stand, px.
+    /// The height on paper of the bars of the reactions, px.
     bars: f64,
     height: f64,
     /// Px for a force of 1, over `E* t²`.
@@ -83,8 +83,8 @@ struct Sheet {
     length: f64,
 }
 
-impl Sheet {
-    fn new(puncture: &Puncture) -> Result<Self, InvalidGeometry> {
+impl RowSheet {
+    fn new(puncture: &PunctureDrawing) -> Result<Self, OutOfRange> {
         let row = puncture.design.row()?;
         let states = puncture.states;
         let (first, last) = window(&row, states);
@@ -131,7 +131,7 @@ impl Sheet {
         self.view.place(point)
     }
 
-    fn at_rest(&self) -> Panel {
+    fn at_rest(&self) -> DrawingPanel {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let poses: Vec<_> = self.numbers().map(|i| (i, rest)).collect();
         let bottom = AIR + self.view.scale + SUBSTRATE;
@@ -142,7 +142,7 @@ impl Sheet {
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
 
-    /// Height above the highest thing of a state in which nothing is drawn, px.
+    /// Returns the height at the top of a state's panel in which nothing is drawn, px.
     fn free(&self, state: &Snapshot) -> f64 {
         let view = self.measured_from_left(state);
         let arrow = |contact: &skin::Contact| {
@@ -153,7 +153,7 @@ impl Sheet {
         (highest - 8.0).max(0.0)
     }
 
-    fn state(&self, state: &Snapshot, free: f64) -> Panel {
+    fn state(&self, state: &Snapshot, free: f64) -> DrawingPanel {
         let shown: Vec<&ScaleState> =
             state.scales.iter().filter(|s| (self.first..=self.last).contains(&s.scale)).collect();
         let poses: Vec<_> = shown.iter().map(|s| (s.scale, pose(s))).collect();
@@ -187,7 +187,7 @@ impl Sheet {
         )
     }
 
-    /// The substrate, its surface bonded to the bases.
+    /// Returns the substrate, its surface bonded to the bases.
     fn substrate(&self, poses: &[(i64, Pose)], bottom: f64) -> Element {
         let surface = poses.iter().flat_map(|(i, pose)| {
             let [left, right, ..] = corners(&self.row, *i as f64, pose);
@@ -220,13 +220,13 @@ impl Sheet {
             .containing(poses.iter().map(scale))
     }
 
-    /// Thinner around thin scales, so that their area is seen.
+    /// Returns the width of outlines, px: thinner around thin scales, so that their area is seen.
     fn outline(&self) -> f64 {
         let thickness = 2.0 * self.row.scale().half_base() * self.row.scale().slant().cos();
         (0.12 * self.view.scale * thickness).clamp(0.25, 0.9)
     }
 
-    /// The outlines at rest.
+    /// Returns the outlines at rest.
     fn ghosts(&self) -> Element {
         let rest = Pose::new(0.0, 0.0, 0.0);
         let ghost = |i: i64| polygon(&self.view.all(&corners(&self.row, i as f64, &rest)));
@@ -258,13 +258,13 @@ impl Sheet {
         ])
     }
 
-    /// The view of what is measured from the left end of the row.
+    /// Returns the view of what is measured from the left end of the row.
     fn measured_from_left(&self, state: &Snapshot) -> View {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Where the arrow of the load begins and ends; none without a load.
+    /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &Snapshot) -> Option<[Spot; 2]> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
@@ -284,7 +284,7 @@ impl Sheet {
         Element::group("load").containing(drawn.into_iter().flatten())
     }
 
-    /// The angle between the base of the punctured scale and its place at rest.
+    /// Returns the angle between the base of the punctured scale and its place at rest.
     fn tilt(&self, state: &Snapshot) -> Element {
         let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
             return Element::group("tilt");
@@ -303,7 +303,7 @@ impl Sheet {
         ])
     }
 
-    /// The upward reactions of the substrate over the load, as bars under the scales.
+    /// Returns the upward reactions of the substrate over the load, as bars under the scales.
     fn reactions(&self, shown: &[&ScaleState], load: f64) -> Element {
         let (high, low) = self.reactions;
         let unit = BARS / (high - low).max(1e-3);
@@ -334,7 +334,7 @@ impl Sheet {
             .containing([bars, name])
     }
 
-    /// The line that measures the coverage: dropped from the top right corner of a scale, thick where
+    /// Returns the line that measures the coverage: dropped from the top right corner of a scale, thick where
     /// scales to the right cover the substrate.
     fn coverage_line(&self) -> Option<Element> {
         let (a, shift, pitch) =
@@ -357,12 +357,12 @@ impl Sheet {
     }
 }
 
-/// A panel of what is drawn down to `bottom`, without the `free` px at its top.
-fn lifted(free: f64, bottom: f64, caption: String, inside: Vec<Element>) -> Panel {
+/// Returns a panel of what is drawn down to `bottom`, without the `free` px at its top.
+fn lifted(free: f64, bottom: f64, caption: String, inside: Vec<Element>) -> DrawingPanel {
     let lifted = Element::group("lifted")
         .with("transform", format!("translate(0 {})", px(-free)))
         .containing(inside);
-    Panel { height: bottom - free, caption, inside: vec![lifted] }
+    DrawingPanel { height: bottom - free, caption, inside: vec![lifted] }
 }
 
 fn pose(state: &ScaleState) -> Pose {
@@ -370,7 +370,7 @@ fn pose(state: &ScaleState) -> Pose {
     Pose::new(x, y, state.rotation_deg.to_radians())
 }
 
-/// First and last scale to be shown: those that touch or move, and two on either side.
+/// Returns the first and last scale to be shown: those that touch or move, and two on either side.
 fn window(row: &Row, states: &[Snapshot]) -> (i64, i64) {
     let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
     let all = || states.iter().flat_map(|state| &state.scales);
@@ -389,7 +389,7 @@ fn window(row: &Row, states: &[Snapshot]) -> (i64, i64) {
     ((first - 2).clamp(-half, -3), (last + 2).clamp(3, half))
 }
 
-/// A number to three digits.
+/// Returns a number to three digits.
 pub(super) fn short(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -1,7 +1,7 @@
 //! A strip of membrane with scales, bent.
 
 use contact::Pose;
-use geometry::{InvalidGeometry, Row};
+use geometry::{OutOfRange, Row};
 use skin::flexure::Snapshot;
 use skin::{Contact, Design};
 
@@ -9,22 +9,22 @@ use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
 use super::row::short;
 use super::view::{Extent, View};
-use super::{Frames, MARGIN, Panel, WIDTH, contacts_label, geometry_label, stacked};
+use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
 use crate::palette::{FAINT, INK};
 use crate::svg::{Element, Spot, arrow, polygon, polyline};
 
 /// Width of the part that shows one gap enlarged, px.
 const ENLARGED: f64 = 290.0;
-/// Height of that part, px.
+/// Height of the enlarged part, px.
 const HEIGHT: f64 = 250.0;
 /// Height of the part that shows the whole strip, at most, px.
 const TALLEST: f64 = 430.0;
 
 /// A bent design, to be drawn.
 #[derive(Clone, Debug)]
-pub struct Flexure<'a> {
-    /// What stands above, before the geometry: the name of the design.
+pub struct FlexureDrawing<'a> {
+    /// The name of the design, which stands before the geometry in the title.
     pub name: &'a str,
     /// The geometry.
     pub design: &'a Design,
@@ -34,12 +34,12 @@ pub struct Flexure<'a> {
     pub states: &'a [Snapshot],
 }
 
-impl Flexure<'_> {
-    /// The drawing as SVG: for each state the whole strip, and the gap in its middle enlarged.
+impl FlexureDrawing<'_> {
+    /// Returns the drawing as SVG: for each state the whole strip, and the gap in its middle enlarged.
     ///
     /// # Errors
-    /// If the design is none.
-    pub fn svg(&self) -> Result<String, InvalidGeometry> {
+    /// If the design is invalid.
+    pub fn svg(&self) -> Result<String, OutOfRange> {
         let row = self.design.row()?;
         let panels = self.states.iter().map(|state| self.panel(&row, state)).collect();
         Ok(stacked(&self.title(), panels))
@@ -49,16 +49,16 @@ impl Flexure<'_> {
         format!("{}, bending: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, InvalidGeometry> {
+    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
         let row = self.design.row()?;
         Ok(Frames::new(self.states.iter().map(|state| self.panel(&row, state)).collect()))
     }
 
-    fn panel(&self, row: &Row, state: &Snapshot) -> Panel {
+    fn panel(&self, row: &Row, state: &Snapshot) -> DrawingPanel {
         let shape = Shape::upright(row, state);
         let area = [WIDTH - ENLARGED - 3.0 * MARGIN, TALLEST];
         let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
-            return Panel { height: 0.0, caption: String::new(), inside: Vec::new() };
+            return DrawingPanel { height: 0.0, caption: String::new(), inside: Vec::new() };
         };
         let [width, height] = extent.size();
         let scale = (area[0] / width).min(area[1] / height);
@@ -74,10 +74,10 @@ impl Flexure<'_> {
             contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
         ]);
         let cell = self.cell(row, state, tall);
-        Panel { height: tall + 8.0, caption: caption(state), inside: vec![whole, cell] }
+        DrawingPanel { height: tall + 8.0, caption: caption(state), inside: vec![whole, cell] }
     }
 
-    /// The gap in the middle of the strip, enlarged, with the forces and the overlap.
+    /// Draws the gap in the middle of the strip, enlarged, with the forces and the overlap.
     fn cell(&self, row: &Row, state: &Snapshot, tall: f64) -> Element {
         let left = (state.scales.len() - 1) / 2;
         let shape = Shape::of_gap(row, state, left);
@@ -96,20 +96,7 @@ impl Flexure<'_> {
             ],
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
-        let border = Element::new("rect")
-            .at("x", frame[0])
-            .at("y", frame[1])
-            .at("width", ENLARGED)
-            .at("height", HEIGHT)
-            .at("rx", 4.0)
-            .with("fill", "#fbfbfb")
-            .with("stroke", "#bdbdbd");
-        let name = label(
-            "one gap, enlarged",
-            [frame[0] + 0.5 * ENLARGED, frame[1] + HEIGHT - 9.0],
-            11.0,
-            Anchor::Middle,
-        );
+        let [border, name] = enlargement(frame);
         Element::group("gap").containing([
             border,
             shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
@@ -118,12 +105,27 @@ impl Flexure<'_> {
             contacts::halos(&view, &shape.contacts, 8.0),
             contacts::forces(&view, &shape.contacts, unit),
             moments(&view, &shape),
-            name.with("fill", FAINT),
+            name,
         ])
     }
 }
 
-/// Width of an outline: thinner around thin scales, so that their area is seen.
+/// Returns the border and the name of an enlarged gap whose upper left corner is `frame`.
+fn enlargement(frame: Spot) -> [Element; 2] {
+    let border = Element::new("rect")
+        .at("x", frame[0])
+        .at("y", frame[1])
+        .at("width", ENLARGED)
+        .at("height", HEIGHT)
+        .at("rx", 4.0)
+        .with("fill", "#fbfbfb")
+        .with("stroke", "#bdbdbd");
+    let spot = [frame[0] + 0.5 * ENLARGED, frame[1] + HEIGHT - 9.0];
+    let name = label("one gap, enlarged", spot, 11.0, Anchor::Middle).with("fill", FAINT);
+    [border, name]
+}
+
+/// Returns the width of an outline, px: thinner around thin scales, so that their area is seen.
 fn outline(row: &Row, scale: f64) -> f64 {
     0.12 * scale * row.pitch()
 }
@@ -138,7 +140,7 @@ fn caption(state: &Snapshot) -> String {
     )
 }
 
-/// What is drawn, turned so that both ends have turned alike.
+/// The shapes of a state, turned so that both ends have turned alike.
 struct Shape {
     bodies: Vec<[[f64; 2]; 4]>,
     membrane: Vec<Vec<[f64; 2]>>,
@@ -160,7 +162,7 @@ impl Shape {
         shape.turned(-0.5 * (turned(state.scales.first()) + turned(state.scales.last())))
     }
 
-    /// The gap right of scale `left` and its two scales.
+    /// Returns the gap right of scale `left` and its two scales.
     fn of_gap(row: &Row, state: &Snapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
         let along = left as f64 * row.pitch();
@@ -205,7 +207,7 @@ impl Shape {
             .containing(self.bodies.iter().map(|body| polygon(&view.all(body))))
     }
 
-    /// The axis of the membrane: bent in the gaps, straight where it is rigid.
+    /// Returns the axis of the membrane: bent in the gaps, straight where it is rigid.
     fn membrane(&self, view: &View, width: f64) -> Element {
         let bases = self.bodies.iter().map(|body| view.all(&body[..2]));
         let gaps = self.membrane.iter().map(|axis| view.all(axis));
@@ -220,7 +222,7 @@ fn poses(state: &Snapshot) -> Vec<Pose> {
     state.scales.iter().map(|&[x, y, rotation]| Pose::new(x, y, rotation)).collect()
 }
 
-/// The moments that bend the gap, as arrows round its two ends.
+/// Returns the moments that bend the gap, as arrows round its two ends.
 fn moments(view: &View, shape: &Shape) -> Element {
     let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
         return Element::group("moments");

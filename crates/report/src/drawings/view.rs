@@ -1,13 +1,13 @@
-//! From the plane of the scales to paper.
+//! The map from the plane of the scales to paper.
 
 use crate::svg::Spot;
 
-/// Where points of the plane (over `t`, `y` up) stand on paper (px, `y` down).
+/// A map from points of the plane (over `t`, `y` up) to paper (px, `y` down).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
     /// Px for a length of `t`.
     pub(super) scale: f64,
-    /// Where the origin stands.
+    /// The spot of the origin.
     pub(super) origin: Spot,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
-    /// The least rectangle around `points`, `None` of none.
+    /// Returns the least rectangle around `points`, `None` of none.
     pub(super) fn around(points: impl IntoIterator<Item = [f64; 2]>) -> Option<Self> {
         points.into_iter().fold(None, |extent: Option<Self>, point| {
             let Extent { low, high } = extent.unwrap_or(Extent { low: point, high: point });

@@ -113,7 +113,7 @@ impl Map<'_> {
     }
 }
 
-/// The scale of colours.
+/// Returns the scale of colours.
 fn bar(height: f64) -> Element {
     let (left, width, steps) = (WIDTH - RIGHT + 22.0, 16.0, 60);
     let step = height / f64::from(steps);

@@ -1,8 +1,8 @@
 //! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
 
 use super::{Quantity, columns, sheet};
-use crate::axis::Axis;
-use crate::chart::{Area, NAME, Panel, mark, slant_legend};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel, NAME, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label, upright};
 use crate::palette::{INK, slant_color};
@@ -27,7 +27,7 @@ struct Lengths {
     across_symbol: &'static str,
 }
 
-/// The length with more values stands along the axis.
+/// Returns the length with more values stands along the axis.
 fn lengths(designs: &Designs) -> Lengths {
     let (gap, length) = ("gap_over_t", "length_over_t");
     if designs.values(length).len() >= designs.values(gap).len() {
@@ -47,7 +47,7 @@ fn lengths(designs: &Designs) -> Lengths {
     }
 }
 
-/// The figure of a quantity; dots are filled where the column `filled` says so.
+/// Returns the figure of a quantity; dots are filled where the column `filled` says so.
 pub(super) fn figure(
     name: &str,
     designs: &Designs,
@@ -55,8 +55,8 @@ pub(super) fn figure(
     filled: Option<&str>,
 ) -> String {
     let lengths = lengths(designs);
-    let x = Axis::fit(lengths.along_label, designs.numbers(lengths.along));
-    let y = Axis::fit(quantity.label, designs.numbers(quantity.column));
+    let x = ChartAxis::fit(lengths.along_label, designs.numbers(lengths.along));
+    let y = ChartAxis::fit(quantity.label, designs.numbers(quantity.column));
     let values = some(designs.values(lengths.across));
     let columns = columns(values.len());
     let slants = designs.values("slant_deg");
@@ -66,9 +66,9 @@ pub(super) fn figure(
         let title = format!("{} = {value}", lengths.across_symbol);
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
         let area = area(k, columns);
-        let panel = Panel { area, x: &x, y: &y, title, x_labels, y_labels };
+        let panel = ChartPanel { area, x: &x, y: &y, title, x_labels, y_labels };
         inside.push(panel.frame());
-        let here = Here { designs, lengths: &lengths, value, quantity, filled };
+        let here = PanelSeries { designs, lengths: &lengths, value, quantity, filled };
         inside.extend(slants.iter().map(|&slant| here.series(&panel, slant)));
     }
     let bottom = area(values.len().saturating_sub(1), columns).bottom();
@@ -79,7 +79,7 @@ pub(super) fn figure(
     sheet(WIDTH, bottom + BOTTOM, &title, inside)
 }
 
-/// Where panel `k` stands, of `columns` in a row.
+/// Returns the area of panel `k`, of `columns` in a row.
 fn area(k: usize, columns: usize) -> Area {
     let (column, row) = ((k % columns) as f64, (k / columns) as f64);
     let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
@@ -87,12 +87,12 @@ fn area(k: usize, columns: usize) -> Area {
     Area { left, top, width, height: HEIGHT }
 }
 
-/// The words of a label before its symbol.
+/// Returns the words of a label before its symbol.
 fn title(label: &str) -> String {
     label.split(" $").next().unwrap_or(label).to_owned()
 }
 
-/// At most as many of `values` as there is room for, from end to end.
+/// Returns at most as many of `values` as there is room for, from end to end.
 fn some(values: Vec<f64>) -> Vec<f64> {
     if values.len() <= PANELS {
         return values;
@@ -100,8 +100,8 @@ fn some(values: Vec<f64>) -> Vec<f64> {
     (0..PANELS).map(|k| values[k * (values.len() - 1) / (PANELS - 1)]).collect()
 }
 
-/// What stands in one panel.
-struct Here<'a> {
+/// The designs of one panel.
+struct PanelSeries<'a> {
     designs: &'a Designs,
     lengths: &'a Lengths,
     value: f64,
@@ -109,9 +109,9 @@ struct Here<'a> {
     filled: Option<&'a str>,
 }
 
-impl Here<'_> {
-    /// The designs of one slant: a line where each aspect ratio stands once, and their marks.
-    fn series(&self, panel: &Panel, slant: f64) -> Element {
+impl PanelSeries<'_> {
+    /// Returns the designs of one slant: a line where each aspect ratio stands once, and their marks.
+    fn series(&self, panel: &ChartPanel, slant: f64) -> Element {
         let designs = self.designs;
         let is_here = |row: &usize| {
             designs.number(self.lengths.across, *row) == Some(self.value)

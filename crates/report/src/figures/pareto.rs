@@ -1,10 +1,10 @@
 //! The Pareto front of the four criteria, two at a time.
 
-use sweep::{Ranking, Standing, Weights};
+use ranking::{RankedDesign, Ranking, Weights};
 
 use super::{COVERAGE, sheet};
-use crate::axis::Axis;
-use crate::chart::{Area, Panel, mark, slant_legend};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::palette::INK;
@@ -24,21 +24,21 @@ const LABELS: [&str; 4] = [
     "flexural compliance $C_f^*$, dimensionless",
 ];
 
-/// `None` if fewer than two designs have every criterion.
+/// Draws the figure; `None` if fewer than two designs have every criterion.
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> Option<String> {
     let all = ranking.by_fitness(Weights::BALANCED);
     (all.len() > 1).then(|| draw(name, designs, &all))
 }
 
-fn draw(name: &str, designs: &Designs, all: &[Standing<'_>]) -> String {
-    let axis = |k: usize| Axis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
-    let axes: Vec<Axis> = (0..4).map(axis).collect();
+fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
+    let axis = |k: usize| ChartAxis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
+    let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let (front, beaten): (Vec<_>, Vec<_>) = all.iter().partition(|design| design.on_front());
     let slants = designs.values("slant_deg");
     let mut inside = vec![slant_legend(&slants, [LEFT, 50.0]), legend(front.len(), beaten.len())];
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
     for (k, (i, j)) in pairs.into_iter().enumerate() {
-        let panel = Panel {
+        let panel = ChartPanel {
             area: Area {
                 left: LEFT + (k % 3) as f64 * (PANEL[0] + BETWEEN[0]),
                 top: TOP + (k / 3) as f64 * (PANEL[1] + BETWEEN[1]),
@@ -52,13 +52,14 @@ fn draw(name: &str, designs: &Designs, all: &[Standing<'_>]) -> String {
             y_labels: true,
         };
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(48.0)]);
-        let at = |design: &Standing<'_>| {
+        let at = |design: &RankedDesign<'_>| {
             let criteria = design.criteria();
             panel.place(criteria[i], criteria[j])
         };
-        let dot = |design: &&Standing<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
+        let dot =
+            |design: &&RankedDesign<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
         inside.push(Element::group("beaten").containing(beaten.iter().filter_map(dot)));
-        let marked = |design: &&Standing<'_>| {
+        let marked = |design: &&RankedDesign<'_>| {
             Some(mark(designs.number("slant_deg", design.row())?, at(design)?, 3.4, true))
         };
         inside.push(Element::group("front").containing(front.iter().filter_map(marked)));

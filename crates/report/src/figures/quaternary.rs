@@ -1,7 +1,7 @@
 //! The best design for every weighting of the four criteria, in a tetrahedron of weights (Fig. 13).
 
 use geometry::{Parallelogram, Row};
-use sweep::{Ranking, Standing, Weights};
+use ranking::{RankedDesign, Ranking, Weights};
 
 use super::sheet;
 use crate::designs::Designs;
@@ -11,10 +11,11 @@ use crate::svg::{Element, Spot, circle, line, polygon};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 640.0;
-/// Winners that are listed.
+/// The number of winners that are listed: as many as fit on the sheet.
 const LISTED: usize = 9;
-/// Where the middle of the tetrahedron stands, and its size.
+/// The spot of the middle of the tetrahedron.
 const CENTER: Spot = [302.0, 366.0];
+/// The distance of a corner of the tetrahedron from its middle, px.
 const SIZE: f64 = 262.0;
 
 /// Corners of the tetrahedron: coverage, critical force, penetration resistance, compliance.
@@ -33,14 +34,14 @@ const NAMES: [&str; 4] = [
 
 /// The weights for which one design is best.
 struct Region {
-    /// Its row.
+    /// The row of the design.
     row: usize,
-    /// Its part of the weights, from 0 to 1.
+    /// The part of the weights for which it is best, from 0 to 1.
     share: f64,
 }
 
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> String {
-    let region = |winner: &Standing<'_>| Region { row: winner.row(), share: winner.share() };
+    let region = |winner: &RankedDesign<'_>| Region { row: winner.row(), share: winner.share() };
     let regions: Vec<_> = ranking.winners().iter().map(region).collect();
     let dots = Dots {
         radius: 0.3 * SIZE * 1.63 / f64::from(ranking.grid().resolution().max(4)),
@@ -81,7 +82,7 @@ struct Dots {
     winners: Vec<([f64; 4], usize)>,
 }
 
-/// A point of the tetrahedron on paper, and how near it is.
+/// Returns a point of the tetrahedron on paper, and how near it is.
 fn projected(weights: [f64; 4]) -> (Spot, f64) {
     let [x, y, z] =
         [0, 1, 2].map(|axis| (0..4).map(|k| weights[k] * CORNERS[k][axis]).sum::<f64>());
@@ -105,7 +106,7 @@ fn edges(pairs: &[[usize; 2]], dashes: &str) -> Element {
     Element::group("edges").containing(pairs.iter().map(edge))
 }
 
-/// The criterion of each corner, and the design that is best for it alone.
+/// Returns the criterion of each corner, and the design that is best for it alone.
 fn corner_names(best: &[&str]) -> Element {
     // Beside the dots: above, below, and outside of the base.
     let shifts = [[-70.0, -33.0], [-60.0, 30.0], [-46.0, 52.0], [8.0, 26.0]];
@@ -121,7 +122,7 @@ fn corner_names(best: &[&str]) -> Element {
     Element::group("corners").containing((0..4).flat_map(name))
 }
 
-/// A dot for each weight in the colour of its best design, the far ones first.
+/// Returns a dot for each weight in the colour of its best design, the far ones first.
 fn points(designs: &Designs, all: &Dots, regions: &[Region]) -> Element {
     let colors = colors(designs, regions);
     let mut dots: Vec<_> =
@@ -139,7 +140,7 @@ fn points(designs: &Designs, all: &Dots, regions: &[Region]) -> Element {
         .containing(dots.iter().map(dot))
 }
 
-/// The colour of each listed region: that of its slant, lighter or darker for further ones of one slant.
+/// Returns the colour of each listed region: that of its slant, lighter or darker for further ones of one slant.
 fn colors(designs: &Designs, regions: &[Region]) -> Vec<String> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
     let slant = |region: &Region| designs.number("slant_deg", region.row).unwrap_or(90.0);
@@ -155,7 +156,7 @@ fn letter(k: usize) -> String {
     char::from(b'A' + u8::try_from(k).unwrap_or(0)).to_string()
 }
 
-/// The letter of each listed design on the dot of its region that is nearest to the reader.
+/// Returns the letter of each listed design on the dot of its region that is nearest to the reader.
 fn letters(all: &Dots, regions: &[Region]) -> Element {
     let letter = |(k, region): (usize, &Region)| {
         let own = all.winners.iter().filter(|(_, row)| *row == region.row);
@@ -173,7 +174,7 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
     ])
 }
 
-/// A design of the list: its letter, parameters, share, and row at rest.
+/// Returns a design of the list: its letter, parameters, share, and row at rest.
 fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: Spot) -> Element {
     let value = |column| designs.text(column, region.row);
     let text = format!(
@@ -199,7 +200,7 @@ fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: 
     entry.containing(small_row(designs, region.row, [x + 276.0, y + 16.0]))
 }
 
-/// A few scales of a row, to scale, on 110 by 34 px.
+/// Returns a few scales of a row, to scale, on 110 by 34 px.
 fn small_row(designs: &Designs, row: usize, [x, y]: Spot) -> Option<Element> {
     let number = |column| designs.number(column, row);
     let base = if designs.text("base", row) == "2L" { 1.0 } else { 0.5 };

@@ -1,8 +1,8 @@
 //! Stiffness against critical force (Fig. 8).
 
 use super::{FORCE, sheet};
-use crate::axis::Axis;
-use crate::chart::{Area, Panel, mark, slant_legend};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel, mark, slant_legend};
 use crate::designs::Designs;
 
 const WIDTH: f64 = 1000.0;
@@ -25,11 +25,11 @@ const STIFFNESSES: [(&str, &str, &str); 2] = [
 pub(super) fn figure(name: &str, designs: &Designs) -> String {
     let slants = designs.values("slant_deg");
     let mut inside = vec![slant_legend(&slants, [78.0, 50.0])];
-    let x = Axis::fit(FORCE.label, designs.numbers(FORCE.column));
+    let x = ChartAxis::fit(FORCE.label, designs.numbers(FORCE.column));
     let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
     for (k, (column, title, label)) in STIFFNESSES.into_iter().enumerate() {
-        let y = Axis::fit(label, designs.numbers(column));
-        let panel = Panel {
+        let y = ChartAxis::fit(label, designs.numbers(column));
+        let panel = ChartPanel {
             area: Area {
                 left: 78.0 + k as f64 * (width + 78.0),
                 top: 92.0,

@@ -5,7 +5,7 @@ mod page;
 
 use report::drawings;
 use skin::puncture::{At, Parameters, Snapshot, snapshots};
-use skin::{Base, Design};
+use skin::{Base, Common, Design};
 use substrate::Springs;
 
 /// A design whose scales touch before the critical tilt.
@@ -24,11 +24,12 @@ fn punctured(design: &Design, modulus: f64) -> Vec<Snapshot> {
         ..Parameters::default()
     };
     let at = [At::Displacement(0.15), At::Tilt(10.0), At::Force(0.05)];
-    let solved = snapshots(design, &springs, &parameters, &at).expect("a design");
+    let solved =
+        snapshots(design, &springs, &Common::default(), &parameters, &at).expect("a design");
     solved.at.into_iter().map(|state| state.expect("reached")).collect()
 }
 
 fn svg(design: &Design, states: &[Snapshot]) -> String {
-    let drawing = drawings::Puncture { name: "test", design, load_position: 1.0, states };
+    let drawing = drawings::PunctureDrawing { name: "test", design, load_position: 1.0, states };
     drawing.svg().expect("a drawing")
 }

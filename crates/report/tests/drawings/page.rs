@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use report::{Designs, Page, figures};
-use sweep::{Ranking, Results, TetrahedralGrid};
+use ranking::{Ranking, TetrahedralGrid};
+use report::{Designs, Page, RankingEntry, figures};
+use results::Results;
 
 /// A table of 24 designs with made-up values.
 fn table() -> String {
@@ -28,7 +29,7 @@ fn table() -> String {
     text
 }
 
-/// What a run with this table has left behind.
+/// The results of a run with this table.
 fn results(table: &str) -> Results {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("designs.csv"), table).expect("a file");
@@ -103,4 +104,21 @@ fn a_page_of_720_designs_is_below_5_mb() {
         (header.clone(), cells.collect())
     });
     assert!(page(Designs::new(columns)).html().len() < 5_000_000);
+}
+
+#[test]
+fn a_page_ranks_by_the_criteria_of_the_ranking() {
+    let results = results(&table());
+    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let entries = RankingEntry::all(&ranking);
+    assert_eq!(entries.len(), ranking.len());
+    assert!(entries.windows(2).all(|pair| pair[0].row < pair[1].row));
+    let front: Vec<_> = entries.iter().filter(|entry| entry.on_front).map(|e| e.row).collect();
+    assert_eq!(front, ranking.front().iter().map(ranking::RankedDesign::row).collect::<Vec<_>>());
+    for k in 0..4 {
+        let largest = entries.iter().map(|entry| entry.rescaled[k]).fold(0.0, f64::max);
+        assert_eq!(largest, 1.0);
+    }
+    let html = Page { ranking: entries, ..page(Designs::of(&results)) }.html();
+    assert!(html.contains("\"rescaled\":[["));
 }

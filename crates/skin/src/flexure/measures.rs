@@ -1,5 +1,6 @@
 //! The numbers that bending comes down to.
 
+use serde::{Deserialize, Serialize};
 use solver::Path;
 
 use super::PathPoint;
@@ -10,7 +11,7 @@ use crate::record::Record;
 ///
 /// The moment is `M* = M t/(E_m I_m)`, the curvature `κ* = κ t` with `κ` the rotation of one end
 /// against the other over the length `n p` of the strip.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measures {
     /// Flexural compliance `C_f* = 1/max(dM*/dκ*)`.
     pub compliance: Option<f64>,

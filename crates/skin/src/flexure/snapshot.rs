@@ -9,7 +9,7 @@ use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
-use crate::{Design, InvalidDesign};
+use crate::{Common, Design, InvalidDesign};
 
 /// Points of the membrane's axis that are kept of each element.
 const INTERVALS: usize = 12;
@@ -40,17 +40,18 @@ pub struct Snapshot {
 /// If a length, a modulus, or a constant of the contact law is not positive.
 pub fn snapshots(
     design: &Design,
+    common: &Common,
     parameters: &Parameters,
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let Problem { row, strip } = Problem::even(design, parameters)?;
+    let Problem { row, strip, settings } = Problem::even(design, common, parameters)?;
     let crossing = |&degrees: &f64| Crossing {
         quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
         value: 2.0 * degrees.to_radians() / strip.repeats() as f64,
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
     let rest = State::at_rest(&strip);
-    let mut path = Path::new(strip, rest, parameters.solver);
+    let mut path = Path::new(strip, rest, settings);
     let states = follow(&mut path, &crossings);
     let snapshot = |state: Option<State>| Some(snapshot(&row, path.system(), &state?));
     Ok(states.into_iter().map(snapshot).collect())

@@ -6,7 +6,7 @@ use solver::{Path, Settings};
 use super::strip::Strip;
 use super::{Method, Parameters, Problem};
 use crate::contacts::{Point, State};
-use crate::{Base, Design};
+use crate::{Base, Common, Design};
 
 /// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
 fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
@@ -20,10 +20,10 @@ fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
-fn balance(design: &Design, parameters: &Parameters) -> [f64; 3] {
-    let strip = Problem::even(design, parameters).unwrap().strip;
+fn balance(design: &Design, common: &Common, parameters: &Parameters) -> [f64; 3] {
+    let strip = Problem::even(design, common, parameters).unwrap().strip;
     let rest = State::at_rest(&strip);
-    let mut path = Path::new(strip, rest, parameters.solver);
+    let mut path = Path::new(strip, rest, common.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
     loop {
         let from = path.point().clone();
@@ -52,13 +52,12 @@ fn the_work_of_the_moment_is_stored() {
             [(Law::PRINTED, 667.0), (Law::EXCHANGED, 667.0), (Law::EXCHANGED, 1.0)]
         {
             let parameters = Parameters {
-                law,
-                solver,
                 contact_modulus_over_membrane: modulus,
                 membrane_length: 20.0,
                 ..Parameters::default()
             };
-            let [off, axial, contact] = balance(&design(gap, length, slant_deg), &parameters);
+            let [off, axial, contact] =
+                balance(&design(gap, length, slant_deg), &Common { law, solver }, &parameters);
             assert!(off < 1e-6, "{gap} {length} {slant_deg} {law:?} {modulus}: {off:e}");
             most_axial = most_axial.max(axial);
             most_contact = most_contact.max(contact);
@@ -71,9 +70,9 @@ fn the_work_of_the_moment_is_stored() {
 fn a_chain_stores_what_its_cells_do() {
     let design = Design { gap: 0.3, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let solver = Settings { max_step: 0.01, ..Settings::default() };
-    let chain =
-        Parameters { method: Method::Chain, membrane_length: 8.0, solver, ..Parameters::default() };
-    let [off, axial, _] = balance(&design, &chain);
+    let chain = Parameters { method: Method::Chain, membrane_length: 8.0, ..Parameters::default() };
+    let common = Common { solver, ..Common::default() };
+    let [off, axial, _] = balance(&design, &common, &chain);
     assert!(off < 1e-6, "{off:e}");
     assert!(axial > 0.01, "{axial}");
 }

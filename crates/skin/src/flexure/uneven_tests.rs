@@ -1,19 +1,16 @@
 //! Strips of unequal gaps and slants, made by hand.
 
 use approx::assert_relative_eq;
-use contact::Law;
 use geometry::{Parallelogram, UnevenRow};
-use solver::Settings;
 
 use super::{Flexure, Method, Parameters, Problem};
 use crate::arrangement::Arrangement;
-use crate::{Base, ContactChange, Design, Status};
+use crate::{Base, Common, ContactChange, Design, Status};
 
 const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
 
 fn parameters() -> Parameters {
     Parameters {
-        law: Law::PRINTED,
         contact_modulus_over_membrane: 667.0,
         method: Method::Chain,
         membrane_length: 6.0,
@@ -21,7 +18,6 @@ fn parameters() -> Parameters {
         membrane_axis_offset: 0.0,
         elements_per_gap: 2,
         max_end_rotation_deg: 60.0,
-        solver: Settings::default(),
     }
 }
 
@@ -33,8 +29,10 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let scales = slants_deg.iter().map(|&slant| Parallelogram::leaning(0.5, slant).unwrap());
     let row = UnevenRow::new(scales.collect(), gaps.to_vec()).unwrap();
     let row = Arrangement::Uneven(row);
-    let flexure = Problem::new(&design(0.0), &parameters(), row, gaps.len(), gaps.len()).unwrap();
-    let flexure = flexure.solve(&parameters());
+    let flexure =
+        Problem::new(&design(0.0), &Common::default(), &parameters(), row, [gaps.len(); 2])
+            .unwrap();
+    let flexure = flexure.solve();
     assert_eq!(flexure.status, Status::Complete);
     flexure
 }
@@ -81,7 +79,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 #[test]
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
-    let even = Problem::even(&design(60.0), &parameters()).unwrap().solve(&parameters());
+    let even = Problem::even(&design(60.0), &Common::default(), &parameters()).unwrap().solve();
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

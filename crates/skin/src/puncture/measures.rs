@@ -1,5 +1,6 @@
 //! The numbers that a puncture comes down to.
 
+use serde::{Deserialize, Serialize};
 use solver::Path;
 
 use super::system::Chain;
@@ -7,7 +8,7 @@ use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
 
 /// The measures of a puncture; `None` where the value does not exist.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measures {
     /// `F_c* = F (1−ν²)/(E_s L t)` at the critical tilt.
     pub critical_force: Option<f64>,

@@ -7,10 +7,10 @@ use super::{
     InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowLength, RowStiffness, Rows,
     ScaleState, Status, scales,
 };
-use crate::Design;
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
+use crate::{Common, Design};
 
 /// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
 const STEEPEST_DEG: f64 = 80.0;
@@ -58,24 +58,25 @@ pub struct Snapshots {
 pub fn snapshots(
     design: &Design,
     substrate: impl Into<RowStiffness>,
+    common: &Common,
     parameters: &Parameters,
     at: &[At],
 ) -> Result<Snapshots, InvalidDesign> {
     let stiffness = &substrate.into();
     let mut parameters = *parameters;
-    let mut puncture = super::solve(design, stiffness, &parameters)?;
+    let mut puncture = super::solve(design, stiffness, common, &parameters)?;
     while reaches_short(&puncture, at) && parameters.critical_tilt_deg < STEEPEST_DEG {
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
-        puncture = super::solve(design, stiffness, &parameters)?;
+        puncture = super::solve(design, stiffness, common, &parameters)?;
     }
     let rows = Rows::Even(design.row()?);
-    let problem = Problem::new(rows, design, stiffness.clone(), &parameters)?;
+    let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
     let layout = layout(&puncture);
     let chain = match parameters.scales {
         RowLength::Auto => problem.part(layout),
         RowLength::Scales(_) => problem.chain(layout),
     };
-    let at = along(chain?, parameters.solver, at);
+    let at = along(chain?, common.solver, at);
     Ok(Snapshots { puncture, at })
 }
 

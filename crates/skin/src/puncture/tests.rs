@@ -12,7 +12,7 @@ use super::window::Reach;
 use super::{Parameters, Problem, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
-use crate::{Base, Design, Status};
+use crate::{Base, Common, Design, Status};
 
 /// A steep row in which contacts open, close, slide to corners and change their parts.
 const LIVELY: Design =
@@ -244,11 +244,11 @@ fn one_neighbour_without_rotation_is_the_paper() {
         let springs = calibrate(&footprint).unwrap();
         let parameters =
             Parameters { scales: super::RowLength::Scales(21), ..Parameters::default() };
-        let ours = super::solve(&design, &one, &parameters).unwrap();
-        let paper = super::solve(&design, &springs, &parameters).unwrap();
+        let ours = super::solve(&design, &one, &Common::default(), &parameters).unwrap();
+        let paper = super::solve(&design, &springs, &Common::default(), &parameters).unwrap();
         assert_eq!(ours.measures, paper.measures);
         let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
-        let full = super::solve(&design, &full, &parameters).unwrap();
+        let full = super::solve(&design, &full, &Common::default(), &parameters).unwrap();
         assert_ne!(full.measures.critical_force, paper.measures.critical_force);
     }
 }
@@ -260,7 +260,9 @@ fn more_neighbours_change_next_to_nothing() {
         let design = Design { slant_deg, ..BLOCKS };
         let at = |neighbours| {
             let row = RowStiffness::solve(&design.footprint(0.5).unwrap(), neighbours).unwrap();
-            super::solve(&design, &row, &Parameters::default()).unwrap().measures
+            super::solve(&design, &row, &Common::default(), &Parameters::default())
+                .unwrap()
+                .measures
         };
         let (ours, more) = (at(substrate::NEIGHBOURS), at(2 * substrate::NEIGHBOURS));
         let close = |a: Option<f64>, b: Option<f64>| {
@@ -307,7 +309,8 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
     let parameters = &Parameters::default();
     let row = Rows::Even(DOMINO.row().unwrap());
-    let problem = Problem::new(row, &DOMINO, (&springs).into(), parameters).unwrap();
+    let problem =
+        Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
     let cut = problem.grow(60).unwrap();
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);
@@ -326,7 +329,7 @@ fn parameters_out_of_their_range_are_refused() {
     let refused = |change: fn(&mut Parameters)| {
         let mut parameters = Parameters::default();
         change(&mut parameters);
-        super::solve(&BLOCKS, &springs, &parameters).unwrap_err().to_string()
+        super::solve(&BLOCKS, &springs, &Common::default(), &parameters).unwrap_err().to_string()
     };
     let text = refused(|p| p.critical_tilt_deg = 0.0);
     assert_eq!(text, "critical tilt is 0, expected an angle between 0° and 90°");

@@ -3,19 +3,18 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use rayon::prelude::*;
-use skin::Design;
-use skin::Status;
 use skin::flexure::{Method, Parameters, Snapshot, snapshots, solve};
+use skin::{Common, Design, Status};
 
-use crate::samples::forty;
+use crate::samples::{LAWS, forty, with_law};
 
 /// End rotations at which both are compared, degrees: all of the path, with some from just behind the contacts.
 const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.0, 175.0, 180.0];
 
 fn compare(design: &Design, law: Law) -> usize {
     let with = |method| {
-        let parameters = Parameters { law, method, ..Parameters::default() };
-        let shots = snapshots(design, &parameters, &AT).unwrap();
+        let parameters = Parameters { method, ..Parameters::default() };
+        let shots = snapshots(design, &with_law(law), &parameters, &AT).unwrap();
         shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<Snapshot>>()
     };
     let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
@@ -31,7 +30,7 @@ fn compare(design: &Design, law: Law) -> usize {
 fn forty_designs_have_the_same_moments_with_both() {
     let designs = forty();
     assert_eq!(designs.len(), 40);
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    for law in LAWS {
         let contacts: usize = designs.par_iter().map(|design| compare(design, law)).sum();
         assert!(contacts > 1000, "{contacts}");
     }
@@ -42,7 +41,7 @@ fn and_the_same_measures() {
     for design in forty().iter().step_by(5) {
         let with = |method| {
             let parameters = Parameters { method, ..Parameters::default() };
-            let flexure = solve(design, &parameters).unwrap();
+            let flexure = solve(design, &Common::default(), &parameters).unwrap();
             assert_eq!(flexure.status, Status::Complete);
             flexure.measures
         };

@@ -1,23 +1,20 @@
 //! Every design of the reference study can be bent to a full turn.
 
-use contact::Law;
 use rayon::prelude::*;
-use skin::Base;
-use skin::Status;
 use skin::flexure::{Parameters, solve};
+use skin::{Base, Common, Status};
 use solver::Stop;
 
-use crate::samples::{BASES, design, reference_study, small_steps};
+use crate::samples::{BASES, LAWS, design, in_small_steps, reference_study, with_law};
 
 #[test]
 fn the_reference_study_completes_with_either_law() {
     for base in BASES {
-        for law in [Law::PRINTED, Law::EXCHANGED] {
-            let parameters = Parameters { law, ..Parameters::default() };
+        for law in LAWS {
             let touching: usize = reference_study(base)
                 .par_iter()
                 .map(|design| {
-                    let flexure = solve(design, &parameters).unwrap();
+                    let flexure = solve(design, &with_law(law), &Parameters::default()).unwrap();
                     assert_eq!(flexure.status, Status::Complete, "{design:?} {law:?}");
                     usize::from(flexure.measures.contact == Some(true))
                 })
@@ -31,7 +28,8 @@ fn the_reference_study_completes_with_either_law() {
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
     let parameters = Parameters { membrane_length: 6.0, ..Parameters::default() };
-    let flexure = solve(&design(0.05, 2.05, 30.0, Base::L), &parameters).unwrap();
+    let flexure =
+        solve(&design(0.05, 2.05, 30.0, Base::L), &Common::default(), &parameters).unwrap();
     assert_eq!(flexure.status, Status::OffEdge);
     assert_eq!(flexure.measures.max_moment, None);
 }
@@ -47,10 +45,9 @@ fn a_strip_whose_sides_come_to_lie_flush_has_no_compliance() {
         let parameters = Parameters {
             membrane_length: length,
             membrane_axis_offset: 1.0,
-            solver: small_steps(),
             ..Parameters::default()
         };
-        let flexure = solve(&design, &parameters).unwrap();
+        let flexure = solve(&design, &in_small_steps(), &parameters).unwrap();
         assert_eq!(flexure.status, Status::Stopped(Stop::Singular));
         assert_eq!(flexure.measures.compliance, None);
         let last = flexure.path.last().unwrap().moment;

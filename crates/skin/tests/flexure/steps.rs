@@ -1,27 +1,21 @@
 //! The compliance does not depend on the steps with which the path is followed.
 
 use approx::assert_relative_eq;
-use contact::Law;
 use rayon::prelude::*;
+use skin::Common;
 use skin::flexure::{Parameters, solve};
 use solver::Settings;
 
-use crate::samples::forty;
+use crate::samples::{LAWS, finer, forty};
 
 #[test]
 fn steps_ten_times_smaller_give_the_same_compliance() {
     let coarse = Settings::default();
-    let fine = Settings {
-        first_step: coarse.first_step / 10.0,
-        max_step: coarse.max_step / 10.0,
-        ..coarse
-    };
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    let fine = finer(coarse);
+    for law in LAWS {
         forty().par_iter().for_each(|design| {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..Parameters::default() };
-                solve(design, &parameters).unwrap()
-            };
+            let with =
+                |solver| solve(design, &Common { law, solver }, &Parameters::default()).unwrap();
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             let compliance =

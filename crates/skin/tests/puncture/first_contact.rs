@@ -1,9 +1,9 @@
 //! The path up to the first contact: a linear chain under a load whose arm turns.
 //!
-//! Without contact each of `y` and `φ` obeys a tridiagonal system of its own. With its Green's
-//! functions `G` (displacement of scale `i` for a unit on the middle one), all poses follow from
-//! the tilt alone, and the first contact is where one gap closes.
+//! With the Green's functions of [`analytical::linear_chain`] all poses follow from the tilt alone, and the first
+//! contact is where one gap closes.
 
+use analytical::linear_chain;
 use approx::assert_relative_eq;
 use contact::{CornerEdge, Pair, Pose};
 use skin::{Base, Design};
@@ -13,35 +13,21 @@ use crate::samples::{design, on_row, solve_with, springs};
 
 const SCALES: usize = 41;
 
-/// Displacements of the middle scale and its right neighbour for a unit on the middle one, by the
-/// Thomas algorithm on `direct u_i − coupling (u_{i−1} + u_{i+1}) = δ_im`.
-fn green(direct: f64, coupling: f64) -> [f64; 2] {
-    let middle = SCALES / 2;
-    let (mut above, mut right) = (vec![0.0; SCALES], vec![0.0; SCALES]);
-    for i in 0..SCALES {
-        let [c, r] = if i > 0 { [above[i - 1], right[i - 1]] } else { [0.0; 2] };
-        let pivot = direct + coupling * c;
-        above[i] = -coupling / pivot;
-        right[i] = (f64::from(u8::from(i == middle)) + coupling * r) / pivot;
-    }
-    let mut u = right;
-    for i in (0..SCALES - 1).rev() {
-        u[i] -= above[i] * u[i + 1];
-    }
-    [u[middle], u[middle + 1]]
-}
-
 /// Depth of the loaded corner and gap of the right neighbour at a tilt `ψ`.
 fn before_contact(design: &Design, springs: &Springs, psi: f64) -> [f64; 2] {
     let scale = *design.row().unwrap().scale();
     let a = scale.half_base();
-    let [middle, next] = green(a.powi(3) * springs.direct[2], a.powi(3) * springs.coupling[2]);
+    let green = |k: usize, unit: f64| {
+        linear_chain::compliance(SCALES, unit * springs.direct[k], unit * springs.coupling[k])
+    };
+    let rotation = green(2, a.powi(3));
     let arm = [a + scale.shift(), 1.0];
     let lever = arm[0] * psi.cos() + arm[1] * psi.sin();
-    let force = psi / (middle * lever);
-    let [y, y_next] =
-        green(a * springs.direct[1], a * springs.coupling[1]).map(|compliance| -force * compliance);
-    let (left, right) = (Pose::new(0.0, y, -psi), Pose::new(0.0, y_next, -psi * next / middle));
+    let force = psi / (rotation.middle * lever);
+    let normal = green(1, a);
+    let (y, y_next) = (-force * normal.middle, -force * normal.neighbour);
+    let psi_next = psi * rotation.neighbour / rotation.middle;
+    let (left, right) = (Pose::new(0.0, y, -psi), Pose::new(0.0, y_next, -psi_next));
     let pair = Pair::new(scale, design.row().unwrap().pitch());
     let depth = -y + arm[0] * psi.sin() + arm[1] * (1.0 - psi.cos());
     [depth, pair.distance(CornerEdge::TopRightOnLeftEdge, &left, &right)]

@@ -4,13 +4,13 @@ use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::puncture::{Parameters, PathPoint, Puncture};
-use skin::{ContactChange, ContactEvent, Status};
+use skin::puncture::{PathPoint, Puncture};
+use skin::{Common, ContactChange, ContactEvent, Status};
 
 use solver::{Settings, Stop};
 use substrate::Calibrations;
 
-use crate::samples::{domino, on_row, solve, solve_with, spread};
+use crate::samples::{domino, on_row, solve, solve_as, solve_with, spread};
 use crate::{complete, end};
 
 fn solved() -> Vec<(skin::Design, Puncture)> {
@@ -108,8 +108,9 @@ fn every_point_of_the_path_has_its_iterations() {
 #[test]
 fn a_path_that_stops_keeps_how_it_began() {
     let solver = Settings { max_points: 20, ..Settings::default() };
-    let parameters = Parameters { solver, law: Law::PRINTED, ..on_row(41) };
-    let (cut, whole) = (solve(&domino(), &parameters), solve(&domino(), &on_row(41)));
+    let (known, common) = (Calibrations::default(), Common { solver, law: Law::PRINTED });
+    let cut = solve_as(&known, &domino(), &common, &on_row(41));
+    let whole = solve(&domino(), &on_row(41));
     assert_eq!(cut.status, Status::Stopped(Stop::TooManyPoints));
     assert_eq!(cut.path.len(), 21);
     assert_eq!(cut.path[..], whole.path[..21]);

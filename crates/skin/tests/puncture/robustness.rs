@@ -10,12 +10,19 @@ use skin::puncture::{Parameters, Puncture};
 use substrate::Calibrations;
 
 use crate::end;
-use crate::samples::{BASES, design, on_row, random, reference_study, solve_with};
+use crate::samples::{
+    BASES, LAWS, design, long_campaigns, on_row, random, reference_study, solve_as, with_law,
+};
 
-const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
-
-fn solve_all(designs: &[Design], parameters: &Parameters, known: &Calibrations) -> Vec<Puncture> {
-    designs.par_iter().map(|design| solve_with(known, design, parameters)).collect()
+/// Solves designs with a contact law.
+fn solve_all(
+    designs: &[Design],
+    law: Law,
+    parameters: &Parameters,
+    known: &Calibrations,
+) -> Vec<Puncture> {
+    let solve = |design| solve_as(known, design, &with_law(law), parameters);
+    designs.par_iter().map(solve).collect()
 }
 
 fn both_studies() -> Vec<Design> {
@@ -26,9 +33,9 @@ fn both_studies() -> Vec<Design> {
 fn the_reference_study_is_solved_with_either_law() {
     let known = Calibrations::default();
     for law in LAWS {
-        let parameters = Parameters { law, ..on_row(41) };
         let designs = both_studies();
-        for (design, puncture) in designs.iter().zip(solve_all(&designs, &parameters, &known)) {
+        for (design, puncture) in designs.iter().zip(solve_all(&designs, law, &on_row(41), &known))
+        {
             assert_eq!(puncture.status, Status::Complete, "{design:?}");
         }
     }
@@ -41,9 +48,11 @@ fn hard_and_soft_contacts_are_solved() {
     let designs: Vec<Design> = both_studies().into_iter().step_by(7).collect();
     for law in LAWS {
         for factor in [1e-2, 1e2, 1e4] {
-            let mut parameters = Parameters { law, ..on_row(41) };
+            let mut parameters = on_row(41);
             parameters.contact_modulus_over_substrate *= factor;
-            for (design, puncture) in designs.iter().zip(solve_all(&designs, &parameters, &known)) {
+            for (design, puncture) in
+                designs.iter().zip(solve_all(&designs, law, &parameters, &known))
+            {
                 assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
                 // Scales as soft as these are pushed through each other, and the audit tells.
                 let may_pass_through = factor < 1.0 && law == Law::EXCHANGED;
@@ -59,20 +68,22 @@ fn hard_and_soft_contacts_are_solved() {
 #[test]
 fn scales_too_soft_to_carry_the_load_fail_the_audit() {
     let design = design(0.1, 0.5, 75.0, skin::Base::L);
-    let mut parameters = Parameters { law: Law::EXCHANGED, ..on_row(41) };
+    let mut parameters = on_row(41);
     parameters.contact_modulus_over_substrate *= 1e-2;
-    let puncture = crate::samples::solve(&design, &parameters);
+    let known = Calibrations::default();
+    let puncture = solve_as(&known, &design, &with_law(Law::EXCHANGED), &parameters);
     assert_eq!(puncture.status, Status::Interpenetration);
     assert!((end(&puncture).tilt_deg - 10.0).abs() < 1e-9);
     assert_eq!(puncture.measures.critical_force, None);
 }
 
+/// Two hundred designs; two thousand in a long campaign.
 #[test]
 fn random_designs_are_solved() {
     let known = Calibrations::default();
-    let designs = random(2000, 1);
+    let designs = random(if long_campaigns() { 2000 } else { 200 }, 1);
     for law in LAWS {
-        let solved = solve_all(&designs, &Parameters { law, ..on_row(41) }, &known);
+        let solved = solve_all(&designs, law, &on_row(41), &known);
         for (design, puncture) in designs.iter().zip(&solved) {
             assert_eq!(puncture.status, Status::Complete, "{design:?}");
             assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9);
@@ -92,7 +103,9 @@ fn scales_steeper_than_those_of_the_study_are_solved() {
             }
         }
     }
-    for (design, puncture) in designs.iter().zip(solve_all(&designs, &on_row(41), &known)) {
+    for (design, puncture) in
+        designs.iter().zip(solve_all(&designs, Law::PRINTED, &on_row(41), &known))
+    {
         assert_eq!(puncture.status, Status::Complete, "{design:?}");
     }
 }

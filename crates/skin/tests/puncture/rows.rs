@@ -1,12 +1,13 @@
 //! Rows of any length.
 
 use approx::assert_relative_eq;
-use contact::Law;
 use skin::puncture::{Parameters, RowLength};
 use skin::{Base, Design};
 use substrate::{Calibrations, RowStiffness};
 
-use crate::samples::{blocks, design, domino, on_row, settled, solve, solve_with, springs};
+use crate::samples::{
+    LAWS, blocks, design, domino, on_row, settled, solve, solve_as, solve_with, springs, with_law,
+};
 use crate::{assert_same_measures, complete};
 
 fn automatic() -> Parameters {
@@ -18,10 +19,10 @@ fn automatic_rows_measure_what_longer_rows_do() {
     let known = Calibrations::default();
     let designs = [blocks(), settled(), domino(), design(1.0, 0.025, 75.0, Base::TwoL)];
     for design in designs {
-        for law in [Law::PRINTED, Law::EXCHANGED] {
-            let ours = solve_with(&known, &design, &Parameters { law, ..automatic() });
+        for law in LAWS {
+            let ours = solve_as(&known, &design, &with_law(law), &automatic());
             let longer = 2 * ours.measures.scales + 301;
-            let theirs = solve_with(&known, &design, &Parameters { law, ..on_row(longer) });
+            let theirs = solve_as(&known, &design, &with_law(law), &on_row(longer));
             assert_same_measures(&complete(&ours), &complete(&theirs), 1e-6);
         }
     }

@@ -3,11 +3,11 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use skin::puncture::{self, Measures, Parameters};
-use skin::{Base, Design};
+use skin::{Base, Common, Design};
 use substrate::Calibrations;
 
 use crate::complete;
-use crate::samples::{on_row, settled, solve, springs};
+use crate::samples::{LAWS, on_row, settled, solve_as, springs, with_law};
 
 /// Round-off, and what the tolerance of the equilibria leaves.
 const SAME: f64 = 1e-9;
@@ -15,7 +15,7 @@ const SAME: f64 = 1e-9;
 /// Measures on the springs of an incompressible substrate, whatever the Poisson's ratio says.
 fn measured(design: &Design, parameters: &Parameters) -> Measures {
     let springs = springs(&settled(), &on_row(1), &Calibrations::default());
-    complete(&puncture::solve(design, &springs, parameters).unwrap())
+    complete(&puncture::solve(design, &springs, &Common::default(), parameters).unwrap())
 }
 
 /// Forces are measured in `E*`, and so is the contact modulus inside; stiffness in `E_s`.
@@ -50,12 +50,12 @@ fn a_wider_scale_of_a_softer_material_is_the_same() {
 /// `L`, which its prefactor can make good, and `F*` the force.
 #[test]
 fn a_base_of_2l_is_a_base_of_l_by_another_name() {
-    let ours = settled();
+    let (known, ours) = (Calibrations::default(), settled());
     let theirs = Design { length: 0.5 * ours.length, base: Base::TwoL, ..ours };
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    for law in LAWS {
         let renamed = Law { c1: law.c1 * 2.0_f64.powf(1.0 - law.c2), ..law };
-        let ours = complete(&solve(&ours, &Parameters { law, ..on_row(41) }));
-        let theirs = complete(&solve(&theirs, &Parameters { law: renamed, ..on_row(41) }));
+        let ours = complete(&solve_as(&known, &ours, &with_law(law), &on_row(41)));
+        let theirs = complete(&solve_as(&known, &theirs, &with_law(renamed), &on_row(41)));
         let [force, twice] = [ours, theirs].map(|measures| measures.critical_force.unwrap());
         assert_relative_eq!(2.0 * force, twice, max_relative = SAME);
         let [u, v] = [ours, theirs].map(|measures| measures.critical_displacement.unwrap());
@@ -66,11 +66,13 @@ fn a_base_of_2l_is_a_base_of_l_by_another_name() {
 /// Contacts that are ever harder settle to rigid ones.
 #[test]
 fn harder_contacts_settle_to_rigid_ones() {
-    for law in [Law::PRINTED, Law::EXCHANGED] {
+    for law in LAWS {
         let force = |factor: f64| {
-            let mut parameters = Parameters { law, ..on_row(41) };
+            let mut parameters = on_row(41);
             parameters.contact_modulus_over_substrate *= factor;
-            measured(&settled(), &parameters).critical_force.unwrap()
+            let known = Calibrations::default();
+            let puncture = solve_as(&known, &settled(), &with_law(law), &parameters);
+            complete(&puncture).critical_force.unwrap()
         };
         let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(force);
         // Those of the printed law are as good as rigid as they are.

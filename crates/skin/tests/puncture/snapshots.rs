@@ -2,15 +2,15 @@
 
 use approx::assert_relative_eq;
 use contact::CornerEdge;
-use skin::Design;
 use skin::puncture::{At, Parameters, Snapshot, Snapshots, snapshots};
+use skin::{Common, Design};
 use substrate::Calibrations;
 
 use crate::samples::{folding, on_row, settled, solve, spread, springs};
 
 fn shots(design: &Design, parameters: &Parameters, at: &[At]) -> Snapshots {
     let springs = springs(design, parameters, &Calibrations::default());
-    snapshots(design, &springs, parameters, at).unwrap()
+    snapshots(design, &springs, &Common::default(), parameters, at).unwrap()
 }
 
 fn shot(design: &Design, at: At) -> Snapshot {

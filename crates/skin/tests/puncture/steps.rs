@@ -1,27 +1,19 @@
 //! The path does not depend on the steps with which it is followed.
 
-use contact::Law;
-use skin::puncture::Parameters;
+use skin::Common;
 use solver::Settings;
 use substrate::Calibrations;
 
-use crate::samples::{on_row, solve_with, spread};
+use crate::samples::{LAWS, finer, on_row, solve_as, spread};
 
 #[test]
 fn steps_ten_times_smaller_give_the_same_measures() {
     let known = Calibrations::default();
     let coarse = Settings::default();
-    let fine = Settings {
-        first_step: coarse.first_step / 10.0,
-        max_step: coarse.max_step / 10.0,
-        ..coarse
-    };
+    let fine = finer(coarse);
     for design in spread() {
-        for law in [Law::PRINTED, Law::EXCHANGED] {
-            let with = |solver| {
-                let parameters = Parameters { law, solver, ..on_row(41) };
-                solve_with(&known, &design, &parameters)
-            };
+        for law in LAWS {
+            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &on_row(41));
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() >= ours.path.len() + 30);
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);

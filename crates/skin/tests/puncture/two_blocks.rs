@@ -1,14 +1,17 @@
 //! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve where they touch.
 
-use skin::puncture::{Parameters, PathPoint, Puncture};
-use skin::{Base, ContactChange};
+use skin::puncture::{PathPoint, Puncture};
+use skin::{Base, Common, ContactChange, Design};
 use solver::Settings;
+use substrate::Calibrations;
 
-use crate::samples::{blocks, design, on_row, solve};
+use crate::samples::{blocks, design, on_row, solve_as};
 
-fn finely(scales: usize) -> Parameters {
+/// The puncture of a pair, followed in small steps.
+fn finely(design: &Design) -> Puncture {
     let solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
-    Parameters { solver, ..on_row(scales) }
+    let common = Common { solver, ..Common::default() };
+    solve_as(&Calibrations::default(), design, &common, &on_row(2))
 }
 
 /// Mean stiffness between two points, in units of that of the force.
@@ -24,7 +27,7 @@ fn kink(puncture: &Puncture) -> f64 {
 
 #[test]
 fn the_stiffness_jumps_up_where_they_touch() {
-    let puncture = solve(&blocks(), &finely(2));
+    let puncture = finely(&blocks());
     crate::complete(&puncture);
     assert_eq!(puncture.events[0].change, ContactChange::Closed);
     let kink = kink(&puncture);
@@ -38,7 +41,7 @@ fn the_stiffness_jumps_up_where_they_touch() {
 
 #[test]
 fn blocks_far_apart_do_not_touch() {
-    let puncture = solve(&design(1.0, 1.0, 0.0, Base::L), &finely(2));
+    let puncture = finely(&design(1.0, 1.0, 0.0, Base::L));
     assert_eq!(crate::complete(&puncture).first_contact_displacement, None);
     assert!(puncture.events.is_empty());
 }

@@ -3,13 +3,17 @@
 // Each of them takes what it needs.
 #![allow(dead_code)]
 
+use contact::Law;
 use skin::puncture::{self, Parameters, Puncture, RowLength};
-use skin::{Base, Design};
+use skin::{Base, Common, Design};
 use solver::Settings;
 use substrate::{Calibrations, Springs};
 
 /// Both meanings of the length of a scale.
 pub const BASES: [Base; 2] = [Base::L, Base::TwoL];
+
+/// Both readings of the contact law.
+pub const LAWS: [Law; 2] = [Law::PRINTED, Law::EXCHANGED];
 
 /// Aspect ratios of the reference study.
 const LENGTHS: [f64; 12] = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
@@ -96,6 +100,11 @@ pub fn random(count: usize, seed: u64) -> Vec<Design> {
         .collect()
 }
 
+/// Whether the long campaigns are asked for, as `scripts/check` does: `SQUAMA_CAMPAIGNS=long`.
+pub fn long_campaigns() -> bool {
+    std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
+}
+
 /// The generator of Steele, Lea & Flood 2014 (doi 10.1145/2660193.2660195).
 struct SplitMix64(u64);
 
@@ -111,13 +120,23 @@ impl SplitMix64 {
 }
 
 /// Steps fine enough to look at many points of a path.
-pub fn small_steps() -> Settings {
-    Settings { first_step: 0.01, max_step: 0.05, ..Settings::default() }
+pub fn in_small_steps() -> Common {
+    let solver = Settings { first_step: 0.01, max_step: 0.05, ..Settings::default() };
+    Common { solver, ..Common::default() }
 }
 
 /// The reference parameters on a row of this many scales.
 pub fn on_row(scales: usize) -> Parameters {
     Parameters { scales: RowLength::Scales(scales), ..Parameters::default() }
+}
+
+/// These settings with steps a tenth as long.
+pub fn finer(settings: Settings) -> Settings {
+    Settings {
+        first_step: settings.first_step / 10.0,
+        max_step: settings.max_step / 10.0,
+        ..settings
+    }
 }
 
 /// Springs under a design.
@@ -127,7 +146,22 @@ pub fn springs(design: &Design, parameters: &Parameters, known: &Calibrations) -
 
 /// Solves a design whose springs may be known.
 pub fn solve_with(known: &Calibrations, design: &Design, parameters: &Parameters) -> Puncture {
-    puncture::solve(design, &springs(design, parameters, known), parameters).unwrap()
+    solve_as(known, design, &Common::default(), parameters)
+}
+
+/// Solves a design whose springs may be known, with another contact law or other steps.
+pub fn solve_as(
+    known: &Calibrations,
+    design: &Design,
+    common: &Common,
+    parameters: &Parameters,
+) -> Puncture {
+    puncture::solve(design, &springs(design, parameters, known), common, parameters).unwrap()
+}
+
+/// A contact law, and steps as usual.
+pub fn with_law(law: Law) -> Common {
+    Common { law, ..Common::default() }
 }
 
 /// Solves a design.

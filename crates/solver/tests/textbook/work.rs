@@ -1,7 +1,7 @@
 //! What a path takes: how many points, and how many Newton iterations.
 //!
 //! A search that converges slowly, or a step that is cut for no reason, still leads to the same
-//! equilibria, and shows here alone. A change that makes the solver better changes these numbers.
+//! equilibria, and shows here alone. The counts are upper bounds: a change that makes the solver better lowers them.
 
 use std::sync::atomic::Ordering;
 
@@ -28,17 +28,26 @@ fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
     [points, iterations]
 }
 
+/// That each count is no more than what it once took: less is welcome.
+#[track_caller]
+fn assert_at_most(counts: &[usize], most: &[usize]) {
+    assert!(
+        counts.iter().zip(most).all(|(count, most)| count <= most),
+        "{counts:?}, at most {most:?}"
+    );
+}
+
 #[test]
 fn paths_with_extrema() {
-    assert_eq!(work(arch(), Settings::default()), [7, 40]);
-    assert_eq!(work(arch(), steps(0.3)), [5, 38]);
-    assert_eq!(work(Bratu::new(20), Settings::default()), [7, 41]);
+    assert_at_most(&work(arch(), Settings::default()), &[7, 40]);
+    assert_at_most(&work(arch(), steps(0.3)), &[5, 38]);
+    assert_at_most(&work(Bratu::new(20), Settings::default()), &[7, 41]);
 }
 
 #[test]
 fn paths_whose_control_parameter_turns() {
-    assert_eq!(work(arch_on_spring(), Settings::default()), [45, 411]);
-    assert_eq!(work(arch_on_spring(), steps(0.4)), [42, 432]);
+    assert_at_most(&work(arch_on_spring(), Settings::default()), &[45, 411]);
+    assert_at_most(&work(arch_on_spring(), steps(0.4)), &[42, 432]);
 }
 
 /// `p = tanh 4 (u − 0.6)` up to where it is steepest: the step is one of arc length, and goes past the target.
@@ -51,18 +60,18 @@ fn a_path_that_meets_its_target_slowly() {
     let rest = State::at_rest(&steep);
     let end = Path::new(steep.clone(), rest, steps(0.5)).last().unwrap();
     assert!((end.state.z[0] - 0.6).abs() < 1e-12, "{:?}", end.state.z);
-    assert_eq!(work(steep, steps(0.5)), [57, 163]);
+    assert_at_most(&work(steep, steps(0.5)), &[57, 163]);
 }
 
 #[test]
 fn paths_with_constraints() {
-    assert_eq!(work(bump(), Settings::default()), [8, 47]);
-    assert_eq!(work(bump(), steps(1.0)), [5, 23]);
-    assert_eq!(work(corner(), Settings::default()), [22, 155]);
-    assert_eq!(work(kink::<5>(), Settings::default()), [7, 11]);
-    assert_eq!(work(two_laws(), Settings::default()), [7, 12]);
-    assert_eq!(work(StringOverFloor::halved(40, 20.0), Settings::default()), [20, 37]);
-    assert_eq!(work(StringOverFloor::whole(20, 10.0), steps(0.5)), [9, 17]);
+    assert_at_most(&work(bump(), Settings::default()), &[8, 47]);
+    assert_at_most(&work(bump(), steps(1.0)), &[5, 23]);
+    assert_at_most(&work(corner(), Settings::default()), &[22, 155]);
+    assert_at_most(&work(kink::<5>(), Settings::default()), &[7, 11]);
+    assert_at_most(&work(two_laws(), Settings::default()), &[7, 12]);
+    assert_at_most(&work(StringOverFloor::halved(40, 20.0), Settings::default()), &[20, 37]);
+    assert_at_most(&work(StringOverFloor::whole(20, 10.0), steps(0.5)), &[9, 17]);
 }
 
 /// Evaluations of the quantity whose maximum is looked for.
@@ -89,9 +98,9 @@ fn maxima_between_points() {
     let mut tanh = step();
     tanh.equations = |z| vec![(4.0 * (z[0] - 0.6)).tanh() + 2.4_f64.tanh() - z[1]];
     let places = [0.13, 0.047, 0.017].map(|step| evaluations(tanh.clone(), step));
-    assert_eq!(places, [13, 19, 10]);
-    assert_eq!([0.1, 0.05, 0.011].map(|step| evaluations(kink::<5>(), step)), [18, 17, 12]);
-    assert_eq!([0.047, 0.031].map(|step| evaluations(two_laws(), step)), [12, 11]);
+    assert_at_most(&places, &[13, 19, 10]);
+    assert_at_most(&[0.1, 0.05, 0.011].map(|step| evaluations(kink::<5>(), step)), &[18, 17, 12]);
+    assert_at_most(&[0.047, 0.031].map(|step| evaluations(two_laws(), step)), &[12, 11]);
 }
 
 /// Walls that are met at one place are met at once, and not one after the other with a solve for each.

@@ -61,9 +61,8 @@ fn numbers_may_be_written_in_any_way_that_toml_knows() {
     );
     let case = sweep.grid().case(0);
     assert_eq!(case.puncture.scales, skin::puncture::RowLength::Scales(41));
-    assert_eq!(case.puncture.solver.max_points, 1000);
-    assert_eq!(case.puncture.law, contact::Law { c1: 2.0, c2: 0.23 });
-    assert_eq!((case.flexure.law, case.flexure.solver), (case.puncture.law, case.puncture.solver));
+    assert_eq!(case.common.solver.max_points, 1000);
+    assert_eq!(case.common.law, contact::Law { c1: 2.0, c2: 0.23 });
 }
 
 #[test]
@@ -74,10 +73,7 @@ fn settings_take_the_place_of_what_is_written() {
     let settings: Vec<_> = settings.map(|text| Setting::parse(text).expect("valid")).to_vec();
     let sweep = Sweep::parse(file, "x.toml", &settings).expect("valid");
     let case = sweep.grid().case(0);
-    assert_eq!(
-        (sweep.name(), case.design.base, case.puncture.law.c1),
-        ("y", skin::Base::TwoL, 3.0)
-    );
+    assert_eq!((sweep.name(), case.design.base, case.common.law.c1), ("y", skin::Base::TwoL, 3.0));
     assert_eq!(sweep.grid().len(), 1440);
     assert_eq!(sweep.measures(), [sweep::Measure::Coverage]);
 }
@@ -85,5 +81,5 @@ fn settings_take_the_place_of_what_is_written() {
 #[test]
 fn the_record_of_a_run_is_a_definition() {
     let text = "[run]\nversion = '1'\n[definition]\nname = 'x'\n[definition.contact]\nc1 = 2";
-    assert_eq!(sweep(text).grid().case(0).puncture.law.c1.to_bits(), 2.0_f64.to_bits());
+    assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }

@@ -1,15 +1,10 @@
-//! Whatever is read, nothing panics: definitions, settings and journals, random and nearly right.
+//! Whatever is read, nothing panics: definitions and settings, random and nearly right.
 //! `scripts/fuzz` runs these for as long as one likes.
-
-use std::fmt::Write as _;
-use std::io::Cursor;
-use std::path::Path;
-use std::sync::OnceLock;
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{Index, select};
-use sweep::{Archive, PARAMETERS, Setting, Sweep};
+use sweep::{PARAMETERS, Setting, Sweep};
 
 /// Section and key of a parameter.
 fn parameter() -> impl Strategy<Value = (&'static str, &'static str)> {
@@ -137,55 +132,6 @@ fn read(text: &str) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// The lines of a sound journal, without their checksums: a header, a session, designs.
-fn journal() -> &'static [String] {
-    static LINES: OnceLock<Vec<String>> = OnceLock::new();
-    LINES.get_or_init(|| {
-        let place = tempfile::tempdir().expect("a folder");
-        crate::journals::resume(place.path()).expect("a run");
-        let text = std::fs::read_to_string(place.path().join("journal.jsonl")).expect("text");
-        text.lines().take(8).map(|line| line[CHECKSUM..].to_owned()).collect()
-    })
-}
-
-/// Bytes of `{"crc":"01234567",`.
-const CHECKSUM: usize = 18;
-
-/// The journal with these contents, each line with the checksum that it must have.
-fn sealed(contents: &[String]) -> Vec<u8> {
-    let header: serde_json::Value =
-        serde_json::from_str(&format!("{{{}", contents[0])).unwrap_or_default();
-    let mut seal = crc32fast::Hasher::new();
-    for key in ["definition_sha256", "version", "revision"] {
-        seal.update(header["journal"][key].as_str().unwrap_or_default().as_bytes());
-    }
-    let mut text = String::new();
-    for (line, content) in contents.iter().enumerate() {
-        let mut hasher = if line == 0 { crc32fast::Hasher::new() } else { seal.clone() };
-        hasher.update(content.as_bytes());
-        let _ = writeln!(text, "{{\"crc\":\"{:08x}\",{content}", hasher.finalize());
-    }
-    text.into_bytes()
-}
-
-/// Reads a journal; what is refused is refused in one line that names its own.
-fn open(bytes: Vec<u8>) -> Result<(), TestCaseError> {
-    match Archive::read_from(Cursor::new(bytes), Path::new("journal.jsonl")) {
-        Ok(None) => {}
-        Ok(Some(archive)) => {
-            let missing: u64 = archive.missing().iter().map(|range| range.end - range.start).sum();
-            prop_assert_eq!(archive.done() + missing, archive.selection().len());
-        }
-        Err(error) => {
-            let error = error.to_string();
-            prop_assert_eq!(error.lines().count(), 1, "{}", error);
-            let line = error.strip_prefix("journal.jsonl:").and_then(|rest| rest.split(':').next());
-            prop_assert!(line.is_some_and(|line| line.parse::<u64>().is_ok()), "{}", error);
-        }
-    }
-    Ok(())
-}
-
 proptest! {
     #[test]
     fn definitions_of_random_words(words in vec(word(), 0..60)) {
@@ -213,48 +159,5 @@ proptest! {
         if let Ok(setting) = Setting::parse(&format!("{section}.{key}={value}")) {
             let _ = Sweep::parse("name = 'x'", "x.toml", &[setting]);
         }
-    }
-
-    #[test]
-    fn journals_of_random_bytes(bytes in vec(any::<u8>(), 0..200)) {
-        open(bytes)?;
-    }
-
-    #[test]
-    fn journals_that_were_damaged(
-        at: Index, length in 0..30_usize, piece in vec(any::<u8>(), 0..30)
-    ) {
-        let mut bytes = sealed(journal());
-        let at = at.index(bytes.len());
-        let end = (at + length).min(bytes.len());
-        bytes.splice(at..end, piece);
-        open(bytes)?;
-    }
-
-    /// The checksums are right, so that all else is read too.
-    #[test]
-    fn journals_that_somebody_has_written(
-        line: Index, at: Index, length in 0..12_usize, piece in "[-0-9a-z{}\\[\\]:,.\"\\\\]{0,12}"
-    ) {
-        let mut contents = journal().to_vec();
-        let line = line.index(contents.len());
-        let content = &mut contents[line];
-        let at = at.index(content.len());
-        let end = (at + length).min(content.len());
-        content.replace_range(at..end, &piece);
-        open(sealed(&contents))?;
-    }
-
-    #[test]
-    fn journals_with_numbers_that_nobody_expects(
-        line: Index, at: Index, number: u64, shift in 0..64_u32
-    ) {
-        let mut contents = journal().to_vec();
-        let line = line.index(contents.len());
-        let content = &mut contents[line];
-        let digits: Vec<_> = content.match_indices(|c: char| c.is_ascii_digit()).collect();
-        let at = digits[at.index(digits.len())].0;
-        content.replace_range(at..=at, &(number >> shift).to_string());
-        open(sealed(&contents))?;
     }
 }

@@ -3,26 +3,26 @@
 use membrane::{CorotationalBeam, Ends};
 use solver::{Control, Event, Path, Residual, Settings, State, Stop, System, Tangent};
 
-/// A joint of a frame.
+/// A node of a frame.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
+pub(super) struct FrameNode {
     pub(super) place: [f64; 2],
-    /// Which of `u_x`, `u_y`, `φ` is held.
+    /// Whether `u_x`, `u_y` and `φ` are held.
     pub(super) held: [bool; 3],
 }
 
-impl Node {
+impl FrameNode {
     pub(super) fn free(place: [f64; 2]) -> Self {
         Self { place, held: [false; 3] }
     }
 }
 
-/// What drives a frame along its path, and how far.
+/// The control parameter of a path of a frame, and its last value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Drive {
-    /// The loaded node sinks by this depth.
+    /// The depth by which the loaded node sinks.
     Depth(f64),
-    /// The load grows to this.
+    /// The load.
     Load(f64),
 }
 
@@ -30,18 +30,23 @@ pub(super) enum Drive {
 ///
 /// The unknowns are the displacements and rotations of the nodes, and the load behind those of the loaded one.
 #[derive(Clone, Debug)]
-pub(super) struct Frame {
-    nodes: Vec<Node>,
+pub(super) struct PlaneFrame {
+    nodes: Vec<FrameNode>,
     beams: Vec<CorotationalBeam>,
     loaded: usize,
     controls: [Control; 3],
     units: Vec<f64>,
 }
 
-impl Frame {
-    /// A frame of beams of axial stiffness `axial`. `None` if one of them has no length.
-    pub(super) fn new(nodes: Vec<Node>, axial: f64, loaded: usize, drive: Drive) -> Option<Self> {
-        let beam = |pair: &[Node]| {
+impl PlaneFrame {
+    /// Creates a frame of beams of axial stiffness `axial`; `None` if one of them has no length.
+    pub(super) fn new(
+        nodes: Vec<FrameNode>,
+        axial: f64,
+        loaded: usize,
+        drive: Drive,
+    ) -> Option<Self> {
+        let beam = |pair: &[FrameNode]| {
             let [from, to] = [pair[0].place, pair[1].place];
             CorotationalBeam::new((to[0] - from[0]).hypot(to[1] - from[1]), axial, 1.0).ok()
         };
@@ -60,7 +65,7 @@ impl Frame {
         3 * node + k + usize::from(node > self.loaded)
     }
 
-    /// Poses of the ends of a beam, and the unknowns that they are made of. A rotation is counted from the
+    /// Returns the poses of the ends of a beam, and the indices of their unknowns. A rotation is counted from the
     /// axis at rest.
     fn ends(&self, z: &[f64], beam: usize) -> (Ends, [usize; 6]) {
         let [from, to] = [self.nodes[beam].place, self.nodes[beam + 1].place];
@@ -74,7 +79,7 @@ impl Frame {
         self.nodes[beam + end / 3].held[end % 3]
     }
 
-    /// The path to where its drive ends, if it gets there.
+    /// Returns the path to the end of its drive; `None` if it stops before.
     pub(super) fn path(self, max_step: f64) -> Option<Vec<solver::Point>> {
         let settings = Settings { first_step: max_step, max_step, ..Settings::default() };
         let rest = State::at_rest(&self);
@@ -83,7 +88,7 @@ impl Frame {
         (path.stop() == Some(Stop::Reached)).then_some(points)
     }
 
-    /// The load at the first extremum of a path.
+    /// Returns the load at its first extremum along the path.
     pub(super) fn limit_load(self, max_step: f64) -> Option<f64> {
         let load = self.load();
         let points = self.path(max_step)?;
@@ -92,7 +97,7 @@ impl Frame {
     }
 }
 
-impl System for Frame {
+impl System for PlaneFrame {
     type Mode = ();
 
     fn size(&self) -> usize {
@@ -122,7 +127,7 @@ impl System for Frame {
                 residual.add(row, force[k]);
             }
         }
-        for (node, Node { held, .. }) in self.nodes.iter().enumerate() {
+        for (node, FrameNode { held, .. }) in self.nodes.iter().enumerate() {
             for k in (0..3).filter(|&k| held[k]) {
                 let row = self.unknown(node, k);
                 residual.add(row, self.units[row] * z[row]);
@@ -141,7 +146,7 @@ impl System for Frame {
                 }
             }
         }
-        for (node, Node { held, .. }) in self.nodes.iter().enumerate() {
+        for (node, FrameNode { held, .. }) in self.nodes.iter().enumerate() {
             for k in (0..3).filter(|&k| held[k]) {
                 let row = self.unknown(node, k);
                 matrix.add(row, row, self.units[row]);

@@ -5,18 +5,19 @@ use skin::flexure::{self, Flexure};
 use super::finding::{Finding, digits, named};
 use super::puncture::{GAP, LENGTH, SLANT, all_lines, in_figures};
 use super::statistics::{falls, lines, share};
-use crate::study::{Design, Study};
+use crate::study::{MeasuredDesign, Study};
 
 fn bent(study: &Study, gap: f64, length: f64, slant_deg: f64, strip: f64) -> Option<Flexure> {
     let case = study.base;
     let design = skin::Design { gap, length, slant_deg, ..case.design };
     let mut parameters = case.flexure;
     parameters.membrane_length = strip;
-    parameters.solver.max_step = 0.002;
-    flexure::solve(&design, &parameters).ok()
+    let mut common = case.common;
+    common.solver.max_step = 0.002;
+    flexure::solve(&design, &common, &parameters).ok()
 }
 
-/// A short strip of cubes, which touch, as in the experiment of Fig. 10.
+/// The length of the strip, over `t`: that of the experiment of Fig. 10, on which the cubes touch.
 const STRIP: f64 = 10.0;
 
 pub(super) fn axial_energy(study: &Study) -> Option<Finding> {
@@ -31,7 +32,7 @@ pub(super) fn axial_energy(study: &Study) -> Option<Finding> {
     Some(Finding::is(before < 1e-3 && after > 0.1, ours))
 }
 
-/// The slope of the moment at twice the curvature of the first contact over the largest slope before.
+/// Returns the slope of the moment at twice the curvature of the first contact over the largest slope before.
 fn falls_to(flexure: &Flexure) -> Option<f64> {
     let end = 2.0 * flexure.measures.first_contact_curvature?;
     let points = flexure.path.iter().filter(|point| point.contacts > 0 && point.curvature <= end);
@@ -52,21 +53,22 @@ pub(super) fn softening(study: &Study) -> Option<Finding> {
 }
 
 pub(super) fn loss_of_compliance(study: &Study) -> Option<Finding> {
-    let loss = |d: &Design| Some(d.initial_compliance? / d.compliance?);
+    let loss = |d: &MeasuredDesign| Some(d.initial_compliance? / d.compliance?);
     let (design, loss) = study.largest(|d| in_figures(d) && d.bends_to_contact, loss)?;
     let (within, near) = ((300.0..3000.0).contains(&loss), (30.0..30_000.0).contains(&loss));
     Some(Finding::graded(within, near, format!("{} at {}", digits(loss), named(design))))
 }
 
-/// The most compliant design of a slant: of all, and of those that touch.
-fn most_compliant_at(study: &Study, slant: f64) -> [Option<&Design>; 2] {
-    let of_slant = |d: &Design| in_figures(d) && d.slant == slant;
+/// Returns the most compliant design of a slant: of all, and of those that touch.
+fn most_compliant_at(study: &Study, slant: f64) -> [Option<&MeasuredDesign>; 2] {
+    let of_slant = |d: &MeasuredDesign| in_figures(d) && d.slant == slant;
     let all = study.largest(of_slant, |d| d.compliance);
     let touching = study.largest(|d| of_slant(d) && d.bends_to_contact, |d| d.compliance);
     [all, touching].map(|found| Some(found?.0))
 }
 
-/// The paper seems to speak of the designs that touch; it counts if either reading agrees.
+/// Compares the most compliant designs with the printed ones. The paper seems to speak of the designs that touch; a
+/// design counts if either reading agrees.
 fn most_compliant_as_printed(study: &Study, printed: [(f64, f64, f64); 2]) -> Option<Finding> {
     let (mut agree, mut ours) = (0, Vec::new());
     for (slant, gap, length) in printed {

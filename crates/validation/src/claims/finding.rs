@@ -1,17 +1,17 @@
-//! What comes out of a check.
+//! The verdict on a claim, and the value that it rests on.
 
 use std::fmt;
 
-use crate::study::Design;
+use crate::study::MeasuredDesign;
 
-/// Whether a claim is reproduced.
+/// The verdict on a claim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Yes.
+    /// The claim holds.
     Reproduced,
-    /// In part.
+    /// The claim holds in part.
     InPart,
-    /// No.
+    /// The claim does not hold.
     NotReproduced,
 }
 
@@ -25,22 +25,22 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// What was found where the paper claims something.
+/// The result of the check of a claim.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// Whether it is what the paper says.
+    /// Whether the paper's claim holds.
     pub verdict: Verdict,
-    /// The number, or the design.
+    /// The number or the design that was found.
     pub ours: String,
 }
 
 impl Finding {
-    /// Reproduced or not.
+    /// Creates a finding that is reproduced or not.
     pub(crate) fn is(reproduced: bool, ours: impl Into<String>) -> Self {
         Self::graded(reproduced, reproduced, ours)
     }
 
-    /// Reproduced, or if not perhaps in part.
+    /// Creates a finding that is reproduced, or if not perhaps in part.
     pub(crate) fn graded(reproduced: bool, in_part: bool, ours: impl Into<String>) -> Self {
         let verdict = match (reproduced, in_part) {
             (true, _) => Verdict::Reproduced,
@@ -50,19 +50,19 @@ impl Finding {
         Self { verdict, ours: ours.into() }
     }
 
-    /// A number that the paper reports as `reported`: reproduced within a tenth, in part within three.
+    /// Creates a finding from a number that the paper reports as `reported`: reproduced within 10 %, in part within 30 %.
     pub(crate) fn number(ours: f64, reported: f64) -> Self {
         let off = (ours / reported - 1.0).abs();
         Self::graded(off <= 0.1, off <= 0.3, digits(ours))
     }
 
-    /// Nothing was found: the designs have not been solved.
+    /// Creates the finding of a check whose designs have not been solved.
     pub(crate) fn nothing() -> Self {
         Self { verdict: Verdict::NotReproduced, ours: "no value".to_owned() }
     }
 }
 
-/// A number with four significant digits.
+/// Formats a number with four significant digits.
 pub(crate) fn digits(number: f64) -> String {
     let size = number.abs();
     if size == 0.0 {
@@ -75,7 +75,7 @@ pub(crate) fn digits(number: f64) -> String {
     }
 }
 
-/// The parameters of a design.
-pub(crate) fn named(design: &Design) -> String {
+/// Formats the parameters of a design.
+pub(crate) fn named(design: &MeasuredDesign) -> String {
     format!("({}, {}, {}°)", design.gap, design.length, design.slant)
 }

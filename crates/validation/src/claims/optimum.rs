@@ -1,14 +1,14 @@
 //! Claims about the best designs.
 
-use sweep::{Ranking, TetrahedralGrid, Weights};
+use ranking::{Ranking, TetrahedralGrid, Weights};
 
 use super::finding::{Finding, digits, named};
-use crate::study::{Design, Study};
+use crate::study::{MeasuredDesign, Study};
 
-/// A share of the weights that is called wide.
+/// The share of the weights from which "a wide range" (C29) holds: a fifth.
 const WIDE: f64 = 0.2;
 
-fn covers(design: &Design) -> bool {
+fn covers(design: &MeasuredDesign) -> bool {
     design.coverage > Some(0.0)
 }
 
@@ -29,8 +29,8 @@ pub(super) fn largest_force(study: &Study) -> Option<Finding> {
     Some(Finding::is(agrees, format!("{}, F_c* = {}", named(design), digits(force))))
 }
 
-/// The best design with equal weights, and the share of the weights that it wins.
-pub(crate) fn balanced_optimum(study: &Study) -> Option<(&Design, f64)> {
+/// Returns the best design with equal weights, and the share of the weights that it wins.
+pub(crate) fn balanced_optimum(study: &Study) -> Option<(&MeasuredDesign, f64)> {
     let ranking = Ranking::new(&study.results, TetrahedralGrid::default()).ok()?;
     let winner = ranking.winner(Weights::BALANCED);
     Some((study.designs.get(winner.row())?, winner.share()))

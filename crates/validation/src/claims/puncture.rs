@@ -6,19 +6,20 @@ use substrate::RowStiffness;
 use sweep::Case;
 
 use super::finding::{Finding, digits, named};
-use super::statistics::{Parameter, Value, explained, falls, lines, rises, share};
-use crate::study::{Design, Study};
+use super::statistics::{DesignParameter, DesignValue, explained, falls, lines, rises, share};
+use crate::study::{MeasuredDesign, Study};
 
-/// A scale carries a part of the load if it carries at least this much of it.
+/// The part of the load from which a scale counts as carrying it. The paper gives none; 5 % leaves out the wide shallow bowl
+/// of reactions around the load.
 const CARRIES: f64 = 0.05;
 
-pub(super) const GAP: Parameter = |design| design.gap;
-pub(super) const LENGTH: Parameter = |design| design.length;
-pub(super) const SLANT: Parameter = |design| design.slant;
-const FORCE: Value = |design| design.critical_force;
+pub(super) const GAP: DesignParameter = |design| design.gap;
+pub(super) const LENGTH: DesignParameter = |design| design.length;
+pub(super) const SLANT: DesignParameter = |design| design.slant;
+const FORCE: DesignValue = |design| design.critical_force;
 
-/// The designs of the figures: those of the study but for the smallest aspect ratios.
-pub(super) fn in_figures(design: &Design) -> bool {
+/// Returns whether the figures show a design: they leave out the smallest aspect ratios.
+pub(super) fn in_figures(design: &MeasuredDesign) -> bool {
     design.length >= 0.1
 }
 
@@ -53,8 +54,11 @@ pub(super) fn steep_scales_touch_first(study: &Study) -> Option<Finding> {
     Some(Finding::is(steep < flat.min(slanted), ours))
 }
 
-/// A value for each of several designs of the study.
-fn along<const N: usize>(designs: [Option<&Design>; N], value: Value) -> Option<Vec<f64>> {
+/// Returns the value of each design; `None` if one lacks it.
+fn along<const N: usize>(
+    designs: [Option<&MeasuredDesign>; N],
+    value: DesignValue,
+) -> Option<Vec<f64>> {
     designs.into_iter().map(|design| value(design?)).collect()
 }
 
@@ -62,7 +66,7 @@ fn listed(values: &[f64]) -> String {
     values.iter().map(|value| digits(*value)).collect::<Vec<_>>().join(", ")
 }
 
-fn by_slant(study: &Study, value: Value) -> Option<Vec<f64>> {
+fn by_slant(study: &Study, value: DesignValue) -> Option<Vec<f64>> {
     let designs = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0].map(|slant| study.design(0.1, 1.0, slant));
     along(designs, value)
 }
@@ -79,7 +83,7 @@ pub(super) fn stiffness_by_slant(study: &Study) -> Option<Finding> {
     Some(Finding::graded(rises(&values), rises(&drawn), listed(&values)))
 }
 
-/// A design of the study with what else it is solved with.
+/// Returns a design with the other parameters of the study.
 fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
     let mut case = study.base;
     case.design = skin::Design { gap, length, slant_deg: slant, ..case.design };
@@ -87,14 +91,14 @@ fn case(study: &Study, gap: f64, length: f64, slant: f64) -> Case {
 }
 
 fn substrate(case: &Case) -> Option<RowStiffness> {
-    RowStiffness::of(&sweep::footprint(case)?, case.coupling).ok()
+    RowStiffness::of(&case.footprint().ok()?, case.coupling).ok()
 }
 
 fn punctured(case: &Case) -> Option<Puncture> {
-    puncture::solve(&case.design, &substrate(case)?, &case.puncture).ok()
+    puncture::solve(&case.design, &substrate(case)?, &case.common, &case.puncture).ok()
 }
 
-/// Mean stiffness of the step behind the first contact over that of the step before it.
+/// Returns the mean stiffness of the step behind the first contact over that of the step before it.
 fn kink(puncture: &Puncture) -> Option<f64> {
     let first = puncture.path.iter().position(|point| point.contacts > 0)?;
     let stiffness = |at: usize| {
@@ -105,14 +109,16 @@ fn kink(puncture: &Puncture) -> Option<f64> {
 }
 
 fn finely(mut case: Case) -> Case {
-    case.puncture.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
+    case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
     case
 }
 
 pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
     let case = finely(case(study, 0.1, 1.0, 0.0));
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = puncture::snapshots(&case.design, &substrate(&case)?, &case.puncture, &at).ok()?;
+    let solved =
+        puncture::snapshots(&case.design, &substrate(&case)?, &case.common, &case.puncture, &at)
+            .ok()?;
     let contacts = &solved.at.first()?.as_ref()?.contacts;
     let strongest = contacts
         .iter()
@@ -126,7 +132,7 @@ pub(super) fn unslanted_contact(study: &Study) -> Option<Finding> {
 
 pub(super) fn stiffness_by_length(study: &Study) -> Option<Finding> {
     let designs = study.designs.iter().filter(|d| (d.gap, d.slant) == (0.1, 45.0) && in_figures(d));
-    let per_length = |d: &Design| Some(d.max_stiffness? / d.length);
+    let per_length = |d: &MeasuredDesign| Some(d.max_stiffness? / d.length);
     let line = lines(designs, LENGTH, [GAP, SLANT], per_length).pop()?;
     // As Fig. 6d draws it: dF*/du* = (1 − ν²) K*/(L/t).
     let plane = 1.0 - study.base.puncture.poisson_ratio.powi(2);
@@ -135,7 +141,7 @@ pub(super) fn stiffness_by_length(study: &Study) -> Option<Finding> {
 }
 
 pub(super) fn stiffness_by_gap(study: &Study) -> Option<Finding> {
-    let line: Vec<&Design> =
+    let line: Vec<&MeasuredDesign> =
         study.designs.iter().filter(|d| (d.length, d.slant) == (0.5, 45.0)).collect();
     let stiffness: Option<Vec<f64>> = line.iter().map(|d| d.initial_stiffness).collect();
     // Large gaps have no contact.
@@ -149,7 +155,7 @@ pub(super) fn stiffness_by_gap(study: &Study) -> Option<Finding> {
     Some(Finding::graded(constant && later, constant || later, ours))
 }
 
-/// A share of lines that should be all of them.
+/// Creates a finding from the share of the lines that show a trend: all, or in part at least 80 %.
 pub(super) fn all_lines(share: f64) -> Finding {
     Finding::graded(share >= 1.0, share >= 0.8, format!("{:.1} %", 100.0 * share))
 }
@@ -159,7 +165,7 @@ pub(super) fn force_by_gap(study: &Study) -> Option<Finding> {
     (!lines.is_empty()).then(|| all_lines(share(&lines, falls)))
 }
 
-fn at_the_corner(design: &Design) -> bool {
+fn at_the_corner(design: &MeasuredDesign) -> bool {
     (design.gap, design.length, design.slant) == (0.1, 0.1, 75.0)
 }
 
@@ -173,9 +179,9 @@ pub(super) fn largest_force_value(study: &Study) -> Option<Finding> {
 }
 
 pub(super) fn force_and_stiffness(study: &Study) -> Option<Finding> {
-    let pair = |d: &Design| Some([d.max_stiffness?, d.critical_force?]);
+    let pair = |d: &MeasuredDesign| Some([d.max_stiffness?, d.critical_force?]);
     let pairs: Vec<_> = study.designs.iter().filter(|d| in_figures(d)).filter_map(pair).collect();
-    let rank = sweep::rank_correlation(&pairs)?;
+    let rank = ranking::rank_correlation(&pairs)?;
     Some(Finding::graded(rank > 0.8, rank > 0.5, format!("{rank:.3}")))
 }
 
@@ -199,7 +205,7 @@ pub(super) fn strongest_parameter(study: &Study) -> Option<Finding> {
     Some(Finding::is(slant > gap.max(length), ours))
 }
 
-/// Scales that carry a part of the load at the critical tilt.
+/// Returns the number of scales that carry a part of the load at the critical tilt.
 fn carriers(study: &Study, slant: f64) -> Option<usize> {
     let puncture = punctured(&case(study, 0.1, 1.0, slant))?;
     let load: f64 = puncture.scales.iter().map(|scale| scale.reaction).sum();

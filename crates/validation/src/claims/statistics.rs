@@ -2,20 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::study::Design;
+use crate::study::MeasuredDesign;
 
-/// A parameter of the grid.
-pub(crate) type Parameter = fn(&Design) -> f64;
+/// A parameter of a design.
+pub(crate) type DesignParameter = fn(&MeasuredDesign) -> f64;
 /// A value of a design, if it has one.
-pub(crate) type Value = fn(&Design) -> Option<f64>;
+pub(crate) type DesignValue = fn(&MeasuredDesign) -> Option<f64>;
 
-/// Values along a line of designs that differ in one parameter, ordered by it; lines without a value
+/// Returns the values along each line of designs that differ in one parameter, ordered by it. Lines without a value
 /// somewhere are left out.
 pub(crate) fn lines<'d>(
-    designs: impl Iterator<Item = &'d Design>,
-    along: Parameter,
-    fixed: [Parameter; 2],
-    value: Value,
+    designs: impl Iterator<Item = &'d MeasuredDesign>,
+    along: DesignParameter,
+    fixed: [DesignParameter; 2],
+    value: DesignValue,
 ) -> Vec<Vec<f64>> {
     let mut lines = BTreeMap::<[u64; 2], Vec<(f64, Option<f64>)>>::new();
     for design in designs {
@@ -30,24 +30,24 @@ pub(crate) fn lines<'d>(
     ordered.flatten().collect()
 }
 
-/// Whether values fall from each to the next.
+/// Returns whether values fall from each to the next.
 pub(crate) fn falls(line: &[f64]) -> bool {
     line.windows(2).all(|pair| pair[1] < pair[0])
 }
 
-/// Whether values rise from each to the next.
+/// Returns whether values rise from each to the next.
 pub(crate) fn rises(line: &[f64]) -> bool {
     line.windows(2).all(|pair| pair[1] > pair[0])
 }
 
-/// The part of the lines of which something holds.
+/// Returns the part of the lines for which `holds` is true.
 pub(crate) fn share(lines: &[Vec<f64>], holds: fn(&[f64]) -> bool) -> f64 {
     lines.iter().filter(|line| holds(line)).count() as f64 / lines.len() as f64
 }
 
-/// The part of the variance of `value` that a parameter alone explains: the variance of the means over
+/// Returns the part of the variance of a value that a parameter alone explains: the variance of the means over
 /// all designs that share a value of it (the first-order effect, Sobol 1993).
-pub(crate) fn explained(designs: &[(&Design, f64)], parameter: Parameter) -> f64 {
+pub(crate) fn explained(designs: &[(&MeasuredDesign, f64)], parameter: DesignParameter) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let mut groups = BTreeMap::<u64, Vec<f64>>::new();
     for (design, value) in designs {

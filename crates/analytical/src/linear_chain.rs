@@ -1,0 +1,53 @@
+//! A row of scales that the substrate couples, before the first contact.
+//!
+//! Without contact each of the displacements `y` and the rotations `φ` of a row obeys a tridiagonal system of its own,
+//! `α u_i − β (u_{i−1} + u_{i+1}) = f_i` (Eq. 1 of Shafiei et al. 2021, doi 10.1016/j.jmps.2020.104176).
+
+/// Displacements for a unit load on the middle one of a row of scales: entries of its Green's function.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// Displacement of the middle scale itself.
+    pub middle: f64,
+    /// Displacement of either nearest neighbour.
+    pub neighbour: f64,
+}
+
+/// Returns the compliance of the middle of a row of `scales` (an odd number, at least 3) with the stiffness `direct` of
+/// each and the `coupling` of neighbours, by the Thomas algorithm.
+pub fn compliance(scales: usize, direct: f64, coupling: f64) -> Compliance {
+    let middle = scales / 2;
+    let (mut above, mut right) = (vec![0.0; scales], vec![0.0; scales]);
+    for i in 0..scales {
+        let [c, r] = if i > 0 { [above[i - 1], right[i - 1]] } else { [0.0; 2] };
+        let pivot = direct + coupling * c;
+        above[i] = -coupling / pivot;
+        right[i] = (f64::from(u8::from(i == middle)) + coupling * r) / pivot;
+    }
+    let mut u = right;
+    for i in (0..scales - 1).rev() {
+        u[i] -= above[i] * u[i + 1];
+    }
+    Compliance { middle: u[middle], neighbour: u[middle + 1] }
+}
+
+/// Returns the compliance of the middle of an endless row: `r^|i|/√(α² − 4β²)` with `β (r + 1/r) = α`, for
+/// `α > 2 |β| > 0`.
+pub fn endless(direct: f64, coupling: f64) -> Compliance {
+    let root = (direct * direct - 4.0 * coupling * coupling).sqrt();
+    let decay = (direct - root) / (2.0 * coupling);
+    Compliance { middle: 1.0 / root, neighbour: decay / root }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{compliance, endless};
+
+    #[test]
+    fn a_long_row_is_endless_in_its_middle() {
+        for (direct, coupling) in [(3.376, 1.082), (2.473, -0.428)] {
+            let (long, limit) = (compliance(201, direct, coupling), endless(direct, coupling));
+            assert!((long.middle - limit.middle).abs() < 1e-14, "{long:?} {limit:?}");
+            assert!((long.neighbour - limit.neighbour).abs() < 1e-14, "{long:?} {limit:?}");
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Rigid strips on an elastic half-plane: the limit of long rectangles.
+//!
+//! In plane strain `u_y' = −2/(π E*) ∫ p ln|x − ξ| dξ + const`. With `p = Σ aₙ Tₙ(τ)/√(1 − τ²)` on each
+//! strip, `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` is `−(π/n) Tₙ(t)` on the strip and `−(π/n) wⁿ` off it,
+//! `w = t − sgn t √(t² − 1)` (N. I. Muskhelishvili, *Singular Integral Equations*, Noordhoff 1953). The rotation is odd
+//! in `x`, so nothing depends on the constant, and the end effects of a long rectangle stay at its ends.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+/// The moment per length that a unit rotation of a strip of half-width 1 needs, if it is alone: `π/4` (`E* = 1`).
+pub const ALONE: f64 = 0.25 * PI;
+
+/// Moments per length when the middle one of three strips is turned by a unit and the others are held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rocking {
+    /// `α_φ`: moment on the middle strip.
+    pub direct: f64,
+    /// `β_φ`: moment on a neighbour, with the sign of Eq. (1) of Shafiei et al. (2021).
+    pub coupling: f64,
+}
+
+/// Returns `α_φ` and `β_φ` per length of three strips of half-width 1 at gaps `gap`, from `2 terms` Chebyshev
+/// polynomials on each; `None` if the equations are singular.
+pub fn three_strips(gap: f64, terms: usize) -> Option<Rocking> {
+    let centre = 2.0 + gap;
+    let point = |k: usize, n: usize| (PI * (k as f64 + 0.5) / n as f64).cos();
+    // The positive half of the middle strip, then the right strip.
+    let x = |i: usize| {
+        if i < terms { point(i, 2 * terms) } else { centre + point(i - terms, 2 * terms) }
+    };
+    let potential = |i: usize, j: usize| {
+        let odd = |n: usize, x: f64| log_potential(n, x - centre) - log_potential(n, -x - centre);
+        let x = x(i);
+        -2.0 / PI * if j < terms { log_potential(2 * j + 1, x) } else { odd(j - terms, x) }
+    };
+    let size = 3 * terms;
+    let displacement = DVector::from_fn(size, |i, _| if i < terms { x(i) } else { 0.0 });
+    let loads = DMatrix::from_fn(size, size, potential).lu().solve(&displacement)?;
+    // ∫ τ T₁(τ)/√(1 − τ²) = π/2.
+    Some(Rocking { direct: 0.5 * PI * loads[0], coupling: -0.5 * PI * loads[terms + 1] })
+}
+
+/// Returns `∫ Tₙ(τ)/√(1 − τ²) ln|t − τ| dτ` over `−1 … 1`.
+fn log_potential(n: usize, t: f64) -> f64 {
+    let order = n as f64;
+    match (n, t.abs() <= 1.0) {
+        (0, true) => -PI * 2_f64.ln(),
+        (0, false) => PI * (0.5 * (t.abs() + (t * t - 1.0).sqrt())).ln(),
+        (_, true) => -PI / order * (order * t.acos()).cos(),
+        (_, false) => -PI / order * (t - t.signum() * (t * t - 1.0).sqrt()).powf(order),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ALONE, three_strips};
+
+    #[test]
+    fn the_series_has_converged() {
+        let [coarse, fine] = [20, 40].map(|terms| three_strips(0.05, terms).unwrap());
+        assert!((coarse.direct - fine.direct).abs() < 1e-6);
+        assert!((coarse.coupling - fine.coupling).abs() < 1e-6);
+    }
+
+    #[test]
+    fn strips_far_apart_are_alone() {
+        let far = three_strips(1e4, 8).unwrap();
+        assert!((far.direct - ALONE).abs() < 1e-6 && far.coupling.abs() < 1e-6);
+    }
+}

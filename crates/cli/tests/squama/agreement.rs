@@ -1,0 +1,181 @@
+//! Whether two pages say the same: their words agree, and so do their numbers as far as they are known.
+//!
+//! A number that was computed is written with a point and three digits or more, or with a point and an exponent. The last
+//! digit of such a number may differ by one, because machines differ in how they round. All other numbers name something
+//! (designs, settings, bands, years) or count something, and are equal.
+
+use std::iter::{from_fn, zip};
+
+/// A piece of a line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Piece<'t> {
+    Words(&'t str),
+    Number(Number<'t>),
+}
+
+/// A number as it is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Number<'t> {
+    text: &'t str,
+    value: f64,
+    /// Digits behind the point.
+    decimals: usize,
+    /// Digits from the first that is not zero.
+    significant: usize,
+    exponent: Option<i32>,
+}
+
+impl<'t> Number<'t> {
+    fn new(text: &'t str) -> Self {
+        let (mantissa, exponent) = match text.split_once('e') {
+            Some((mantissa, exponent)) => (mantissa, Some(exponent.parse().expect("an exponent"))),
+            None => (text, None),
+        };
+        let digits: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+        Self {
+            text,
+            value: text.parse().expect("a number"),
+            decimals: mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len()),
+            significant: digits.trim_start_matches('0').len(),
+            exponent,
+        }
+    }
+
+    fn computed(&self) -> bool {
+        self.decimals > 0 && (self.exponent.is_some() || self.significant >= 3)
+    }
+
+    /// One in the last digit.
+    fn unit(&self) -> f64 {
+        10_f64.powi(self.exponent.unwrap_or(0) - self.decimals as i32)
+    }
+
+    fn agrees(&self, other: &Self) -> bool {
+        if !(self.computed() && other.computed()) {
+            return self.text == other.text;
+        }
+        let alike = self.decimals == other.decimals || self.significant == other.significant;
+        let apart = (self.value - other.value).abs();
+        // Half a unit more for what the difference of two decimal fractions is rounded to.
+        alike && apart < 1.5 * self.unit().max(other.unit())
+    }
+}
+
+/// Length of the number that `text` begins with, zero if it begins with none.
+fn number_length(text: &str) -> usize {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let whole = digits(&text[sign..]);
+    if whole == 0 {
+        return 0;
+    }
+    let mut length = sign + whole;
+    if let Some(rest) = text[length..].strip_prefix('.') {
+        let decimals = digits(rest);
+        length += if decimals > 0 { 1 + decimals } else { 0 };
+    }
+    if let Some(rest) = text[length..].strip_prefix('e') {
+        let sign = usize::from(rest.starts_with(['+', '-']));
+        let exponent = digits(&rest[sign..]);
+        length += if exponent > 0 { 1 + sign + exponent } else { 0 };
+    }
+    length
+}
+
+fn pieces(mut line: &str) -> impl Iterator<Item = Piece<'_>> {
+    from_fn(move || {
+        let length = number_length(line);
+        let (piece, rest) = if length > 0 {
+            (Piece::Number(Number::new(&line[..length])), &line[length..])
+        } else {
+            let next =
+                line.char_indices().map(|(at, _)| at).find(|&at| number_length(&line[at..]) > 0);
+            let (words, rest) = line.split_at(next.unwrap_or(line.len()));
+            (Piece::Words(words), rest)
+        };
+        (!line.is_empty()).then(|| line = rest).map(|()| piece)
+    })
+}
+
+fn lines_agree(ours: &str, theirs: &str) -> bool {
+    let (ours, theirs): (Vec<_>, Vec<_>) = (pieces(ours).collect(), pieces(theirs).collect());
+    ours.len() == theirs.len()
+        && zip(&ours, &theirs).all(|pair| match pair {
+            (Piece::Number(ours), Piece::Number(theirs)) => ours.agrees(theirs),
+            (ours, theirs) => ours == theirs,
+        })
+}
+
+/// The first line in which two pages disagree, of both of them.
+pub fn disagreement<'t>(ours: &'t str, theirs: &'t str) -> Option<[&'t str; 2]> {
+    let (mut one, mut other) = (ours.lines(), theirs.lines());
+    loop {
+        match (one.next(), other.next()) {
+            (None, None) => return None,
+            (Some(ours), Some(theirs)) if lines_agree(ours, theirs) => {}
+            (ours, theirs) => return Some([ours.unwrap_or(""), theirs.unwrap_or("")]),
+        }
+    }
+}
+
+#[test]
+fn words_and_numbers_are_told_apart() {
+    let texts: Vec<_> = pieces("| C08 | -3.4e-5 | (0.1, 45°), M = 16820. | 2L |")
+        .map(|piece| match piece {
+            Piece::Words(words) => words,
+            Piece::Number(number) => number.text,
+        })
+        .collect();
+    let expected = [
+        "| C",
+        "08",
+        " | ",
+        "-3.4e-5",
+        " | (",
+        "0.1",
+        ", ",
+        "45",
+        "°), M = ",
+        "16820",
+        ". | ",
+        "2",
+        "L |",
+    ];
+    assert_eq!(texts, expected);
+}
+
+#[test]
+fn the_last_digit_of_what_was_computed_may_differ_by_one() {
+    for (one, other) in [
+        ("| 2.30452 |", "| 2.30453 |"),
+        ("| +2.5e-8 |", "| +2.4e-8 |"),
+        ("| +1.0e-3 |", "| +9.9e-4 |"),
+        ("**reproduced**: 0.9999, 13.3 %", "**reproduced**: 1.0000, 13.4 %"),
+        ("9.999", "10.00"),
+    ] {
+        assert_eq!(disagreement(one, other), None);
+    }
+}
+
+#[test]
+fn all_else_is_a_disagreement() {
+    for (one, other) in [
+        ("| 2.30452 |", "| 2.30454 |"),
+        ("| 2.30452 |", "| 2.3045 |"),
+        ("| +2.5e-8 |", "| -2.5e-8 |"),
+        ("| +2.5e-8 |", "| +2.5e-7 |"),
+        ("**reproduced**: 0.9000", "in part: 0.9000"),
+        ("best at (0.1, 0.9, 45°)", "best at (0.1, 0.8, 45°)"),
+        ("best at (1, 0.025, 75°)", "best at (1, 0.026, 75°)"),
+        ("18 reproduced, 8 in part", "17 reproduced, 9 in part"),
+        ("| 1e-4 |", "| 2e-4 |"),
+        ("Mattiasson 1981", "Mattiasson 1982"),
+        ("× 16820", "× 16821"),
+        ("| < 1e-9 |", "| +1.0e-9 |"),
+        ("one line", "one line\nand another"),
+        ("one line\nand another", "one line"),
+        ("| 1.00 | |", "| 1.00 |"),
+    ] {
+        assert!(disagreement(one, other).is_some(), "{one} {other}");
+    }
+}

@@ -1,0 +1,28 @@
+//! `--png`: images of drawings, which a squama can make or not, as it is built.
+
+use crate::{FEW, Place};
+
+const DRAW: &str = "draw x.toml --design 1 --png --out y";
+
+#[cfg(feature = "png")]
+#[test]
+fn each_drawing_has_an_image() {
+    let place = Place::with(FEW);
+    let printed = place.prints(DRAW);
+    let images: Vec<_> = printed.lines().filter(|line| line.ends_with(".png")).collect();
+    assert!(!images.is_empty(), "{printed}");
+    for image in images {
+        let drawing = place.path(image.replace(".png", ".svg"));
+        assert!(drawing.is_file(), "{}", drawing.display());
+        let bytes = std::fs::read(place.path(image)).expect("an image");
+        assert!(bytes.starts_with(b"\x89PNG"), "{image}");
+    }
+}
+
+#[cfg(not(feature = "png"))]
+#[test]
+fn who_is_built_without_images_says_how_to_have_them() {
+    let place = Place::with(FEW);
+    insta::assert_snapshot!(place.refused(DRAW), @"error: --png: this squama was built without images, expected one that is built with them: cargo run --release --features png -- followed by the same arguments");
+    assert_eq!(place.list("y"), "", "nothing is written");
+}

@@ -1,0 +1,289 @@
+//! The comparison of two runs: where they differ, and by how much.
+
+mod columns;
+mod correlation;
+mod matching;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rayon::prelude::*;
+use results::columns::parameter_of;
+use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
+use sweep::Parameter;
+
+use matching::Matching;
+
+pub use columns::{comparison_columns, difference_columns};
+pub use correlation::rank_correlation;
+pub use matching::ParameterChange;
+
+/// Two runs, design by design.
+#[derive(Clone, Debug)]
+pub struct Comparison<'r> {
+    first: &'r Results,
+    second: &'r Results,
+    tolerance: f64,
+    matching: Matching,
+    /// Columns of both, with their places in the one and in the other.
+    places: Vec<[usize; 2]>,
+    /// The differences in each column that both runs have.
+    pub columns: Vec<ColumnDifference>,
+}
+
+/// Runs that cannot be compared.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidComparison {
+    /// One of them cannot be read.
+    #[error(transparent)]
+    Results(#[from] InvalidResults),
+    /// Designs that only differ in something that the other run says nothing about.
+    #[error(
+        "{file}: designs {first} and {second} differ in nothing that both runs know, expected a \
+         run.toml beside each table"
+    )]
+    Ambiguous {
+        /// The table.
+        file: String,
+        /// A design.
+        first: String,
+        /// Another one.
+        second: String,
+    },
+}
+
+/// The differences between the values of one column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ColumnDifference {
+    /// The column.
+    pub name: String,
+    /// Designs that have a value in both runs.
+    pub compared: usize,
+    /// Those whose values differ by more than the tolerance.
+    pub differing: usize,
+    /// Designs that have a value in the first run alone.
+    pub only_first: usize,
+    /// Designs that have a value in the second run alone.
+    pub only_second: usize,
+    /// The largest relative difference.
+    pub relative: Option<Extreme>,
+    /// The largest absolute difference.
+    pub absolute: Option<Extreme>,
+    /// Spearman's rank correlation of the numbers of the two runs.
+    pub correlation: Option<f64>,
+    /// Texts of the first run, those of the second in their place, and how often.
+    pub changes: BTreeMap<(String, String), usize>,
+}
+
+impl ColumnDifference {
+    /// Whether the two runs agree.
+    pub fn is_none(&self) -> bool {
+        self.differing + self.only_first + self.only_second == 0
+    }
+}
+
+/// The largest difference of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extreme {
+    /// The size of the difference.
+    pub difference: f64,
+    /// Number of the design in the first run.
+    pub design: String,
+    /// The value in the first run.
+    pub first: f64,
+    /// The value in the second run.
+    pub second: f64,
+}
+
+/// One cell that differs.
+#[derive(Clone, Copy, Debug)]
+pub struct Difference<'a> {
+    first: &'a Results,
+    second: &'a Results,
+    rows: [usize; 2],
+    columns: [usize; 2],
+}
+
+impl<'a> Difference<'a> {
+    /// The number of the design in the first run and in the second.
+    pub fn designs(&self) -> [&'a str; 2] {
+        [self.first.design(self.rows[0]), self.second.design(self.rows[1])]
+    }
+
+    /// The value of a parameter in the first run.
+    pub fn parameter(&self, parameter: &Parameter) -> &'a str {
+        self.first.parameter(self.rows[0], parameter)
+    }
+
+    /// The column.
+    pub fn column(&self) -> &'a str {
+        self.first.header().get(self.columns[0]).map_or("", String::as_str)
+    }
+
+    /// The cells.
+    pub fn texts(&self) -> [&'a str; 2] {
+        let [first, second] = self.rows;
+        [self.first.text(first, self.columns[0]), self.second.text(second, self.columns[1])]
+    }
+
+    /// The cells as numbers, if both are.
+    pub fn numbers(&self) -> Option<[f64; 2]> {
+        let [first, second] = self.texts().map(|text| text.parse::<f64>().ok());
+        Some([first?, second?])
+    }
+
+    fn is_within(&self, tolerance: f64) -> bool {
+        let [first, second] = self.texts();
+        first == second || self.numbers().is_some_and(|pair| relative(pair) <= tolerance)
+    }
+}
+
+/// `|a − b|`.
+pub(crate) fn absolute([first, second]: [f64; 2]) -> f64 {
+    (first - second).abs()
+}
+
+/// `|a − b| / max(|a|, |b|)`, from 0 to 2.
+pub(crate) fn relative([first, second]: [f64; 2]) -> f64 {
+    if first.to_bits() == second.to_bits() {
+        return 0.0;
+    }
+    let size = first.abs().max(second.abs());
+    if size > 0.0 { absolute([first, second]) / size } else { 0.0 }
+}
+
+/// Compares two runs. Designs are the same if their parameters are, whatever their numbers; values
+/// are the same if they differ by at most `tolerance`, relative to the larger.
+///
+/// # Errors
+/// If the designs of a run cannot be told apart by what the other one knows.
+pub fn compare<'r>(
+    first: &'r Results,
+    second: &'r Results,
+    tolerance: f64,
+) -> Result<Comparison<'r>, InvalidComparison> {
+    let matching = Matching::new(first, second)?;
+    let place = |(column, name): (usize, &String)| {
+        let other = second.column(name).ok()?;
+        (column > 0 && parameter_of(name).is_none()).then_some([column, other])
+    };
+    let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
+    let mut comparison =
+        Comparison { first, second, tolerance, matching, places, columns: Vec::new() };
+    let places = comparison.places.par_iter();
+    comparison.columns = places.map(|&columns| comparison.column(columns)).collect();
+    Ok(comparison)
+}
+
+impl Comparison<'_> {
+    /// Designs that both runs have.
+    pub fn matched(&self) -> usize {
+        self.matching.pairs.len()
+    }
+
+    /// Numbers of the designs that only the first run has, and of those that only the second has.
+    pub fn unmatched(&self) -> [Vec<&str>; 2] {
+        let [first, second] = &self.matching.alone;
+        [
+            first.iter().map(|&row| self.first.design(row)).collect(),
+            second.iter().map(|&row| self.second.design(row)).collect(),
+        ]
+    }
+
+    /// Parameters that each run sets for all of its designs, but not to the same value.
+    pub fn parameters(&self) -> &[ParameterChange] {
+        &self.matching.changes
+    }
+
+    /// Whether the two runs have the same designs with the same values.
+    pub fn is_none(&self) -> bool {
+        self.matching.alone.iter().all(Vec::is_empty)
+            && self.columns.iter().all(ColumnDifference::is_none)
+    }
+
+    fn cell(&self, rows: [usize; 2], columns: [usize; 2]) -> Difference<'_> {
+        Difference { first: self.first, second: self.second, rows, columns }
+    }
+
+    fn column(&self, columns: [usize; 2]) -> ColumnDifference {
+        let name = self.first.header()[columns[0]].clone();
+        let mut column = ColumnDifference { name, ..ColumnDifference::default() };
+        let mut numbers = Vec::new();
+        for &rows in &self.matching.pairs {
+            let cell = self.cell(rows, columns);
+            match cell.texts() {
+                ["", ""] => {}
+                [_, ""] => column.only_first += 1,
+                ["", _] => column.only_second += 1,
+                _ => {
+                    column.compared += 1;
+                    column.differing += usize::from(!cell.is_within(self.tolerance));
+                    column.add(&cell);
+                    numbers.extend(cell.numbers());
+                }
+            }
+        }
+        column.correlation = rank_correlation(&numbers);
+        column
+    }
+
+    /// Every cell that differs.
+    fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
+        let cells = move |rows: [usize; 2]| {
+            self.places.iter().map(move |&columns| self.cell(rows, columns))
+        };
+        let cells = self.matching.pairs.iter().flat_map(move |&rows| cells(rows));
+        cells.filter(|cell| !cell.is_within(self.tolerance))
+    }
+
+    /// Writes what differs to `folder`: column by column, and cell by cell. Returns the names of the
+    /// tables.
+    ///
+    /// # Errors
+    /// If the folder or the disk does not take them.
+    fn write(&self, folder: &Path) -> Result<[&'static str; 2], OutputError> {
+        let folder = RunFolder::new(folder);
+        folder.make()?;
+        let [by_column, by_cell] = RunFolder::COMPARISON;
+        let format = self.first.format();
+        write_rows(&folder, by_column, format, comparison_columns(), &self.columns)?;
+        let parameters: Vec<_> = self.first.parameters().collect();
+        let columns = difference_columns(&parameters);
+        write_rows(&folder, by_cell, format, &columns, self.differences())?;
+        folder.sync();
+        Ok(RunFolder::COMPARISON)
+    }
+}
+
+impl ColumnDifference {
+    /// Takes a cell that both runs have into account.
+    fn add(&mut self, cell: &Difference<'_>) {
+        let Some(pair) = cell.numbers() else {
+            let [first, second] = cell.texts().map(str::to_owned);
+            if first != second {
+                *self.changes.entry((first, second)).or_default() += 1;
+            }
+            return;
+        };
+        let [first, second] = pair;
+        for (largest, difference) in
+            [(&mut self.relative, relative(pair)), (&mut self.absolute, absolute(pair))]
+        {
+            if difference > largest.as_ref().map_or(0.0, |largest| largest.difference) {
+                let design = cell.designs()[0].to_owned();
+                *largest = Some(Extreme { difference, design, first, second });
+            }
+        }
+    }
+}
+
+/// Writes a comparison to `folder`; returns the names of the tables.
+///
+/// # Errors
+/// If the folder or the disk does not take them.
+pub fn write_comparison(
+    folder: &Path,
+    comparison: &Comparison<'_>,
+) -> Result<[&'static str; 2], OutputError> {
+    comparison.write(folder)
+}

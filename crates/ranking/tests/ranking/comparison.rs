@@ -1,0 +1,114 @@
+//! Where two runs differ.
+
+use ranking::{Comparison, compare, write_comparison};
+use results::Results;
+use tempfile::TempDir;
+
+/// The results of a run: a table, and what its record says of the definition.
+fn results(table: &str, definition: Option<&str>) -> Results {
+    let folder = TempDir::new().expect("a folder");
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    if let Some(definition) = definition {
+        std::fs::write(folder.path().join("run.toml"), definition).expect("writable");
+    }
+    Results::read(folder.path()).expect("results")
+}
+
+const FIRST: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,compliance,flexure_status
+0001,0.1,1,0,0,1,complete
+0002,0.1,1,45,0.5,2,complete
+0003,0.2,1,0,0,4,complete
+0004,0.2,1,45,0.25,,too many points";
+
+/// Another order of axes, another slant, other values.
+const SECOND: &str = "design,gap_over_t,length_over_t,slant_deg,coverage,compliance,flexure_status
+0001,0.1,1,0,0,1,complete
+0002,0.2,1,0,0,5,complete
+0003,0.1,1,45,0.5,,no convergence
+0004,0.2,1,45,0.25,3,complete
+0005,0.2,1,60,0.1,7,complete";
+
+fn column<'c>(comparison: &'c Comparison<'_>, name: &str) -> &'c ranking::ColumnDifference {
+    let column = comparison.columns.iter().find(|column| column.name == name);
+    column.expect("a column of both")
+}
+
+#[test]
+fn designs_are_matched_by_their_parameters() {
+    let (first, second) = (results(FIRST, None), results(SECOND, None));
+    let comparison = compare(&first, &second, 0.0).expect("comparable");
+    assert_eq!(comparison.matched(), 4);
+    assert_eq!(comparison.unmatched(), [vec![], vec!["0005"]]);
+    assert!(column(&comparison, "coverage").is_none());
+    let compliance = column(&comparison, "compliance");
+    assert_eq!((compliance.compared, compliance.differing), (2, 1));
+    assert_eq!((compliance.only_first, compliance.only_second), (1, 1));
+    let extreme = compliance.relative.as_ref().expect("a difference");
+    assert_eq!((extreme.design.as_str(), extreme.difference), ("0003", 0.2));
+    assert_eq!((extreme.first, extreme.second), (4.0, 5.0));
+    assert_eq!(compliance.absolute.as_ref().expect("a difference").difference, 1.0);
+    let changes = &column(&comparison, "flexure_status").changes;
+    let changes: Vec<_> = changes.iter().map(|((a, b), n)| format!("{a} > {b}: {n}")).collect();
+    assert_eq!(changes, ["complete > no convergence: 1", "too many points > complete: 1"]);
+    assert!(!comparison.is_none());
+}
+
+#[test]
+fn a_run_does_not_differ_from_itself() {
+    let first = results(FIRST, None);
+    let comparison = compare(&first, &first, 0.0).expect("comparable");
+    assert!(comparison.is_none());
+    assert_eq!(column(&comparison, "compliance").correlation, Some(1.0));
+    assert_eq!(column(&comparison, "flexure_status").correlation, None);
+}
+
+#[test]
+fn small_differences_may_be_tolerated() {
+    let (first, second) = (results(FIRST, None), results(&FIRST.replace(",4,", ",4.0004,"), None));
+    let differing = |tolerance| {
+        let comparison = compare(&first, &second, tolerance).expect("comparable");
+        column(&comparison, "compliance").differing
+    };
+    assert_eq!((differing(0.0), differing(0.9e-4), differing(1.1e-4)), (1, 1, 0));
+}
+
+#[test]
+fn what_all_designs_share_is_compared_too() {
+    let (first, second) = (
+        results(FIRST, Some("name = 'x'")),
+        results(FIRST, Some("name = 'y'\nscale.base = '2L'\ncontact.c1 = 2")),
+    );
+    let comparison = compare(&first, &second, 0.0).expect("comparable");
+    let changes = comparison.parameters().iter();
+    let changes: Vec<_> =
+        changes.map(|c| format!("{}: {} {}", c.parameter.path(), c.first, c.second)).collect();
+    assert_eq!(changes, ["scale.base: L 2L", "contact.c1: 1.1 2"]);
+}
+
+#[test]
+fn an_axis_of_one_run_may_be_a_constant_of_the_other() {
+    let wide = "design,gap_over_t,length_over_t,slant_deg,coverage,c2
+0001,0.1,1,0,0,0.23
+0002,0.1,1,0,0,1.1";
+    let axes = "\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 0";
+    let wide = results(wide, Some(&format!("name = 'x'{axes}\nc2 = [0.23, 1.1]")));
+    let narrow = "design,gap_over_t,length_over_t,slant_deg,coverage\n0001,0.1,1,0,0";
+    let known = results(narrow, Some(&format!("name = 'x'\ncontact.c2 = 1.1{axes}")));
+    let comparison = compare(&wide, &known, 0.0).expect("comparable");
+    assert_eq!(comparison.matched(), 1);
+    assert_eq!(comparison.unmatched(), [vec!["0001"], vec![]]);
+    // Without a record nobody knows which of the two it is.
+    let message = compare(&wide, &results(narrow, None), 0.0).expect_err("ambiguous").to_string();
+    let message = message.replace(&wide.folder().display().to_string(), "x");
+    insta::assert_snapshot!(message, @"x/designs.csv: designs 0001 and 0002 differ in nothing that both runs know, expected a run.toml beside each table");
+}
+
+#[test]
+fn the_tables_of_a_comparison() {
+    let (first, second) = (results(FIRST, None), results(SECOND, None));
+    let comparison = compare(&first, &second, 0.0).expect("comparable");
+    let folder = TempDir::new().expect("a folder");
+    let files = write_comparison(folder.path(), &comparison).expect("writable");
+    let table = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("a table");
+    insta::assert_snapshot!(files.map(|file| format!("{file}\n{}\n", table(file))).concat());
+}

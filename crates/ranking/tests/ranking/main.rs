@@ -1,0 +1,7 @@
+//! The promises of rankings and comparisons.
+
+mod comparison;
+mod ranking;
+
+#[path = "../../../results/tests/samples/mod.rs"]
+mod samples;

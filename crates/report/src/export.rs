@@ -1,0 +1,169 @@
+//! The tables of a folder as one workbook for Excel and other spreadsheets.
+//!
+//! The workbook is made from the tables alone, row by row, so that a million designs need no more
+//! memory than a dozen. Its bytes are the same whenever and wherever it is written.
+
+mod explanation;
+mod sheet;
+
+use std::any::Any;
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
+
+use results::{CsvFormat, OutputError, RunFolder, words};
+use sweep::reason;
+
+use sheet::{Guide, Sheet};
+
+/// Rows that a sheet takes below its header.
+const ROWS: u32 = 1_048_575;
+
+/// What a workbook holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// Names of its tables and how many rows each has.
+    pub tables: Vec<(String, u32)>,
+}
+
+/// Tables that do not become a workbook.
+#[derive(Debug, thiserror::Error)]
+pub enum ExportError {
+    /// The folder has no table of designs.
+    #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
+    NoDesigns {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A table cannot be read.
+    #[error("{}: cannot be read ({reason}), expected a table that squama writes", file.display())]
+    Unreadable {
+        /// The table.
+        file: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A table is longer than a sheet.
+    #[error(
+        "{}: has more than {ROWS} rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample {ROWS}",
+        file.display()
+    )]
+    TooManyRows {
+        /// The table.
+        file: PathBuf,
+    },
+    /// The name is not that of a workbook.
+    #[error("{}: is no name of a workbook, expected one that ends in .xlsx", file.display())]
+    NoWorkbook {
+        /// The file that was asked for.
+        file: PathBuf,
+    },
+    /// The workbook cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// Writes every table in the folder `results` to the workbook `file`: a sheet for each, and one that
+/// explains the columns.
+///
+/// Numbers are numbers and everything else is text; a design number is a number that shows its
+/// leading zeros. What failed is red, and the values that a table is about have a scale of colours.
+///
+/// # Errors
+/// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
+/// not take the workbook.
+pub fn export(results: &Path, file: &Path) -> Result<Exported, ExportError> {
+    let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
+    let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
+    let results = &RunFolder::new(results);
+    if !results.holds(RunFolder::DESIGNS) {
+        return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = &RunFolder::new(folder.unwrap_or(Path::new(".")));
+    folder.make()?;
+    // The writer of workbooks panics if the disk does not take the rows that it puts aside.
+    let written = catch_unwind(AssertUnwindSafe(|| write(results, folder, name)));
+    written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
+}
+
+fn has_extension(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"))
+}
+
+fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported, ExportError> {
+    let failed = |error: XlsxError| match error {
+        XlsxError::IoError(error) => OutputError::file(&folder.file(name), &error).into(),
+        error => unwritable(folder, name, &error.to_string()),
+    };
+    let mut file = folder.create(name)?;
+    let mut workbook = Workbook::new();
+    workbook.set_properties(&properties().map_err(failed)?);
+    workbook.set_tempdir(folder.path()).map_err(failed)?;
+    let mut guide = Guide::new(&mut workbook).map_err(failed)?;
+    let mut tables = Vec::new();
+    for file in RunFolder::tables().filter(|file| results.holds(file)) {
+        let table = file.trim_end_matches(".csv").to_owned();
+        let rows = copy(&results.file(&file), &table, &mut workbook, &mut guide, &failed)?;
+        tables.push((table, rows));
+    }
+    workbook.push_worksheet(guide.finish().map_err(failed)?);
+    workbook.save_to_writer(&mut file).map_err(failed)?;
+    file.finish()?;
+    folder.sync();
+    Ok(Exported { tables })
+}
+
+/// The same whenever a workbook is written, so that equal tables make equal bytes.
+fn properties() -> Result<DocProperties, XlsxError> {
+    let epoch = ExcelDateTime::from_ymd(2000, 1, 1)?;
+    Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
+}
+
+/// Makes a sheet of the table in the file `path`; returns how many rows it has.
+fn copy(
+    path: &Path,
+    table: &str,
+    workbook: &mut Workbook,
+    guide: &mut Guide,
+    failed: &dyn Fn(XlsxError) -> ExportError,
+) -> Result<u32, ExportError> {
+    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
+    let (format, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
+    let mut sheet = Sheet::new(workbook, table, format, &header).map_err(failed)?;
+    let mut row = csv::StringRecord::new();
+    while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+        if sheet.rows() == ROWS {
+            return Err(ExportError::TooManyRows { file: path.to_owned() });
+        }
+        sheet.add(&row).map_err(failed)?;
+    }
+    guide.explain(table, &header).map_err(failed)?;
+    let rows = sheet.rows();
+    sheet.finish(workbook).map_err(failed)?;
+    Ok(rows)
+}
+
+fn open(path: &Path) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
+    let mut file = BufReader::new(File::open(path)?);
+    let (format, start) = CsvFormat::of(file.fill_buf()?);
+    file.consume(start);
+    Ok((format, format.reader(file)))
+}
+
+fn unwritable(folder: &RunFolder, name: &str, reason: &str) -> ExportError {
+    OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
+}
+
+/// What a panic says, in one line; of an error of the system, its message.
+fn said(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+    let text = text.unwrap_or("the writer of workbooks failed");
+    let message = text.split_once("message: \"").and_then(|(_, rest)| rest.split_once('"'));
+    message.map_or(text, |(message, _)| message).lines().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,101 @@
+//! What a column of a table means, looked up by the names of both.
+
+use ranking::{
+    comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
+    winner_columns,
+};
+use results::columns::{Cell, MEASURE_TABLES, explain_value, number, parameter_of};
+use results::{Column, RERUN_COLUMNS, failure_detail_columns};
+
+/// Unit and meaning of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Explanation {
+    /// Unit, `-` if it has none.
+    pub unit: &'static str,
+    /// What it holds, in half a sentence.
+    pub meaning: &'static str,
+}
+
+impl Explanation {
+    /// What the column `name` of the table `table` (without `.csv`) means; `None` if this program
+    /// writes no such column.
+    pub fn of(table: &str, name: &str) -> Option<Self> {
+        Self::own(table, name).or_else(|| Self::common(name))
+    }
+
+    /// A column that this table has, or explains otherwise than others do.
+    fn own(table: &str, name: &str) -> Option<Self> {
+        match table {
+            "failures" => among(&failure_detail_columns(), name),
+            "reruns" => among(RERUN_COLUMNS, name),
+            "ranking" => among(&ranking_columns(&[]), name),
+            "pareto" => among(&pareto_columns(&[]), name),
+            "winners" => among(&winner_columns(&[]), name),
+            "quaternary" => among(&quaternary_columns(&[]), name),
+            "compare" => among(comparison_columns(), name),
+            "differences" => among(&difference_columns(&[]), name),
+            _ => None,
+        }
+    }
+
+    /// Numbers, parameters and measured values mean the same everywhere.
+    fn common(name: &str) -> Option<Self> {
+        let numbers = [number(|(): &()| Cell::Empty)];
+        let measured = || {
+            let (unit, meaning) = explain_value(name)?;
+            Some(Self { unit, meaning })
+        };
+        let parameter = || {
+            let parameter = parameter_of(name)?;
+            Some(Self { unit: parameter.unit, meaning: parameter.meaning })
+        };
+        among(&numbers, name).or_else(measured).or_else(parameter)
+    }
+}
+
+fn among<R>(columns: &[Column<R>], name: &str) -> Option<Explanation> {
+    let column = columns.iter().find(|column| column.name == name)?;
+    Some(Explanation { unit: column.unit, meaning: column.meaning })
+}
+
+/// Whether a column holds the values that its table is about.
+pub(super) fn is_leading(table: &str, name: &str) -> bool {
+    match table {
+        "designs" => MEASURE_TABLES.iter().any(|(measure, _)| *measure == name),
+        "ranking" | "quaternary" => name == "fitness",
+        "pareto" | "winners" => name == "share",
+        "differences" => name == "relative",
+        "compare" => name == "largest_relative",
+        table => table == name,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use results::columns::tables;
+    use sweep::Sweep;
+
+    #[test]
+    fn every_column_of_a_run_is_explained() {
+        let text = "name = 'x'\ndesigns.c2 = [0.23, 1]\ndesigns.scales = [21, 31]";
+        let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+        for table in tables(&sweep) {
+            for column in table.columns {
+                let explained = Explanation::of(table.file.trim_end_matches(".csv"), column.name);
+                let Column { unit, meaning, .. } = column;
+                assert_eq!(explained, Some(Explanation { unit, meaning }), "{}", column.name);
+            }
+        }
+        for Column { name, .. } in results::failure_columns(&sweep) {
+            assert!(Explanation::of("failures", name).is_some(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_means_what_its_table_means_by_it() {
+        let contacts = ["designs", "failures"].map(|table| Explanation::of(table, "contacts"));
+        assert_ne!(contacts[0], contacts[1]);
+        assert_eq!(Explanation::of("designs", "somebody's own column"), None);
+    }
+}

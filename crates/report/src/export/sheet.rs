@@ -1,0 +1,209 @@
+//! One sheet of a workbook.
+
+use csv::StringRecord;
+use rust_xlsxwriter::{
+    ColNum, Color, ConditionalFormat3ColorScale, Format, FormatAlign, FormatBorder, Workbook,
+    Worksheet, XlsxError,
+};
+
+use results::{CsvFormat, Outcome};
+
+use super::explanation::{Explanation, is_leading};
+
+/// Ink of what failed, and what it stands on.
+const RED: [Color; 2] = [Color::RGB(0x009C_0006), Color::RGB(0x00FF_C7CE)];
+/// What headers stand on.
+const GREY: Color = Color::RGB(0x00E6_E6E6);
+/// The scale of a measure: light to dark blue-green, on which black stays legible.
+const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
+
+/// Characters that the button of a filter takes.
+const BUTTON: usize = 3;
+/// The narrowest and the widest column, in characters.
+const WIDTHS: (usize, usize) = (8, 60);
+
+/// How cells look.
+struct Formats {
+    header: Format,
+    failed: Format,
+    number: Format,
+    failed_number: Format,
+}
+
+impl Formats {
+    /// Design numbers show `digits` digits.
+    fn new(digits: usize) -> Self {
+        let header = Format::new().set_bold().set_background_color(GREY);
+        let header = header.set_border_bottom(FormatBorder::Thin).set_align(FormatAlign::Left);
+        let red = |format: Format| format.set_font_color(RED[0]).set_background_color(RED[1]);
+        let number = Format::new().set_num_format("0".repeat(digits));
+        let failed_number = red(number.clone());
+        Self { header, failed: red(Format::new()), number, failed_number }
+    }
+}
+
+/// A sheet that grows row by row.
+pub(super) struct Sheet {
+    table: String,
+    page: Worksheet,
+    format: CsvFormat,
+    columns: Vec<SheetColumn>,
+    formats: Formats,
+    rows: u32,
+}
+
+/// A column of a sheet.
+struct SheetColumn {
+    /// Its place; a sheet has fewer than 2^14.
+    place: ColNum,
+    /// Whether it holds the numbers of designs.
+    is_number: bool,
+    /// Whether it says how designs ended.
+    is_status: bool,
+    /// Whether its values have a scale of colours.
+    is_measure: bool,
+    /// Characters of the longest cell.
+    width: usize,
+}
+
+impl SheetColumn {
+    fn new(table: &str, place: usize, name: &str) -> Self {
+        Self {
+            place: ColNum::try_from(place).unwrap_or(ColNum::MAX),
+            is_number: name == "design" || name.ends_with("_design"),
+            is_status: name.ends_with("_status") || (table == "failures" && name == "reason"),
+            is_measure: is_leading(table, name),
+            width: name.chars().count() + BUTTON,
+        }
+    }
+
+    /// Whether `cell` says that a design failed.
+    fn says_failed(&self, cell: &str) -> bool {
+        self.is_status && !cell.is_empty() && cell != Outcome::Complete.text()
+    }
+}
+
+impl Sheet {
+    /// A sheet with its header.
+    pub fn new(
+        workbook: &mut Workbook,
+        table: &str,
+        format: CsvFormat,
+        header: &StringRecord,
+    ) -> Result<Self, XlsxError> {
+        let mut page = workbook.new_worksheet_with_constant_memory()?;
+        page.set_name(table)?;
+        let columns = header.iter().enumerate();
+        let columns: Vec<_> =
+            columns.map(|(place, name)| SheetColumn::new(table, place, name)).collect();
+        let formats = Formats::new(4);
+        for (column, name) in columns.iter().zip(header) {
+            page.write_string_with_format(0, column.place, name, &formats.header)?;
+        }
+        Ok(Self { table: table.to_owned(), page, format, columns, formats, rows: 0 })
+    }
+
+    /// How many rows there are below the header.
+    pub fn rows(&self) -> u32 {
+        self.rows
+    }
+
+    /// Adds a row.
+    pub fn add(&mut self, cells: &StringRecord) -> Result<(), XlsxError> {
+        if self.rows == 0 {
+            // As many digits as the tables give every design of this sweep.
+            let number = self.columns.iter().position(|column| column.is_number);
+            let digits = number.and_then(|place| cells.get(place)).map_or(0, str::len);
+            self.formats = Formats::new(digits.max(1));
+        }
+        self.rows += 1;
+        let pairs = || self.columns.iter().zip(cells);
+        let has_failed = pairs().any(|(column, cell)| column.says_failed(cell));
+        for (column, cell) in self.columns.iter_mut().zip(cells).filter(|(_, c)| !c.is_empty()) {
+            column.width = column.width.max(cell.chars().count());
+            let (page, place) = (&mut self.page, column.place);
+            let formats = &self.formats;
+            match self.format.number(cell) {
+                Some(number) if column.is_number => {
+                    let format = if has_failed { &formats.failed_number } else { &formats.number };
+                    page.write_number_with_format(self.rows, place, number, format)?
+                }
+                Some(number) => page.write_number(self.rows, place, number)?,
+                None if column.says_failed(cell) => {
+                    page.write_string_with_format(self.rows, place, cell, &formats.failed)?
+                }
+                None => page.write_string(self.rows, place, cell)?,
+            };
+        }
+        Ok(())
+    }
+
+    /// Puts the sheet into the workbook, with filters and colours.
+    pub fn finish(mut self, workbook: &mut Workbook) -> Result<(), XlsxError> {
+        // A filter needs a row to stand on.
+        let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
+        let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
+        let begins_with_number = self.columns.first().is_some_and(|column| column.is_number);
+        self.page.set_freeze_panes(1, ColNum::from(begins_with_number))?;
+        self.page.autofilter(0, 0, last_row, last_column)?;
+        let [low, middle, high] = SCALE.map(Color::RGB);
+        let scale = ConditionalFormat3ColorScale::new().set_minimum_color(low);
+        let scale = scale.set_midpoint_color(middle).set_maximum_color(high);
+        for column in &self.columns {
+            let width = column.width.clamp(WIDTHS.0, WIDTHS.1) as f64;
+            self.page.set_column_width(column.place, width)?;
+            if column.is_measure {
+                let place = column.place;
+                self.page.add_conditional_format(1, place, last_row, place, &scale)?;
+            }
+        }
+        if self.table == "failures" && self.rows > 0 {
+            self.page.set_tab_color(RED[0]);
+        }
+        workbook.push_worksheet(self.page);
+        Ok(())
+    }
+}
+
+/// The sheet that explains the columns of the others.
+pub(super) struct Guide {
+    page: Worksheet,
+    row: u32,
+}
+
+impl Guide {
+    /// Its columns and their widths.
+    const COLUMNS: [(&str, f64); 4] =
+        [("sheet", 16.0), ("column", 28.0), ("unit", 30.0), ("meaning", 90.0)];
+
+    /// A sheet with its header.
+    pub fn new(workbook: &mut Workbook) -> Result<Self, XlsxError> {
+        let mut page = workbook.new_worksheet_with_constant_memory()?;
+        page.set_name("columns")?.set_freeze_panes(1, 0)?;
+        let header = Formats::new(1).header;
+        for (place, (name, width)) in (0..).zip(Self::COLUMNS) {
+            page.set_column_width(place, width)?;
+            page.write_string_with_format(0, place, name, &header)?;
+        }
+        Ok(Self { page, row: 0 })
+    }
+
+    /// Explains the columns of a table.
+    pub fn explain(&mut self, table: &str, header: &StringRecord) -> Result<(), XlsxError> {
+        let unknown = Explanation { unit: "-", meaning: "no column of squama" };
+        for name in header {
+            self.row += 1;
+            let explained = Explanation::of(table, name).unwrap_or(unknown);
+            for (place, text) in (0..).zip([table, name, explained.unit, explained.meaning]) {
+                self.page.write_string(self.row, place, text)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The sheet.
+    pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
+        self.page.autofilter(0, 0, self.row, 3)?;
+        Ok(self.page)
+    }
+}

@@ -1,0 +1,108 @@
+//! What people read about sweeps says what the program does.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use ranking::{
+    comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
+    winner_columns,
+};
+use results::columns::{
+    EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
+    design_columns,
+};
+use results::{Column, Outcome, RERUN_COLUMNS, failure_detail_columns};
+use sweep::{PARAMETERS, Sweep};
+
+/// The sweep that `text` defines.
+fn sweep(text: &str) -> Sweep {
+    Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
+}
+
+fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+fn text(file: &str) -> String {
+    std::fs::read_to_string(root().join(file)).expect("a file of the project")
+}
+
+fn read(file: &str) -> Sweep {
+    Sweep::read(&root().join(file), &[]).expect("a valid sweep")
+}
+
+fn columns<R>(columns: &[Column<R>]) -> String {
+    let mut table = "| Column | Unit | Meaning |\n|---|---|---|\n".to_owned();
+    for column in columns {
+        let _ = writeln!(table, "| `{}` | {} | {} |", column.name, column.unit, column.meaning);
+    }
+    table
+}
+
+#[test]
+fn the_guide_to_the_results_explains_every_column() {
+    let mut guide = text("results/README.md");
+    guide = guide.split_off(guide.find("### `designs.csv`").expect("the first table"));
+    let mut statuses = "| Status | Meaning |\n|---|---|\n".to_owned();
+    for outcome in Outcome::ALL {
+        let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
+    }
+    let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
+    let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
+    let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
+    let expected = [
+        ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
+        ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
+        ("Statuses", statuses),
+        (
+            "`failures.csv`, after the columns that say which design it is",
+            columns(&failure_detail_columns()),
+        ),
+        ("`reruns.csv`", columns(RERUN_COLUMNS)),
+        ("`path.csv`", columns(PATH)),
+        ("`events.csv`", columns(EVENTS)),
+        ("`scales.csv`", columns(SCALES)),
+        ("`steps.csv`", columns(STEPS)),
+        ("`flexure_path.csv`", columns(FLEXURE_PATH)),
+        ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
+        ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
+        ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
+        ("`ranking.csv`", columns(&ranking_columns(geometry))),
+        ("`pareto.csv`", columns(&pareto_columns(geometry))),
+        ("`winners.csv`", columns(&winner_columns(geometry))),
+        ("`quaternary.csv`", columns(&quaternary_columns(geometry))),
+        ("`compare.csv`", columns(comparison_columns())),
+        ("`differences.csv`", columns(&difference_columns(geometry))),
+    ];
+    let expected = expected.map(|(title, table)| format!("### {title}\n\n{table}"));
+    let expected = expected.join("\n");
+    if std::env::var_os("UPDATE_GUIDE").is_some() {
+        let file = root().join("results/README.md");
+        let before = text("results/README.md").replace(&guide, "");
+        std::fs::write(file, before + &expected).expect("writable");
+    }
+    assert_eq!(guide, expected);
+}
+
+#[test]
+fn the_paper_sweep_writes_every_key_with_its_default() {
+    let paper = text("sweeps/paper.toml");
+    for parameter in PARAMETERS {
+        assert!(
+            paper.contains(&format!("\n{} = ", parameter.key)),
+            "{} is missing",
+            parameter.path()
+        );
+    }
+    assert_eq!(read("sweeps/paper.toml").to_toml(), sweep("name = 'paper'").to_toml());
+}
+
+#[test]
+fn the_other_sweeps_are_what_they_say() {
+    assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
+    assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
+    assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
+    assert!(read("sweeps/imperfection.toml").is_imperfect());
+    assert!(!read("sweeps/paper.toml").is_imperfect());
+}

@@ -1,0 +1,180 @@
+//! A workbook holds what the tables hold, to the last bit.
+
+use std::fs;
+use std::path::Path;
+
+use calamine::{Data, Reader as _, Xlsx, open_workbook};
+
+use crate::samples::{Criteria, write_results};
+
+/// Cells of a sheet, the header first.
+fn sheet(file: &Path, name: &str) -> Vec<Vec<Data>> {
+    let mut workbook: Xlsx<_> = open_workbook(file).expect("a workbook");
+    let range = workbook.worksheet_range(name).expect("a sheet");
+    range.rows().map(<[Data]>::to_vec).collect()
+}
+
+fn names(file: &Path) -> String {
+    let workbook: Xlsx<_> = open_workbook(file).expect("a workbook");
+    workbook.sheet_names().join(" ")
+}
+
+/// What a sheet is to hold: every number a number, every other cell a text.
+fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
+    let cell = |text: &str| {
+        let number = text.replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());
+        match number {
+            _ if text.is_empty() => Data::Empty,
+            Some(number) => Data::Float(number),
+            None => Data::String(text.to_owned()),
+        }
+    };
+    let table = table.trim_start_matches('\u{feff}');
+    table.lines().map(|line| line.split(separator).map(cell).collect()).collect()
+}
+
+fn exported(results: &Path) -> std::path::PathBuf {
+    let file = results.join("x.xlsx");
+    report::export(results, &file).expect("a workbook");
+    file
+}
+
+#[test]
+fn every_number_is_the_same_to_the_last_bit() {
+    let place = tempfile::tempdir().expect("a folder");
+    write_results(place.path(), 3, Criteria::Independent, 7);
+    let file = exported(place.path());
+    let table = fs::read_to_string(place.path().join("designs.csv")).expect("a table");
+    assert_eq!(sheet(&file, "designs"), expected(&table, ','));
+    assert_eq!(names(&file), "designs columns");
+}
+
+#[test]
+fn extreme_numbers_failures_and_texts_come_through() {
+    let place = tempfile::tempdir().expect("a folder");
+    let designs = "design,gap_over_t,critical_force,puncture_status,base,settings\r\n\
+                   0001,0.1,0.30000000000000004,complete,L,\r\n\
+                   0002,1e-7,,no convergence,2L,solver.max_step=0.01 <&>\r\n\
+                   0003,5e-324,1.7976931348623157e308,complete,nan,inf\r\n";
+    let failures = "design,measure,reason,command\r\n\
+                    0002,puncture,no convergence,squama design run.toml --design 0002\r\n";
+    fs::write(place.path().join("designs.csv"), designs).expect("writable");
+    fs::write(place.path().join("failures.csv"), failures).expect("writable");
+    let file = exported(place.path());
+    assert_eq!(sheet(&file, "designs"), expected(designs, ','));
+    assert_eq!(sheet(&file, "failures"), expected(failures, ','));
+    assert_eq!(names(&file), "designs failures columns");
+    let guide = sheet(&file, "columns");
+    let text = |text: &str| Data::String(text.to_owned());
+    assert_eq!(guide[0], ["sheet", "column", "unit", "meaning"].map(text));
+    assert_eq!(guide.len(), 1 + 6 + 4, "a line for every column");
+    let slope = ["designs", "critical_force", "E_s L t/(1-nu^2)"].map(text);
+    assert_eq!(guide[3][..3], slope);
+    assert!(guide.iter().flatten().all(|cell| *cell != Data::Empty));
+}
+
+#[test]
+fn tables_with_decimal_commas_make_the_same_workbook() {
+    let place = tempfile::tempdir().expect("a folder");
+    let plain = "design,gap_over_t,coverage\r\n0001,0.1,0.25\r\n0002,0.2,1e-7\r\n";
+    let comma = "\u{feff}design;gap_over_t;coverage\r\n0001;0,1;0,25\r\n0002;0,2;1e-7\r\n";
+    let write = |folder: &str, table: &str| {
+        let folder = place.path().join(folder);
+        fs::create_dir(&folder).expect("writable");
+        fs::write(folder.join("designs.csv"), table).expect("writable");
+        fs::read(exported(&folder)).expect("a workbook")
+    };
+    let (one, other) = (write("plain", plain), write("comma", comma));
+    assert!(one == other, "the same bytes");
+}
+
+#[test]
+fn the_same_tables_make_the_same_bytes() {
+    let place = tempfile::tempdir().expect("a folder");
+    write_results(place.path(), 2, Criteria::Conflicting, 1);
+    let file = exported(place.path());
+    let one = fs::read(&file).expect("a workbook");
+    let other = fs::read(exported(place.path())).expect("a workbook");
+    assert!(one == other, "the same bytes");
+    // Nor do they tell when they were written, neither as an archive nor as a document.
+    let mut archive =
+        zip::ZipArchive::new(fs::File::open(&file).expect("a workbook")).expect("an archive");
+    for part in 0..archive.len() {
+        let date = archive.by_index(part).expect("a part").last_modified().expect("a date");
+        assert_eq!(date.to_string(), "1980-01-01 00:00:00");
+    }
+    let properties = zip_text(&file, "docProps/core.xml");
+    for date in properties.split("W3CDTF\">").skip(1) {
+        assert!(date.starts_with("2000-01-01T00:00:00Z"), "{properties}");
+    }
+    assert_eq!(properties.matches("W3CDTF\">").count(), 2, "created and modified");
+}
+
+#[test]
+fn what_failed_is_red_and_measures_have_a_scale() {
+    let place = tempfile::tempdir().expect("a folder");
+    let designs = "design,coverage,puncture_status\r\n0001,0.1,complete\r\n0002,0.2,row limit\r\n";
+    fs::write(place.path().join("designs.csv"), designs).expect("writable");
+    let file = exported(place.path());
+    let archive = zip_text(&file, "xl/worksheets/sheet1.xml");
+    assert!(archive.contains("<cfRule type=\"colorScale\""));
+    assert_eq!(archive.matches("<color rgb=").count(), 3);
+    assert!(archive.contains("<conditionalFormatting sqref=\"B2:B3\">"));
+    assert!(archive.contains("<autoFilter ref=\"A1:C3\"/>"));
+    assert!(archive.contains("state=\"frozen\""));
+    let styles = zip_text(&file, "xl/styles.xml");
+    let formats = styles.split("<cellXfs").nth(1).expect("formats");
+    let style = |cell: &str| {
+        let cell = archive.split(&format!("<c r=\"{cell}\" s=\"")).nth(1).expect("a cell");
+        cell.split('"').next().expect("a style").parse::<usize>().expect("a number")
+    };
+    let fill = |cell: &str| {
+        let format = formats.split("<xf ").nth(style(cell) + 1).expect("a format");
+        format.split("fillId=\"").nth(1).expect("a fill").split('"').next().expect("a number")
+    };
+    assert_eq!(fill("A2"), "0", "a design with every value is not red");
+    assert_ne!(fill("A3"), "0");
+    assert_eq!(fill("A3"), fill("C3"));
+    assert!(styles.contains("FFFFC7CE"));
+}
+
+/// A file within a workbook.
+fn zip_text(workbook: &Path, name: &str) -> String {
+    let file = fs::File::open(workbook).expect("a workbook");
+    let mut archive = zip::ZipArchive::new(file).expect("an archive");
+    let file = archive.by_name(name).expect("a file");
+    std::io::read_to_string(file).expect("text")
+}
+
+#[test]
+fn what_is_no_workbook_or_no_table_is_refused() {
+    let place = tempfile::tempdir().expect("a folder");
+    let refused = |name: &str| {
+        let error = report::export(place.path(), &place.path().join(name)).expect_err("refused");
+        error.to_string().replace(&place.path().display().to_string(), "R")
+    };
+    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run");
+    fs::write(place.path().join("designs.csv"), "design,coverage\r\n0001,1,2\r\n")
+        .expect("writable");
+    insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
+    fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("writable");
+    insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (it is no text), expected a table that squama writes");
+    insta::assert_snapshot!(refused("designs.csv"), @"R/designs.csv: is no name of a workbook, expected one that ends in .xlsx");
+    insta::assert_snapshot!(refused("designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
+    assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "nothing is left");
+}
+
+#[test]
+fn a_table_longer_than_a_sheet_is_refused() {
+    let place = tempfile::tempdir().expect("a folder");
+    let longest = "design\r\n".to_owned() + &"1\r\n".repeat(1_048_575);
+    fs::write(place.path().join("designs.csv"), &longest).expect("writable");
+    let file = exported(place.path());
+    assert_eq!(sheet(&file, "designs").len(), 1_048_576);
+    let before = fs::read(&file).expect("a workbook");
+    fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
+    let error = report::export(place.path(), &file).expect_err("refused").to_string();
+    let error = error.replace(&place.path().display().to_string(), "R");
+    insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample 1048575");
+    assert!(fs::read(&file).expect("a workbook") == before, "the old one stays");
+}

@@ -1,0 +1,77 @@
+//! One cell of a table.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use sweep::{Scalar, number};
+
+/// One cell of a table, not yet text, so that each format writes it in its own way.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A value that does not exist.
+    Empty,
+    /// A real number; one that is not finite is written as if it did not exist.
+    Number(f64),
+    /// A count or an index.
+    Count(i64),
+    /// A text.
+    Text(Cow<'static, str>),
+}
+
+impl fmt::Display for Cell {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) if number.is_finite() => f.write_str(&number::text(*number)),
+            Self::Empty | Self::Number(_) => Ok(()),
+            Self::Count(count) => write!(f, "{count}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl From<f64> for Cell {
+    fn from(number: f64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<i64> for Cell {
+    fn from(count: i64) -> Self {
+        Self::Count(count)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(count: usize) -> Self {
+        // Counts of things in memory are far below 2^63.
+        Self::Count(i64::try_from(count).unwrap_or(i64::MAX))
+    }
+}
+
+impl From<&'static str> for Cell {
+    fn from(text: &'static str) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self::Text(text.into())
+    }
+}
+
+impl From<Scalar> for Cell {
+    fn from(scalar: Scalar) -> Self {
+        match scalar {
+            Scalar::Number(number) => number.into(),
+            Scalar::Count(count) => count.into(),
+            Scalar::Word(word) => word.into(),
+        }
+    }
+}
+
+impl<T: Into<Cell>> From<Option<T>> for Cell {
+    fn from(value: Option<T>) -> Self {
+        value.map_or(Self::Empty, Into::into)
+    }
+}

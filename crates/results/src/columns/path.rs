@@ -1,0 +1,125 @@
+//! The columns of the path tables of one design: paths, events, scales and iterations.
+
+use skin::flexure;
+use skin::puncture::{PathPoint, ScaleState};
+use skin::{ContactEvent, Iteration};
+
+use super::Column;
+
+/// The columns of `path.csv`.
+pub static PATH: &[Column<PathPoint>] = &[
+    Column::new("displacement", "t", "downward displacement of the punctured point", |p| {
+        p.displacement.into()
+    }),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |p| p.force.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |p| p.tilt_deg.into()),
+    Column::new("contacts", "-", "closed contacts", |p| p.contacts.into()),
+];
+
+/// The columns of `events.csv`.
+pub static EVENTS: &[Column<ContactEvent<PathPoint>>] = &[
+    Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
+        e.point.displacement.into()
+    }),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point.force.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |e| {
+        e.point.tilt_deg.into()
+    }),
+    Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
+        e.left_scale.into()
+    }),
+    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
+    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
+];
+
+/// The columns of `scales.csv`.
+pub static SCALES: &[Column<ScaleState>] = &[
+    Column::new("scale", "-", "0 is the punctured scale, positive to the right", |s| {
+        s.scale.into()
+    }),
+    Column::new(
+        "displacement_x",
+        "t",
+        "displacement of the midpoint of the base, to the right",
+        |s| s.displacement[0].into(),
+    ),
+    Column::new("displacement_y", "t", "displacement of the midpoint of the base, upward", |s| {
+        s.displacement[1].into()
+    }),
+    Column::new("rotation_deg", "deg", "counter-clockwise rotation", |s| s.rotation_deg.into()),
+    Column::new("reaction", "E_s t^2/(1-nu^2)", "upward reaction of the substrate", |s| {
+        s.reaction.into()
+    }),
+];
+
+/// The columns of `steps.csv`.
+pub static STEPS: &[Column<Iteration>] = &[
+    Column::new("step", "-", "step of the path", |i| i.step.into()),
+    Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
+    Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |i| i.angle_deg.into()),
+];
+
+/// The columns of `flexure_path.csv`.
+pub static FLEXURE_PATH: &[Column<flexure::PathPoint>] = &[
+    Column::new("curvature", "1/t", "curvature of the strip", |p| p.curvature.into()),
+    Column::new("moment", "E_m I_m/t", "bending moment", |p| p.moment.into()),
+    Column::new(
+        "stiffness",
+        "E_m I_m",
+        "moment per curvature of the path that goes on from here",
+        |p| p.stiffness.into(),
+    ),
+    Column::new("end_rotation_deg", "deg", "rotation of each end", |p| p.end_rotation_deg.into()),
+    Column::new("bending_energy", "E_m t^3", "energy that bends the membrane", |p| {
+        p.bending_energy.into()
+    }),
+    Column::new("axial_energy", "E_m t^3", "energy that stretches the membrane", |p| {
+        p.axial_energy.into()
+    }),
+    Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| p.contact_energy.into()),
+    Column::new("contacts", "-", "closed contacts of the strip", |p| p.contacts.into()),
+];
+
+/// The columns of `flexure_events.csv`.
+pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::PathPoint>>] = &[
+    Column::new("curvature", "1/t", "curvature of the strip", |e| e.point.curvature.into()),
+    Column::new("moment", "E_m I_m/t", "bending moment", |e| e.point.moment.into()),
+    Column::new("end_rotation_deg", "deg", "rotation of each end", |e| {
+        e.point.end_rotation_deg.into()
+    }),
+    Column::new("gap", "-", "gap, 0 is the first; empty if every gap does the same", |e| {
+        e.left_scale.into()
+    }),
+    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
+    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
+];
+
+/// A scale of a bent strip: its place from the first, which is held, and how far it has moved
+/// (over `t`) and turned (radians).
+pub type BentScale = (usize, [f64; 3]);
+
+/// The columns of `flexure_scales.csv`.
+pub static FLEXURE_SCALES: &[Column<BentScale>] = &[
+    Column::new("scale", "-", "0 is the first scale, which is held", |s| s.0.into()),
+    Column::new(
+        "displacement_x",
+        "t",
+        "displacement of the midpoint of the base, to the right",
+        |s| s.1[0].into(),
+    ),
+    Column::new("displacement_y", "t", "displacement of the midpoint of the base, upward", |s| {
+        s.1[1].into()
+    }),
+    Column::new("rotation_deg", "deg", "counter-clockwise rotation", |s| {
+        s.1[2].to_degrees().into()
+    }),
+];
+
+/// The columns of `flexure_steps.csv`.
+pub static FLEXURE_STEPS: &[Column<Iteration>] = &[
+    Column::new("step", "-", "step of the path", |i| i.step.into()),
+    Column::new("iteration", "-", "Newton iteration within the step", |i| i.iteration.into()),
+    Column::new("residual", "-", "largest scaled residual", |i| i.residual.into()),
+    Column::new("end_rotation_deg", "deg", "rotation of each end", |i| i.angle_deg.into()),
+];

@@ -1,0 +1,225 @@
+//! The columns of the measured values of a design.
+
+use skin::flexure;
+use skin::puncture::Measures;
+
+use super::MeasuredValue;
+use super::cell::Cell;
+use crate::design::design_result::{DesignRow, PunctureResult};
+
+const FORCE: &[&str] = &["critical_force"];
+const DEPTH: &[&str] = &["penetration"];
+const BOTH: &[&str] = &["critical_force", "penetration"];
+const COMPLIANCE: &[&str] = &["compliance"];
+
+/// Every measured value, in the order of `designs.csv`.
+pub(super) static VALUES: &[MeasuredValue] = &[
+    MeasuredValue {
+        tables: &["coverage"],
+        name: "coverage",
+        unit: "-",
+        meaning: "share of the thickness that scales fill below the top right corner of a scale",
+        cell: |r| r.result.coverage.into(),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "critical_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at the critical tilt",
+        cell: |r| measured(r, |m| m.critical_force),
+    },
+    MeasuredValue {
+        tables: DEPTH,
+        name: "penetration",
+        unit: "t",
+        meaning: "depth of the deepest base corner of any scale at the critical tilt",
+        cell: |r| measured(r, |m| m.penetration),
+    },
+    MeasuredValue {
+        tables: BOTH,
+        name: "puncture_status",
+        unit: "-",
+        meaning: "complete, or why the puncture has no values",
+        cell: |r| punctured(r, |p| p.outcome.text()),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "peak_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "largest puncture force up to the critical tilt",
+        cell: |r| measured(r, |m| m.peak_force),
+    },
+    MeasuredValue {
+        tables: BOTH,
+        name: "critical_displacement",
+        unit: "t",
+        meaning: "downward displacement of the punctured point at the critical tilt",
+        cell: |r| measured(r, |m| m.critical_displacement),
+    },
+    MeasuredValue {
+        tables: DEPTH,
+        name: "sink",
+        unit: "t",
+        meaning: "depth of the deepest midpoint of a base at the critical tilt",
+        cell: |r| measured(r, |m| m.sink),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "first_contact_displacement",
+        unit: "t",
+        meaning: "displacement of the punctured point when scales first touch",
+        cell: |r| measured(r, |m| m.first_contact_displacement),
+    },
+    MeasuredValue {
+        tables: BOTH,
+        name: "contacts",
+        unit: "-",
+        meaning: "closed contacts at the critical tilt",
+        cell: |r| measured(r, |m| m.contacts),
+    },
+    MeasuredValue {
+        tables: BOTH,
+        name: "engaged_scales",
+        unit: "-",
+        meaning: "scales that touch a neighbour at the critical tilt, the punctured one included",
+        cell: |r| measured(r, |m| m.engaged_scales),
+    },
+    MeasuredValue {
+        tables: BOTH,
+        name: "scales",
+        unit: "-",
+        meaning: "scales in the row that was solved",
+        cell: |r| measured(r, |m| (m.scales > 0).then_some(m.scales)),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "initial_stiffness",
+        unit: "E_s t",
+        meaning: "puncture stiffness at rest",
+        cell: |r| measured(r, |m| m.initial_stiffness),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "max_stiffness",
+        unit: "E_s t",
+        meaning: "largest puncture stiffness on the path",
+        cell: |r| measured(r, |m| m.max_stiffness),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "secant_stiffness",
+        unit: "E_s t",
+        meaning: "puncture force over displacement at the critical tilt",
+        cell: |r| measured(r, |m| m.secant_stiffness),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "puncture_points",
+        unit: "-",
+        meaning: "equilibria of the path of puncture",
+        cell: |r| punctured(r, |p| p.points),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "puncture_iterations",
+        unit: "-",
+        meaning: "Newton iterations of the path of puncture",
+        cell: |r| punctured(r, |p| p.iterations),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "calibration_error",
+        unit: "-",
+        meaning: "estimated relative error of the stiffness of the substrate, with what full coupling neglects",
+        cell: |r| punctured(r, |p| p.calibration_error),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "compliance",
+        unit: "1/(E_m I_m)",
+        meaning: "flexural compliance: 1 over the largest slope of the moment against the curvature",
+        cell: |r| bent(r, |m| m.compliance),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "flexure_status",
+        unit: "-",
+        meaning: "complete, or why the bending has no values",
+        cell: |r| r.result.flexure.map(|f| f.outcome.text()).into(),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "initial_compliance",
+        unit: "1/(E_m I_m)",
+        meaning: "flexural compliance at rest",
+        cell: |r| bent(r, |m| m.initial_compliance),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "flexure_contact",
+        unit: "-",
+        meaning: "yes or no: whether bending brings scales into contact",
+        cell: |r| bent(r, |m| m.contact.map(|contact| if contact { "yes" } else { "no" })),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "first_contact_curvature",
+        unit: "1/t",
+        meaning: "curvature when scales first touch",
+        cell: |r| bent(r, |m| m.first_contact_curvature),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "max_moment",
+        unit: "E_m I_m/t",
+        meaning: "largest moment on the path",
+        cell: |r| bent(r, |m| m.max_moment),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "axial_energy_share",
+        unit: "-",
+        meaning: "share of the elastic energy that stretches the membrane, at the largest rotation",
+        cell: |r| bent(r, |m| m.axial_energy_share),
+    },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "gaps",
+        unit: "-",
+        meaning: "gaps of the strip",
+        cell: |r| bent(r, |m| (m.gaps > 0).then_some(m.gaps)),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "flexure_points",
+        unit: "-",
+        meaning: "equilibria of the path of bending",
+        cell: |r| r.result.flexure.map(|f| f.points).into(),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "flexure_iterations",
+        unit: "-",
+        meaning: "Newton iterations of the path of bending",
+        cell: |r| r.result.flexure.map(|f| f.iterations).into(),
+    },
+    MeasuredValue {
+        tables: &[],
+        name: "settings",
+        unit: "-",
+        meaning: "settings of a design that was solved again with others than the sweep's own",
+        cell: |r| r.result.settings.clone().into(),
+    },
+];
+
+fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&Measures) -> Option<T>) -> Cell {
+    row.result.puncture.and_then(|puncture| value(&puncture.measures)).into()
+}
+
+fn punctured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureResult) -> T) -> Cell {
+    row.result.puncture.as_ref().map(value).into()
+}
+
+fn bent<T: Into<Cell>>(row: &DesignRow, value: fn(&flexure::Measures) -> Option<T>) -> Cell {
+    row.result.flexure.and_then(|flexure| value(&flexure.measures)).into()
+}

@@ -1,0 +1,7 @@
+//! A solved design: how it ended, what it measured, what failed.
+
+pub mod design_result;
+pub mod failure;
+pub mod outcome;
+pub mod rerun_change;
+pub mod sample_statistics;

@@ -1,0 +1,248 @@
+//! The result of a design: everything that is known of it once it is solved.
+
+use std::borrow::Borrow;
+
+use serde::{Deserialize, Serialize};
+use skin::flexure::{self, Flexure};
+use skin::puncture::{self, Puncture};
+use sweep::{Case, DesignNumber};
+
+use super::failure::{Failure, FailureRow};
+use super::outcome::Outcome;
+use super::sample_statistics::SampleStatistics;
+
+/// Everything that a solved design measured, which is also what the journal keeps of it. It is small,
+/// whatever the length of the paths.
+///
+/// Its numbers are finite: JSON has no form for others, and no table shows them. A number that is
+/// not finite counts as one that does not exist.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DesignResult {
+    /// The coverage, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coverage: Option<f64>,
+    /// The puncture, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub puncture: Option<PunctureResult>,
+    /// The bending, if it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub flexure: Option<FlexureResult>,
+    /// The statistics of imperfect samples, if they were asked for.
+    #[serde(skip_serializing_if = "SampleStatistics::is_none")]
+    pub samples: SampleStatistics,
+    /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
+    ///
+    /// [`SEPARATOR`]: super::failure::SEPARATOR
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub settings: String,
+    /// The measures without a value.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failures: Vec<Failure>,
+}
+
+impl DesignResult {
+    /// Whether something that was asked for has no value.
+    pub fn failed(&self) -> bool {
+        !self.failures.is_empty()
+    }
+}
+
+/// A row of `designs.csv`: a design and its result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignRow {
+    /// The position of the design in the grid.
+    pub number: DesignNumber,
+    /// The parameters of the design.
+    pub case: Case,
+    /// The result of the design.
+    pub result: DesignResult,
+}
+
+impl DesignRow {
+    /// The rows of `failures.csv` that the design has.
+    pub fn failures(&self) -> impl Iterator<Item = FailureRow> {
+        let row = |failure: &Failure| FailureRow { design: self.clone(), failure: *failure };
+        self.result.failures.iter().map(row)
+    }
+}
+
+impl Borrow<DesignRow> for FailureRow {
+    fn borrow(&self) -> &DesignRow {
+        &self.design
+    }
+}
+
+/// A solved design with its paths.
+#[derive(Clone, Debug)]
+pub struct SolvedDesign {
+    /// The row of the design in the tables.
+    pub row: DesignRow,
+    /// The puncture, if it was asked for and ran.
+    pub puncture: Option<Puncture>,
+    /// The bending, if it was asked for and ran.
+    pub flexure: Option<Flexure>,
+}
+
+/// The result of a puncture.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PunctureResult {
+    /// The outcome: complete, or why it stopped.
+    pub outcome: Outcome,
+    /// The measures; they have no final values unless the outcome is complete.
+    pub measures: puncture::Measures,
+    /// Equilibria of the path.
+    pub points: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Estimated relative error of the springs of the substrate.
+    pub calibration_error: Option<f64>,
+}
+
+impl PunctureResult {
+    /// The result of a puncture without a path.
+    pub fn without_path(outcome: Outcome) -> Self {
+        Self {
+            outcome,
+            measures: puncture::Measures::default(),
+            points: 0,
+            iterations: 0,
+            calibration_error: None,
+        }
+    }
+
+    /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
+    pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
+        let measures = puncture.measures;
+        let few = puncture::Measures { scales: measures.scales, ..puncture::Measures::default() };
+        let (outcome, measures) =
+            finite_or(puncture_numbers(&measures), puncture.status.into(), measures, few);
+        Self {
+            outcome,
+            measures,
+            points: puncture.path.len(),
+            iterations: puncture.history.len(),
+            calibration_error: finite(calibration_error),
+        }
+    }
+}
+
+/// The result of a bending.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlexureResult {
+    /// The outcome: complete, or why it stopped.
+    pub outcome: Outcome,
+    /// The measures; they have no final values unless the outcome is complete.
+    pub measures: flexure::Measures,
+    /// Equilibria of the path.
+    pub points: usize,
+    /// Newton iterations.
+    pub iterations: usize,
+}
+
+impl FlexureResult {
+    /// The result of a bending without a path.
+    pub fn without_path(outcome: Outcome) -> Self {
+        Self { outcome, measures: flexure::Measures::default(), points: 0, iterations: 0 }
+    }
+
+    /// The result of a solved bending; if one of its numbers is not finite, all are left out.
+    pub fn new(flexure: &Flexure) -> Self {
+        let measures = flexure.measures;
+        let few = flexure::Measures { gaps: measures.gaps, ..flexure::Measures::default() };
+        let (outcome, measures) =
+            finite_or(flexure_numbers(&measures), flexure.status.into(), measures, few);
+        let (points, iterations) = (flexure.path.len(), flexure.history.len());
+        Self { outcome, measures, points, iterations }
+    }
+}
+
+/// `number` if it is finite.
+pub fn finite(number: f64) -> Option<f64> {
+    Some(number).filter(|number| number.is_finite())
+}
+
+/// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
+fn finite_or<M, const N: usize>(
+    numbers: [Option<f64>; N],
+    outcome: Outcome,
+    measures: M,
+    few: M,
+) -> (Outcome, M) {
+    match outcome {
+        _ if numbers.into_iter().flatten().all(f64::is_finite) => (outcome, measures),
+        Outcome::Complete => (Outcome::NotFinite, few),
+        stopped => (stopped, few),
+    }
+}
+
+fn puncture_numbers(measures: &puncture::Measures) -> [Option<f64>; 9] {
+    [
+        measures.critical_force,
+        measures.peak_force,
+        measures.critical_displacement,
+        measures.penetration,
+        measures.sink,
+        measures.first_contact_displacement,
+        measures.initial_stiffness,
+        measures.max_stiffness,
+        measures.secant_stiffness,
+    ]
+}
+
+fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 5] {
+    [
+        measures.compliance,
+        measures.initial_compliance,
+        measures.first_contact_curvature,
+        measures.max_moment,
+        measures.axial_energy_share,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use skin::Status;
+    use skin::puncture::Measures;
+
+    use super::*;
+
+    fn puncture(status: Status, critical_force: f64) -> Puncture {
+        let measures = Measures {
+            critical_force: Some(critical_force),
+            sink: Some(1.0),
+            scales: 41,
+            ..Measures::default()
+        };
+        let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
+        Puncture { status, measures, path, events, scales, history }
+    }
+
+    #[test]
+    fn a_complete_puncture_that_is_not_finite_is_not_complete() {
+        let result = PunctureResult::new(&puncture(Status::Complete, f64::NAN), 0.0);
+        assert_eq!(result.outcome, Outcome::NotFinite);
+        assert_eq!(result.measures, Measures { scales: 41, ..Measures::default() });
+        let result = PunctureResult::new(&puncture(Status::Complete, 2.0), 0.0);
+        assert_eq!(
+            (result.outcome, result.measures.critical_force),
+            (Outcome::Complete, Some(2.0))
+        );
+    }
+
+    #[test]
+    fn the_reason_of_a_puncture_that_stopped_is_kept() {
+        let result = PunctureResult::new(&puncture(Status::RowLimit, f64::NAN), 0.0);
+        assert_eq!(result.outcome, Outcome::RowLimit);
+    }
+
+    #[test]
+    fn an_error_that_is_not_finite_does_not_exist() {
+        for error in [f64::NAN, f64::INFINITY] {
+            let result = PunctureResult::new(&puncture(Status::Complete, 2.0), error);
+            assert_eq!(result.calibration_error, None);
+        }
+    }
+}

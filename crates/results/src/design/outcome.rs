@@ -1,0 +1,120 @@
+//! The outcome of a measurement: complete, or the reason why it has no values.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use skin::Status;
+use solver::Stop;
+
+/// The outcome of a measurement of a design: complete, or the reason why it has no values.
+///
+/// The list is closed and its texts are stable, so that tables can be filtered by them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Every value exists.
+    Complete,
+    /// Newton's iteration did not converge at the smallest step.
+    NoConvergence,
+    /// The path has no single continuation.
+    Singular,
+    /// The limit on the number of equilibria was hit.
+    TooManyPoints,
+    /// Contacts open and close at one point without the path moving on.
+    Cycling,
+    /// A value is not a finite number.
+    NotFinite,
+    /// A row needs more scales than it may take.
+    RowLimit,
+    /// Two scales overlap by more than their contact law allows.
+    Interpenetration,
+    /// A contact carries beyond the end of its edge.
+    OffEdge,
+    /// The springs of the substrate could not be found.
+    Calibration,
+    /// The program is at fault.
+    Internal,
+}
+
+impl Outcome {
+    /// All outcomes.
+    pub const ALL: [Self; 11] = [
+        Self::Complete,
+        Self::NoConvergence,
+        Self::Singular,
+        Self::TooManyPoints,
+        Self::Cycling,
+        Self::NotFinite,
+        Self::RowLimit,
+        Self::Interpenetration,
+        Self::OffEdge,
+        Self::Calibration,
+        Self::Internal,
+    ];
+
+    /// The text of the outcome in the tables.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Complete => "complete",
+            Self::NoConvergence => "no convergence",
+            Self::Singular => "singular tangent",
+            Self::TooManyPoints => "too many points",
+            Self::Cycling => "cycling contacts",
+            Self::NotFinite => "not finite",
+            Self::RowLimit => "row limit",
+            Self::Interpenetration => "interpenetration",
+            Self::OffEdge => "off the edge",
+            Self::Calibration => "no calibration",
+            Self::Internal => "internal error",
+        }
+    }
+
+    /// The meaning of the outcome, in half a sentence.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Complete => "the path reached its end and every check holds",
+            Self::NoConvergence => "Newton's iteration did not converge at the smallest step",
+            Self::Singular => "the tangent is singular: the path has no single continuation",
+            Self::TooManyPoints => "the path took more than `solver.max_points` points",
+            Self::Cycling => "contacts open and close without the path moving on",
+            Self::NotFinite => "a value is not a finite number",
+            Self::RowLimit => "a row needs more scales than it may take",
+            Self::Interpenetration => "two scales overlap by more than their contact law allows",
+            Self::OffEdge => "a contact carries beyond the end of its edge",
+            Self::Calibration => "the springs of the substrate could not be found",
+            Self::Internal => "the program is at fault; please report the design",
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text())
+    }
+}
+
+impl From<Status> for Outcome {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Complete => Self::Complete,
+            Status::RowLimit => Self::RowLimit,
+            Status::Interpenetration => Self::Interpenetration,
+            Status::OffEdge => Self::OffEdge,
+            Status::Stopped(stop) => stop.into(),
+        }
+    }
+}
+
+impl From<Stop> for Outcome {
+    fn from(stop: Stop) -> Self {
+        match stop {
+            Stop::NoConvergence => Self::NoConvergence,
+            Stop::Singular => Self::Singular,
+            Stop::TooManyPoints => Self::TooManyPoints,
+            Stop::Cycling => Self::Cycling,
+            Stop::NotFinite => Self::NotFinite,
+            // A path that reached its target has not stopped early.
+            Stop::Reached => Self::Internal,
+        }
+    }
+}

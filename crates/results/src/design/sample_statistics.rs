@@ -1,0 +1,81 @@
+//! Statistics of the imperfect rows of one design: mean and quantiles over the samples.
+
+use serde::{Deserialize, Serialize};
+
+/// Mean and quantiles of a measure over the samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Statistics {
+    /// The mean.
+    pub mean: f64,
+    /// The 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values (type 7 of
+    /// Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566).
+    pub quantiles: [f64; 3],
+}
+
+/// The shares of the samples that lie below the quantiles.
+const QUANTILES: [f64; 3] = [0.05, 0.5, 0.95];
+
+impl Statistics {
+    /// The statistics of `values`; `None` if there are no values, or one of the results is not
+    /// finite.
+    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        let last = values.len().checked_sub(1)?;
+        let quantile = |share: f64| {
+            let place = share * last as f64;
+            let (below, above) = (place.floor() as usize, place.ceil() as usize);
+            values[below] + (place - place.floor()) * (values[above] - values[below])
+        };
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let statistics = Self { mean, quantiles: QUANTILES.map(quantile) };
+        let is_finite = mean.is_finite() && statistics.quantiles.into_iter().all(f64::is_finite);
+        is_finite.then_some(statistics)
+    }
+}
+
+/// The statistics of the samples of a design. Samples that failed have no part in mean and quantiles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SampleStatistics {
+    /// The critical force.
+    pub critical_force: Option<Statistics>,
+    /// The penetration.
+    pub penetration: Option<Statistics>,
+    /// Number of samples whose puncture has no values.
+    pub puncture_failed: Option<usize>,
+    /// The flexural compliance.
+    pub compliance: Option<Statistics>,
+    /// The range of curvatures over which the gaps of a strip close.
+    pub closing_range: Option<Statistics>,
+    /// Number of samples whose bending has no values.
+    pub flexure_failed: Option<usize>,
+}
+
+impl SampleStatistics {
+    /// Whether no samples were solved.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Statistics;
+
+    #[test]
+    fn quantiles_lie_between_the_nearest_values() {
+        let values: Vec<f64> = (0..=20).rev().map(f64::from).collect();
+        let statistics = Statistics::of(values).expect("values");
+        assert_eq!(statistics, Statistics { mean: 10.0, quantiles: [1.0, 10.0, 19.0] });
+        let statistics = Statistics::of(vec![3.0, 1.0]).expect("values");
+        assert_eq!((statistics.mean, statistics.quantiles[1]), (2.0, 2.0));
+        assert!((statistics.quantiles[0] - 1.1).abs() < 1e-15);
+        assert_eq!(Statistics::of(Vec::new()), None);
+        assert_eq!(Statistics::of(vec![f64::MAX, f64::MAX]), None);
+        assert_eq!(
+            Statistics::of(vec![7.0]).map(|statistics| statistics.quantiles),
+            Some([7.0; 3])
+        );
+    }
+}

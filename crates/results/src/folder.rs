@@ -1,0 +1,136 @@
+//! The folder of a run: the name of every file in it, and how files get there.
+
+mod atomic_file;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
+
+use crate::columns::MEASURE_TABLES;
+
+/// The folder of a run. It owns the names of all files that squama writes there and reads back.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunFolder {
+    path: PathBuf,
+}
+
+impl RunFolder {
+    /// The journal: every finished design, from which the tables are written.
+    pub const JOURNAL: &'static str = "journal.jsonl";
+    /// The record of the run: its program, its counts, its definition.
+    pub const RUN_INFO: &'static str = "run.toml";
+    /// The table of all designs.
+    pub const DESIGNS: &'static str = "designs.csv";
+    /// The table of measures without a value.
+    pub const FAILURES: &'static str = "failures.csv";
+    /// The table of what reruns have changed.
+    pub const RERUNS: &'static str = "reruns.csv";
+    /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
+    pub const RANKING: [&'static str; 4] =
+        ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
+    /// The tables of a comparison: by column and by cell.
+    pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
+    /// The tables of the puncture of one design: path, events, scales, iterations.
+    pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
+    /// The tables of the bending of one design: path, events, scales, iterations.
+    pub const FLEXURE: [&'static str; 4] =
+        ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
+
+    /// The folder at `path`, which need not exist.
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The name of the table of a measured value, e.g. `coverage.csv`.
+    pub fn measure_table(value: &str) -> String {
+        format!("{value}.csv")
+    }
+
+    /// The names of all tables that a run, its ranking and its comparison may leave here, in the
+    /// order in which people read them.
+    pub fn tables() -> impl Iterator<Item = String> {
+        let measures = MEASURE_TABLES.iter().map(|(value, _)| Self::measure_table(value));
+        let of_runs = [Self::FAILURES, Self::RERUNS].into_iter();
+        let others = of_runs.chain(Self::RANKING).chain(Self::COMPARISON).map(str::to_owned);
+        std::iter::once(Self::DESIGNS.to_owned()).chain(measures).chain(others)
+    }
+
+    /// The path of the folder.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The path of the file `name` in this folder.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// The path of the journal.
+    pub fn journal(&self) -> PathBuf {
+        self.file(Self::JOURNAL)
+    }
+
+    /// Whether it holds the file `name`.
+    pub fn holds(&self, name: &str) -> bool {
+        self.file(name).is_file()
+    }
+
+    /// Makes the folder and those above it.
+    ///
+    /// # Errors
+    /// If it cannot be made.
+    pub fn make(&self) -> Result<(), OutputError> {
+        make_folder(&self.path)
+    }
+
+    /// Begins the file `name`, which appears when it is complete.
+    ///
+    /// # Errors
+    /// If the folder cannot be written.
+    pub fn create(&self, name: &str) -> Result<AtomicFile, OutputError> {
+        AtomicFile::create(&self.path, name)
+    }
+
+    /// Writes `text` as the file `name`.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_text(&self, name: &str, text: &str) -> Result<(), OutputError> {
+        write_text(&self.path, name, text)
+    }
+
+    /// Asks the system to keep the files that were moved into their places.
+    pub fn sync(&self) {
+        sync_folder(&self.path);
+    }
+
+    /// Removes the tables and rankings of an earlier run, but for those named in `files`: a folder
+    /// describes one run.
+    pub fn remove_tables_but(&self, files: &[String]) {
+        Self::of_runs().filter(|file| !files.contains(file)).for_each(|file| self.remove(&file));
+    }
+
+    /// Removes everything that an earlier run left, but for its journal.
+    pub fn remove_results(&self) {
+        self.remove_tables_but(&[]);
+        self.remove(Self::RUN_INFO);
+    }
+
+    /// Removes what a killed process left half-written.
+    pub fn remove_partial_files(&self) {
+        let files = Self::of_runs().chain([Self::RUN_INFO.to_owned()]);
+        files.for_each(|file| atomic_file::remove_partial(&self.path, &file));
+    }
+
+    /// Removes the file `name`, if it is there.
+    pub(crate) fn remove(&self, name: &str) {
+        // Nearly always there is none.
+        let _ = fs::remove_file(self.file(name));
+    }
+
+    /// The names of the tables that describe one run. Those of a comparison describe two, and stay.
+    fn of_runs() -> impl Iterator<Item = String> {
+        Self::tables().filter(|name| !Self::COMPARISON.contains(&name.as_str()))
+    }
+}

@@ -1,0 +1,60 @@
+//! Results: what the folder of a run holds, and how it is written and read.
+//!
+//! A design result is everything that is known of a solved design. Columns make cells of it; tables
+//! are rows of cells, written in one of two CSV formats and read back from either.
+//!
+//! ```text
+//! DesignResult ─► columns ─► Cell ─► CsvFile ─► designs.csv ─► Results
+//! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`DesignResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
+//! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
+//! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
+//! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`CsvFormat`], [`CsvFile`] | how tables are written |
+//! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`Results`] | the designs of a run read back |
+//!
+//! ```
+//! use results::columns::design_columns;
+//! use results::{CsvFormat, DesignResult, DesignRow, Results, RunFolder, write_rows};
+//! use sweep::Sweep;
+//!
+//! let sweep = Sweep::parse("name = 'x'\nmeasures = 'coverage'", "x.toml", &[])?;
+//! let (number, case) = (sweep.grid().number(2), sweep.grid().case(2));
+//! let result = DesignResult { coverage: Some(0.5), ..DesignResult::default() };
+//! let place = tempfile::tempdir()?;
+//! let (folder, columns) = (RunFolder::new(place.path()), design_columns(&sweep));
+//! let rows = [DesignRow { number, case, result }];
+//! write_rows(&folder, RunFolder::DESIGNS, CsvFormat::Plain, &columns, &rows)?;
+//!
+//! let results = Results::read(place.path())?;
+//! assert_eq!(results.design(0), "0003");
+//! assert_eq!(results.number(0, results.column("coverage")?)?, Some(0.5));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod columns;
+mod design;
+mod folder;
+mod path_tables;
+mod reader;
+mod tables;
+
+pub use columns::cell::Cell;
+pub use columns::{Column, failure_columns};
+pub use design::design_result::{
+    DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
+};
+pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
+pub use design::outcome::Outcome;
+pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
+pub use design::sample_statistics::{SampleStatistics, Statistics};
+pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};
+pub use path_tables::write_path_tables;
+pub use reader::{InvalidResults, Results, words};
+pub use tables::csv_file::{CsvFile, write_rows};
+pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

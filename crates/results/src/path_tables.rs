@@ -1,0 +1,65 @@
+//! The path tables of one design: its paths, events, scales and Newton iterations.
+
+use skin::flexure::Flexure;
+use skin::puncture::Puncture;
+
+use crate::columns::{
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
+    STEPS,
+};
+use crate::design::design_result::SolvedDesign;
+use crate::folder::{OutputError, RunFolder};
+use crate::tables::csv_file::write_rows;
+use crate::tables::csv_format::CsvFormat::Plain;
+
+/// Writes the path tables of a design to `folder` and returns the names of the files: those of what
+/// was solved. Files of an earlier time of what was not solved are removed.
+///
+/// # Errors
+/// If the folder or the disk does not take them.
+pub fn write_path_tables(
+    folder: &RunFolder,
+    solved: &SolvedDesign,
+) -> Result<Vec<&'static str>, OutputError> {
+    folder.make()?;
+    let mut files = Vec::new();
+    match &solved.puncture {
+        Some(puncture) => files.extend(write_puncture(folder, puncture)?),
+        None => remove(folder, RunFolder::PUNCTURE),
+    }
+    match &solved.flexure {
+        Some(flexure) => files.extend(write_flexure(folder, flexure)?),
+        None => remove(folder, RunFolder::FLEXURE),
+    }
+    folder.sync();
+    Ok(files)
+}
+
+fn write_puncture(
+    folder: &RunFolder,
+    puncture: &Puncture,
+) -> Result<[&'static str; 4], OutputError> {
+    let [path, events, scales, steps] = RunFolder::PUNCTURE;
+    write_rows(folder, path, Plain, PATH, &puncture.path)?;
+    write_rows(folder, events, Plain, EVENTS, &puncture.events)?;
+    write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
+    write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
+    Ok(RunFolder::PUNCTURE)
+}
+
+fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str; 4], OutputError> {
+    let [path, events, scales, steps] = RunFolder::FLEXURE;
+    let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
+    let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
+    write_rows(folder, path, Plain, FLEXURE_PATH, &flexure.path)?;
+    write_rows(folder, events, Plain, FLEXURE_EVENTS, &flexure.events)?;
+    write_rows(folder, scales, Plain, FLEXURE_SCALES, &shape)?;
+    write_rows(folder, steps, Plain, FLEXURE_STEPS, &flexure.history)?;
+    Ok(RunFolder::FLEXURE)
+}
+
+fn remove(folder: &RunFolder, files: [&str; 4]) {
+    for file in files {
+        folder.remove(file);
+    }
+}

@@ -1,0 +1,221 @@
+//! The folder of a run read back: one row per design, as text.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::columns::parameter_of;
+use sweep::{Parameter, Sweep, number, reason};
+
+use crate::folder::RunFolder;
+use crate::tables::csv_format::CsvFormat;
+
+/// The first column of that table.
+const NUMBER: &str = "design";
+
+/// The designs of a run, as `designs.csv` has them.
+#[derive(Clone, Debug)]
+pub struct Results {
+    folder: PathBuf,
+    format: CsvFormat,
+    header: Vec<String>,
+    rows: Vec<csv::StringRecord>,
+    parameters: Vec<(&'static Parameter, usize)>,
+    definition: Option<Sweep>,
+}
+
+/// A folder that holds no results, or results of another kind.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidResults {
+    /// The table cannot be read.
+    #[error("{file}: cannot be read ({reason}), expected the table that squama run writes")]
+    Unreadable {
+        /// The table.
+        file: String,
+        /// The message of the system.
+        reason: String,
+    },
+    /// The table is not one of designs.
+    #[error("{file}: the first column is {found}, expected {NUMBER}")]
+    NoDesigns {
+        /// The table.
+        file: String,
+        /// The first column.
+        found: String,
+    },
+    /// A column is missing.
+    #[error("{file}: there is no column {column}, expected one")]
+    NoColumn {
+        /// The table.
+        file: String,
+        /// The column.
+        column: String,
+    },
+    /// A cell is not what its column holds.
+    #[error("{file}: design {design}: {column}: {found} is not accepted, expected a number")]
+    NotANumber {
+        /// The table.
+        file: String,
+        /// Number of the design.
+        design: String,
+        /// The column.
+        column: String,
+        /// The cell.
+        found: String,
+    },
+}
+
+impl Results {
+    /// The results in `folder`.
+    ///
+    /// # Errors
+    /// If there is no table of designs, or it cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, InvalidResults> {
+        let path = folder.join(RunFolder::DESIGNS);
+        let (format, header, rows) = read_table(&path).map_err(|error| {
+            InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
+        })?;
+        match header.first() {
+            Some(first) if first == NUMBER => {}
+            first => {
+                let found = format!("\"{}\"", first.map_or("", String::as_str));
+                return Err(InvalidResults::NoDesigns { file: path.display().to_string(), found });
+            }
+        }
+        let parameters = header.iter().enumerate();
+        let parameters =
+            parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
+        Ok(Self {
+            folder: folder.to_owned(),
+            format,
+            parameters: parameters.collect(),
+            header,
+            rows,
+            // A table without the record of its run is still a table.
+            definition: Sweep::read(&folder.join(RunFolder::RUN_INFO), &[]).ok(),
+        })
+    }
+
+    /// Some of the designs, by their rows.
+    #[must_use]
+    pub fn only(&self, rows: &[usize]) -> Self {
+        let rows = rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect();
+        Self { rows, ..self.clone() }
+    }
+
+    /// The folder of the results.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The format of the tables.
+    pub fn format(&self) -> CsvFormat {
+        self.format
+    }
+
+    /// Name of the table of designs, for messages.
+    pub fn file(&self) -> String {
+        self.folder.join(RunFolder::DESIGNS).display().to_string()
+    }
+
+    /// The sweep, if the record of the run says so.
+    pub fn definition(&self) -> Option<&Sweep> {
+        self.definition.as_ref()
+    }
+
+    /// The number of designs.
+    #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Names of the columns.
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The parameters that have a column.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
+        self.parameters.iter().map(|(parameter, _)| *parameter)
+    }
+
+    /// The place of a column.
+    ///
+    /// # Errors
+    /// If there is no such column.
+    pub fn column(&self, name: &str) -> Result<usize, InvalidResults> {
+        let found = self.header.iter().position(|column| column == name);
+        let error = || InvalidResults::NoColumn { file: self.file(), column: name.to_owned() };
+        found.ok_or_else(error)
+    }
+
+    /// The number of a design, as it is written.
+    pub fn design(&self, row: usize) -> &str {
+        self.text(row, 0)
+    }
+
+    /// The value of a parameter, as it is written; empty if it has no column.
+    pub fn parameter(&self, row: usize, parameter: &Parameter) -> &str {
+        let column = self.parameters.iter().find(|(other, _)| other.key == parameter.key);
+        column.map_or("", |(_, column)| self.text(row, *column))
+    }
+
+    /// A cell as it is written.
+    pub fn text(&self, row: usize, column: usize) -> &str {
+        self.rows.get(row).and_then(|cells| cells.get(column)).unwrap_or_default()
+    }
+
+    /// The number in a cell, if there is one.
+    ///
+    /// # Errors
+    /// If there is something else.
+    pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, InvalidResults> {
+        let text = self.text(row, column);
+        if text.is_empty() {
+            return Ok(None);
+        }
+        let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+        let error = || InvalidResults::NotANumber {
+            file: self.file(),
+            design: self.design(row).to_owned(),
+            column: self.header.get(column).cloned().unwrap_or_default(),
+            found: format!("\"{text}\""),
+        };
+        number.map(Some).ok_or_else(error)
+    }
+}
+
+/// A table: how it is written, its header, its rows.
+type Table = (CsvFormat, Vec<String>, Vec<csv::StringRecord>);
+
+fn read_table(path: &Path) -> Result<Table, csv::Error> {
+    let bytes = fs::read(path)?;
+    let (format, start) = CsvFormat::of(&bytes);
+    let mut table = format.reader(&bytes[start..]);
+    let header = table.headers()?.iter().map(str::to_owned).collect();
+    let plain = |row: csv::StringRecord| match format {
+        CsvFormat::Plain => row,
+        CsvFormat::ExcelEu => row.iter().map(|cell| plain(format, cell)).collect(),
+    };
+    let rows = table.records().map(|row| row.map(plain));
+    Ok((format, header, rows.collect::<Result<_, _>>()?))
+}
+
+/// The text of a cell in the plain format.
+fn plain(format: CsvFormat, cell: &str) -> String {
+    let decimal = format.number(cell).filter(|_| cell.contains(','));
+    decimal.map_or_else(|| cell.to_owned(), number::text)
+}
+
+/// The error of a table that cannot be read, in one line.
+pub fn words(error: csv::Error) -> String {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => reason(&error),
+        csv::ErrorKind::Utf8 { .. } => "it is no text".to_owned(),
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            // No cell has a line end in it, and a line that ends with CR LF is counted late.
+            let line = pos.map_or(0, |position| position.record() + 1);
+            format!("line {line} has {len} cells, the first one {expected_len}")
+        }
+        _ => "it is no table".to_owned(),
+    }
+}

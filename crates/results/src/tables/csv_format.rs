@@ -1,0 +1,132 @@
+//! The formats of CSV files: one for programs, one for spreadsheets where the comma is the decimal sign.
+
+use std::borrow::Cow;
+use std::fmt;
+use std::io::{self, Write};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// The format of a CSV file. All of it is RFC 4180 but for the separator: UTF-8, lines that end
+/// with CR LF, quotes where a cell needs them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CsvFormat {
+    /// A comma between cells, a point in decimals.
+    #[default]
+    Plain,
+    /// A semicolon between cells, a comma in decimals, a byte-order mark: what Excel opens right
+    /// where the comma is the decimal sign.
+    ExcelEu,
+}
+
+/// A text that names no CSV format.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is not a CSV format, expected plain or excel-eu")]
+pub struct UnknownCsvFormat(String);
+
+/// Says that a file is UTF-8.
+const MARK: &[u8] = "\u{feff}".as_bytes();
+
+impl CsvFormat {
+    /// All formats.
+    pub const ALL: [Self; 2] = [Self::Plain, Self::ExcelEu];
+
+    /// The name of the format on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Plain => "plain",
+            Self::ExcelEu => "excel-eu",
+        }
+    }
+
+    /// Writes a file in this format.
+    ///
+    /// # Errors
+    /// If the file does not take its first bytes.
+    pub fn writer<W: Write>(self, mut file: W) -> io::Result<csv::Writer<W>> {
+        if self == Self::ExcelEu {
+            file.write_all(MARK)?;
+        }
+        let mut csv = csv::WriterBuilder::new();
+        csv.delimiter(self.delimiter()).terminator(csv::Terminator::CRLF);
+        Ok(csv.from_writer(file))
+    }
+
+    fn delimiter(self) -> u8 {
+        match self {
+            Self::Plain => b',',
+            Self::ExcelEu => b';',
+        }
+    }
+
+    /// The text of a cell in a file of this format.
+    pub fn cell(self, cell: &str) -> Cow<'_, str> {
+        let is_decimal = self == Self::ExcelEu && cell.contains('.') && is_number(cell);
+        if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
+    }
+
+    /// The format of a file that begins so, and where its text begins.
+    pub fn of(beginning: &[u8]) -> (Self, usize) {
+        if beginning.starts_with(MARK) { (Self::ExcelEu, MARK.len()) } else { (Self::Plain, 0) }
+    }
+
+    /// Reads the text of a file in this format.
+    pub fn reader<R: io::Read>(self, text: R) -> csv::Reader<R> {
+        csv::ReaderBuilder::new().delimiter(self.delimiter()).from_reader(text)
+    }
+
+    /// The number that a cell of a file in this format holds.
+    pub fn number(self, cell: &str) -> Option<f64> {
+        let plain = match self {
+            Self::Plain => Cow::from(cell),
+            Self::ExcelEu => cell.replace(',', ".").into(),
+        };
+        is_number(&plain).then(|| plain.parse().ok()).flatten()
+    }
+}
+
+/// Whether it is a number in digits: `inf` and `nan` are words.
+fn is_number(cell: &str) -> bool {
+    cell.ends_with(|c: char| c.is_ascii_digit()) && cell.parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+impl FromStr for CsvFormat {
+    type Err = UnknownCsvFormat;
+
+    fn from_str(text: &str) -> Result<Self, UnknownCsvFormat> {
+        let known = Self::ALL.into_iter().find(|format| format.name() == text);
+        known.ok_or_else(|| UnknownCsvFormat(text.to_owned()))
+    }
+}
+
+impl fmt::Display for CsvFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_numbers_take_the_decimal_comma() {
+        let cells = ["0.3", "1e-7", "1.5e-12", "0417", "solver.max_step=0.01", "complete", ""];
+        let written = cells.map(|cell| CsvFormat::ExcelEu.cell(cell).into_owned());
+        assert_eq!(
+            written,
+            ["0,3", "1e-7", "1,5e-12", "0417", "solver.max_step=0.01", "complete", ""]
+        );
+        assert_eq!(cells.map(|cell| CsvFormat::Plain.cell(cell).into_owned()), cells);
+    }
+
+    #[test]
+    fn numbers_are_read_back() {
+        assert_eq!(CsvFormat::ExcelEu.number("0,3"), Some(0.3));
+        assert_eq!(CsvFormat::Plain.number("0.3"), Some(0.3));
+        for word in ["", "nan", "inf", "2L", "complete"] {
+            assert_eq!(CsvFormat::Plain.number(word), None);
+        }
+    }
+}

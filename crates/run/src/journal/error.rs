@@ -1,0 +1,90 @@
+//! Errors of journals that cannot be used.
+
+use std::path::{Path, PathBuf};
+
+use super::Start;
+use super::header::FORMAT;
+use results::OutputError;
+
+/// A journal that cannot be used. Each message is one line that says what would be right.
+#[derive(Debug, thiserror::Error)]
+pub enum JournalError {
+    /// There are results already.
+    #[error("{}: holds results already, expected --resume to go on with them or --fresh to throw them away", folder.display())]
+    Exists {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// There are tables that no journal stands behind.
+    #[error("{}: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR", folder.display())]
+    NoJournal {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// There is none.
+    #[error("{}: holds no journal, expected the folder of a run", folder.display())]
+    Missing {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Another process writes it.
+    #[error("{}: another squama is writing there, expected one at a time", folder.display())]
+    InUse {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The journal cannot be read.
+    #[error("{}: cannot be read ({reason}), expected the journal of a run", path.display())]
+    Unreadable {
+        /// Path of the journal.
+        path: PathBuf,
+        /// The message of the system.
+        reason: String,
+    },
+    /// A line before the last is not as it was written.
+    #[error("{}:{line}: damaged line ({problem}), expected it as it was written; remove line {line} to have its design solved again", path.display())]
+    Damaged {
+        /// Path of the journal.
+        path: PathBuf,
+        /// Number of the line, from 1.
+        line: u64,
+        /// The damage.
+        problem: String,
+    },
+    /// The first line is not as it was written.
+    #[error("{}:1: not the first line of a journal ({problem}), expected it as it was written, or --fresh to throw all of it away", path.display())]
+    NoHeader {
+        /// Path of the journal.
+        path: PathBuf,
+        /// The damage.
+        problem: String,
+    },
+    /// The journal is of a format that another version of the program writes.
+    #[error("{}: a journal of format {found}, this squama reads format {}; expected one of this format; squama run --fresh throws the results away and solves them again, the squama that wrote them still reads them", path.display(), FORMAT)]
+    OtherFormat {
+        /// Path of the journal.
+        path: PathBuf,
+        /// The format of the journal.
+        found: u64,
+    },
+    /// The journal is of another definition, another subset of the designs or another program.
+    #[error("{}: {difference}; expected {expected}", path.display())]
+    Different {
+        /// Path of the journal.
+        path: PathBuf,
+        /// The difference.
+        difference: String,
+        /// The values that would be right.
+        expected: &'static str,
+    },
+    /// The disk does not take it.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+impl JournalError {
+    pub(super) fn exists(folder: &Path, start: Start) -> Self {
+        let folder = folder.to_owned();
+        if start == Start::New { Self::Exists { folder } } else { Self::NoJournal { folder } }
+    }
+}

@@ -1,0 +1,137 @@
+//! The index of a journal: the offsets of the lines of the designs.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroU64;
+use std::ops::Range;
+
+/// For each design the offset of the line that counts: eight bytes per design, up to the last that is
+/// done. Of several lines of one design the one of the latest rerun counts, wherever it stands.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Index {
+    /// By position. The first line is no design, so none has offset 0.
+    offsets: Vec<Option<NonZeroU64>>,
+    done: u64,
+    /// The offsets of all lines of the designs that were solved again, by position and rerun.
+    reruns: BTreeMap<(u64, u64), u64>,
+}
+
+/// The offsets of two lines of one design, of which the one replaces the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Replaced {
+    /// Offset of the earlier line.
+    pub old: u64,
+    /// Offset of the line that replaces it.
+    pub new: u64,
+}
+
+impl Index {
+    /// Notes the line of the design at `position` that holds its solution `rerun`.
+    pub fn insert(&mut self, position: u64, rerun: u64, offset: u64) {
+        // Designs that fit into memory have positions that fit into a machine word.
+        let Ok(place) = usize::try_from(position) else { return };
+        if place >= self.offsets.len() {
+            self.offsets.resize(place + 1, None);
+        }
+        match self.offsets[place] {
+            None => self.done += 1,
+            // A line that is not listed yet is the first solution.
+            Some(known) if self.lines(position).next().is_none() => {
+                self.reruns.insert((position, 0), known.get());
+            }
+            Some(_) => {}
+        }
+        if rerun > 0 || self.offsets[place].is_some() {
+            // A line that was doubled is the same line.
+            self.reruns.entry((position, rerun)).or_insert(offset);
+        }
+        let newest = self.lines(position).last().unwrap_or(offset);
+        self.offsets[place] = NonZeroU64::new(newest);
+    }
+
+    /// The offsets of the lines of a design that was solved again, the first solution first.
+    fn lines(&self, position: u64) -> impl DoubleEndedIterator<Item = u64> {
+        self.reruns.range((position, 0)..=(position, u64::MAX)).map(|(_, offset)| *offset)
+    }
+
+    /// The offset of the line that counts for the design at `position`.
+    pub fn offset(&self, position: u64) -> Option<u64> {
+        let slot = self.offsets.get(usize::try_from(position).ok()?)?;
+        slot.map(NonZeroU64::get)
+    }
+
+    /// The offsets of the lines that count, in the order of the designs.
+    pub fn offsets(&self) -> impl Iterator<Item = u64> {
+        self.offsets.iter().flatten().map(|offset| offset.get())
+    }
+
+    /// The offsets of all lines of the design at `position`, the first solution first.
+    pub fn history(&self, position: u64) -> Vec<u64> {
+        let lines: Vec<_> = self.lines(position).collect();
+        if lines.is_empty() { self.offset(position).into_iter().collect() } else { lines }
+    }
+
+    /// Lines that replace an earlier one, in the order of the designs and then of their reruns.
+    pub fn replaced(&self) -> Vec<Replaced> {
+        let lines = self.reruns.iter();
+        let pairs = lines.clone().zip(lines.skip(1));
+        let same = pairs.filter(|((old, _), (new, _))| old.0 == new.0);
+        same.map(|((_, old), (_, new))| Replaced { old: *old, new: *new }).collect()
+    }
+
+    /// The number of designs that are done.
+    pub fn done(&self) -> u64 {
+        self.done
+    }
+
+    /// The positions below `count` that are not done.
+    pub fn missing(&self, count: u64) -> Vec<Range<u64>> {
+        let mut missing = Vec::new();
+        let mut next = 0;
+        for (position, slot) in (0..).zip(&self.offsets) {
+            if slot.is_some() {
+                missing.push(next..position);
+                next = position + 1;
+            }
+        }
+        missing.push(next..count);
+        missing.retain(|range| !range.is_empty());
+        missing
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_and_what_is_replaced() {
+        let mut index = Index::default();
+        assert_eq!(index.missing(3), vec![0..3; 1]);
+        for (position, rerun, offset) in [(4, 0, 10), (1, 0, 20), (2, 0, 30), (1, 1, 40)] {
+            index.insert(position, rerun, offset);
+        }
+        assert_eq!(index.missing(7), [0..1, 3..4, 5..7]);
+        assert_eq!(index.missing(5), [0..1, 3..4]);
+        assert_eq!(index.offsets().collect::<Vec<_>>(), [40, 30, 10]);
+        assert_eq!(index.done(), 3);
+        assert_eq!(index.replaced(), [Replaced { old: 20, new: 40 }]);
+        assert_eq!((index.history(1), index.history(2)), (vec![20, 40], vec![30]));
+    }
+
+    #[test]
+    fn the_latest_rerun_counts_in_any_order_of_lines() {
+        let lines = [(0, 10), (1, 20), (2, 30)];
+        for order in [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]] {
+            let mut index = Index::default();
+            // Each line stands there twice.
+            for (rerun, offset) in order.into_iter().map(|line| lines[line]) {
+                index.insert(5, rerun, offset);
+                index.insert(5, rerun, offset + 100);
+            }
+            assert_eq!((index.offset(5), index.done()), (Some(30), 1), "{order:?}");
+            assert_eq!(index.history(5), [10, 20, 30]);
+            let pairs = [Replaced { old: 10, new: 20 }, Replaced { old: 20, new: 30 }];
+            assert_eq!(index.replaced(), pairs);
+        }
+    }
+}

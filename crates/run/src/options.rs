@@ -1,0 +1,30 @@
+//! The options of a run, and the program that runs it.
+
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use results::CsvFormat;
+
+/// The program that runs a sweep.
+#[derive(Clone, Copy, Debug)]
+pub struct Program {
+    /// The version of the program.
+    pub version: &'static str,
+    /// The revision of its source.
+    pub revision: &'static str,
+}
+
+/// The options of a run.
+#[derive(Clone, Copy, Debug)]
+pub struct Options<'a> {
+    /// The number of designs that are solved at a time.
+    pub threads: usize,
+    /// The format of the tables; `None` keeps the format that they have.
+    pub format: Option<CsvFormat>,
+    /// Whether the first failure ends the run.
+    pub fail_fast: bool,
+    /// The interval at which the tables are written while the run goes on.
+    pub tables_every: Duration,
+    /// Set to request a stop; designs already started are finished and the tables written.
+    pub stop: &'a AtomicBool,
+}

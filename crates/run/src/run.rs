@@ -1,0 +1,122 @@
+//! Running a sweep: every design solved, noted in the journal, written to the tables.
+
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use results::{CsvFormat, RunFolder};
+use sweep::{Subset, SubsetDesigns, Sweep};
+
+use crate::journal::{Journal, JournalEntry, JournalHeader, SessionStart, Start};
+use crate::options::{Options, Program};
+use crate::progress::{Finished, Progress, RunError};
+use crate::solve::groups::Groups;
+use crate::solve::task::Task;
+use crate::solve::workers;
+use crate::tables::run_info::RunInfo;
+use crate::tables::table_writer::TableWriter;
+
+/// Solves the designs of `subset` of `sweep` that are not done yet and writes the tables to `folder`.
+/// Reports `progress` as soon as a design is done, in any order.
+///
+/// The tables are the same, byte by byte, for any number of threads, however often the run was
+/// ended and resumed.
+///
+/// # Errors
+/// If the folder or the disk does not take the results, there are results that `start` says nothing
+/// of, or the threads cannot be started. A design that fails is a row, not an error.
+pub fn run(
+    sweep: &Sweep,
+    subset: Subset,
+    folder: &Path,
+    start: Start,
+    options: &Options<'_>,
+    program: &Program,
+    mut progress: impl FnMut(Progress),
+) -> Result<Finished, RunError> {
+    let clock = Instant::now();
+    // A subset that does not exist leaves no folder behind.
+    SubsetDesigns::new(sweep.grid().len(), subset)?;
+    let folder = RunFolder::new(folder);
+    folder.make()?;
+    let journal = Journal::begin(&folder, JournalHeader::new(sweep, subset, program), start)?;
+    folder.remove_partial_files();
+    let archive = journal.archive();
+    let (subset, missing) = (archive.designs().clone(), archive.missing());
+    progress(Progress::Begun { designs: subset.len(), done: archive.done() });
+    if archive.done() == 0 {
+        folder.remove_results();
+    }
+    let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
+    let designs = missing.into_iter().flatten().map(|position| subset.design(position));
+    let mut designs = designs.peekable();
+    if designs.peek().is_some() {
+        let task = Task::new(sweep, String::new(), 0, clock);
+        run.solve(&task, designs, progress)?;
+    }
+    run.finish()
+}
+
+/// A run of the designs of one journal.
+pub(crate) struct Run<'a> {
+    journal: Journal,
+    options: &'a Options<'a>,
+    format: CsvFormat,
+    tables: TableWriter<'a>,
+}
+
+impl<'a> Run<'a> {
+    /// A run that has solved nothing yet, and leaves no trace in `journal`, which is in `folder`.
+    pub fn new(
+        journal: Journal,
+        folder: RunFolder,
+        options: &'a Options<'a>,
+        info: RunInfo<'a>,
+    ) -> Self {
+        let format = options.format.or(journal.archive().format()).unwrap_or_default();
+        let tables = TableWriter::new(folder, format, options.tables_every, info);
+        Self { journal, options, format, tables }
+    }
+
+    /// Solves `designs`, notes each in the journal, and then reports `progress`.
+    pub fn solve(
+        &mut self,
+        task: &Task<'_>,
+        designs: impl Iterator<Item = u64> + Send,
+        mut progress: impl FnMut(Progress),
+    ) -> Result<(), RunError> {
+        let Options { threads, stop, .. } = *self.options;
+        self.journal.begin_session(SessionStart::now(threads, self.format))?;
+        let groups = Groups::new(task.grid(), designs);
+        workers::solve(
+            threads,
+            stop,
+            groups,
+            |design| task.solve(design),
+            |entry| self.take(entry, &mut progress),
+        )
+    }
+
+    /// Takes a design that is done.
+    fn take(
+        &mut self,
+        entry: JournalEntry,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<(), RunError> {
+        let failed = entry.result.failed();
+        self.journal.append(entry)?;
+        progress(Progress::Done { failed });
+        if failed && self.options.fail_fast {
+            self.options.stop.store(true, Ordering::Relaxed);
+        }
+        if self.tables.are_due() {
+            self.tables.write(&mut self.journal)?;
+        }
+        Ok(())
+    }
+
+    /// Writes the tables for the last time.
+    pub fn finish(mut self) -> Result<Finished, RunError> {
+        self.tables.write(&mut self.journal)
+    }
+}

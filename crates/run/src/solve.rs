@@ -1,0 +1,7 @@
+//! Solving designs: one by one, and many at a time.
+
+pub mod evaluator;
+pub mod groups;
+mod samples;
+pub mod task;
+pub mod workers;

@@ -1,0 +1,162 @@
+//! Solving one design.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+
+use results::{
+    DesignResult, DesignRow, Failure, FlexureResult, Outcome, PathEnd, PunctureResult,
+    SampleStatistics, SolvedDesign, finite,
+};
+use skin::flexure::{self, Flexure, Method};
+use skin::puncture::{self, Puncture};
+use substrate::{Calibrations, RowStiffness};
+use sweep::{Case, DesignNumber, Measure};
+
+use super::samples;
+
+/// The most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
+const LONGEST_CHAIN: usize = 100_000;
+
+/// Solves designs, from any number of threads; those of equal footprint share one calibration.
+#[derive(Debug)]
+pub struct Evaluator {
+    measures: Vec<Measure>,
+    calibrations: Calibrations,
+}
+
+/// A measure that was evaluated: its result and its path, or why there is none.
+type Evaluated<R, P> = Option<Result<(R, P), Outcome>>;
+
+impl Evaluator {
+    /// An evaluator of `measures`.
+    pub fn new(measures: &[Measure]) -> Self {
+        Self { measures: measures.to_vec(), calibrations: Calibrations::default() }
+    }
+
+    fn measures(&self, measure: Measure) -> bool {
+        self.measures.contains(&measure)
+    }
+
+    /// Solves `case`. Nothing that goes wrong inside ends more than this design.
+    pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
+        let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
+        let punctured = self.measures(Measure::Puncture).then(|| self.puncture(case));
+        let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
+        let bent = self.measures(Measure::Flexure).then(|| flexure(case));
+        let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
+        let (samples, settings) = (self.samples(case), String::new());
+        let failures = Vec::new();
+        let result = DesignResult { coverage, puncture, flexure, samples, settings, failures };
+        let row = DesignRow { number, case: *case, result };
+        let mut solved = SolvedDesign { row, puncture: puncture_path, flexure: flexure_path };
+        let failures = self.measures.iter().filter_map(|measure| failure(*measure, &solved));
+        solved.row.result.failures = failures.collect();
+        solved
+    }
+
+    fn puncture(&self, case: &Case) -> Result<(PunctureResult, Puncture), Outcome> {
+        let substrate = guarded(|| self.substrate(case)).flatten()?;
+        let puncture =
+            guarded(|| puncture::solve(&case.design, &*substrate, &case.common, &case.puncture))?;
+        // Validation lets no case without mechanical meaning come here.
+        let puncture = puncture.map_err(|_| Outcome::Internal)?;
+        Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
+    }
+
+    /// Solves the imperfect samples of `case`. If they cannot be solved at all, every sample failed.
+    fn samples(&self, case: &Case) -> SampleStatistics {
+        let mut statistics = SampleStatistics::default();
+        if case.imperfection.is_none() {
+            return statistics;
+        }
+        if self.measures(Measure::Puncture) {
+            let punctured = guarded(|| self.substrate(case)).flatten().and_then(|substrate| {
+                guarded(|| samples::puncture(case, &substrate, &mut statistics))
+            });
+            if punctured.is_err() {
+                statistics.puncture_failed = Some(case.samples.count);
+            }
+        }
+        if self.measures(Measure::Flexure) {
+            let bent = chain_fits(case);
+            if bent.and_then(|()| guarded(|| samples::flexure(case, &mut statistics))).is_err() {
+                statistics.flexure_failed = Some(case.samples.count);
+            }
+        }
+        statistics
+    }
+
+    fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
+        let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
+        self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
+    }
+}
+
+fn coverage(case: &Case) -> Option<f64> {
+    let coverage = guarded(|| case.design.row().ok().map(|row| row.coverage()));
+    coverage.ok().flatten().and_then(finite)
+}
+
+fn flexure(case: &Case) -> Result<(FlexureResult, Flexure), Outcome> {
+    if case.flexure.method == Method::Chain {
+        chain_fits(case)?;
+    }
+    let flexure = guarded(|| flexure::solve(&case.design, &case.common, &case.flexure))?;
+    // Validation lets no case without mechanical meaning come here.
+    let flexure = flexure.map_err(|_| Outcome::Internal)?;
+    Ok((FlexureResult::new(&flexure), flexure))
+}
+
+fn chain_fits(case: &Case) -> Result<(), Outcome> {
+    let row = case.design.row().map_err(|_| Outcome::Internal)?;
+    let gaps = flexure::gaps(&row, case.flexure.membrane_length);
+    if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
+}
+
+/// The result and the path of what was asked for, the path only if it ran.
+fn taken_apart<R, P>(
+    evaluated: Evaluated<R, P>,
+    without_path: fn(Outcome) -> R,
+) -> (Option<R>, Option<P>) {
+    match evaluated {
+        Some(Ok((result, path))) => (Some(result), Some(path)),
+        Some(Err(outcome)) => (Some(without_path(outcome)), None),
+        None => (None, None),
+    }
+}
+
+/// The failure of a measure of a solved design; `None` if it has a value.
+fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
+    let result = &solved.row.result;
+    let (outcome, end) = match measure {
+        Measure::Coverage if result.coverage.is_some() => return None,
+        // A formula fails only if the program does.
+        Measure::Coverage => (Outcome::Internal, None),
+        Measure::Puncture => {
+            (result.puncture?.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture))
+        }
+        Measure::Flexure => {
+            (result.flexure?.outcome, solved.flexure.as_ref().map(PathEnd::of_flexure))
+        }
+    };
+    let failure = Failure { measure, outcome, end: end.unwrap_or_default() };
+    (outcome != Outcome::Complete).then_some(failure)
+}
+
+/// The value of `f`, or [`Outcome::Internal`] if it panics.
+fn guarded<T>(f: impl FnOnce() -> T) -> Result<T, Outcome> {
+    // Nothing of what a failed design has touched is looked at again, but for the calibrations,
+    // which hold complete entries only.
+    catch_unwind(AssertUnwindSafe(f)).map_err(|_| Outcome::Internal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_one_design_alone() {
+        assert_eq!(guarded(|| 1), Ok(1));
+        assert_eq!(guarded(|| -> u32 { panic!("on purpose") }), Err(Outcome::Internal));
+    }
+}

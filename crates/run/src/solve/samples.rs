@@ -1,0 +1,48 @@
+//! Solving imperfect samples of a design.
+
+use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
+use skin::flexure::{self, Flexure};
+use skin::puncture;
+use substrate::RowStiffness;
+use sweep::Case;
+
+/// Punctures the samples of `case` on `substrate`, and adds what they gave to `statistics`.
+pub(super) fn puncture(case: &Case, substrate: &RowStiffness, statistics: &mut SampleStatistics) {
+    let (mut force, mut penetration) = (Vec::new(), Vec::new());
+    for number in 1..=case.samples.count as u64 {
+        let measures = punctured(case, substrate, number).map(|result| result.measures);
+        force.extend(measures.and_then(|measures| measures.critical_force));
+        penetration.extend(measures.and_then(|measures| measures.penetration));
+    }
+    statistics.puncture_failed = Some(case.samples.count - force.len());
+    statistics.critical_force = Statistics::of(force);
+    statistics.penetration = Statistics::of(penetration);
+}
+
+/// Bends the samples of `case`, and adds what they gave to `statistics`.
+pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics) {
+    let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
+    for number in 1..=case.samples.count as u64 {
+        let Some(flexure) = bent(case, number) else { continue };
+        if let Some(value) = FlexureResult::new(&flexure).measures.compliance {
+            compliance.push(value);
+            closing_range.extend(flexure.closing_range());
+        }
+    }
+    statistics.closing_range = Statistics::of(closing_range);
+    statistics.flexure_failed = Some(case.samples.count - compliance.len());
+    statistics.compliance = Statistics::of(compliance);
+}
+
+fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureResult> {
+    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
+    let puncture =
+        puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
+            .ok()?;
+    Some(PunctureResult::new(&puncture, substrate.estimated_error()))
+}
+
+fn bent(case: &Case, number: u64) -> Option<Flexure> {
+    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
+    flexure::solve_sample(&case.design, &case.common, &case.flexure, &sample).ok()
+}

@@ -1,0 +1,54 @@
+//! The task of the workers: each design becomes an entry of the journal.
+
+use std::time::{Duration, Instant};
+
+use sweep::{Grid, Sweep};
+
+use super::evaluator::Evaluator;
+use crate::journal::JournalEntry;
+
+/// Solves designs of one sweep as entries of a journal.
+pub(crate) struct Task<'a> {
+    sweep: &'a Sweep,
+    evaluator: Evaluator,
+    /// The settings that are not those of the run.
+    settings: String,
+    rerun: u64,
+    clock: Instant,
+}
+
+impl<'a> Task<'a> {
+    /// The designs of `sweep`, solved for the `rerun`-th time; `clock` began with the session.
+    pub fn new(sweep: &'a Sweep, settings: String, rerun: u64, clock: Instant) -> Self {
+        let evaluator = Evaluator::new(sweep.measures());
+        Self { sweep, evaluator, settings, rerun, clock }
+    }
+
+    /// The designs of the sweep.
+    pub fn grid(&self) -> &'a Grid {
+        self.sweep.grid()
+    }
+
+    /// The entry of design `index`.
+    pub fn solve(&self, index: u64) -> JournalEntry {
+        let begun = self.clock.elapsed();
+        let grid = self.grid();
+        let solved = self.evaluator.solve(grid.number(index), &grid.case(index));
+        let mut result = solved.row.result;
+        result.settings.clone_from(&self.settings);
+        let at = self.clock.elapsed();
+        let seconds = seconds(at.saturating_sub(begun));
+        JournalEntry {
+            design: index + 1,
+            rerun: self.rerun,
+            at: self::seconds(at),
+            seconds,
+            result,
+        }
+    }
+}
+
+/// Seconds to the microsecond.
+fn seconds(duration: Duration) -> f64 {
+    (duration.as_secs_f64() * 1e6).round() / 1e6
+}

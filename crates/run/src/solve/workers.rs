@@ -1,0 +1,151 @@
+//! Threads that solve designs, and can be told to stop.
+
+use std::collections::VecDeque;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Mutex, PoisonError};
+use std::thread::{self, Scope};
+
+use crate::progress::RunError;
+
+/// The most results that wait for the journal.
+const WAITING: usize = 1024;
+
+/// Solves the designs of `groups` on `threads` threads and hands each result to `sink` as soon as it
+/// is there, in any order. The first error of `sink` ends the work; once `stop` is set, designs already
+/// started are finished.
+///
+/// A thread takes a group at a time, because the designs of a group share something that is slow to
+/// find: so two threads seldom wait for the same. When no group is left, threads help each other.
+///
+/// # Errors
+/// If the threads cannot be started, or those of `sink`.
+pub(crate) fn solve<T: Send>(
+    threads: usize,
+    stop: &AtomicBool,
+    groups: impl Iterator<Item = Vec<u64>> + Send,
+    solve: impl Fn(u64) -> T + Sync,
+    mut sink: impl FnMut(T) -> Result<(), RunError>,
+) -> Result<(), RunError> {
+    let abandoned = AtomicBool::new(false);
+    let queue = Mutex::new(Queue { groups, open: vec![VecDeque::new(); threads] });
+    let next = |worker| {
+        let ended = abandoned.load(Ordering::Relaxed) || stop.load(Ordering::Relaxed);
+        // Taking a design leaves the queue whole, so a poisoned lock is as good as any.
+        let mut queue = queue.lock().unwrap_or_else(PoisonError::into_inner);
+        if ended { None } else { queue.next(worker) }
+    };
+    thread::scope(|scope| {
+        let (sender, results) = sync_channel(WAITING);
+        for worker in 0..threads {
+            let (sender, next, solve) = (sender.clone(), &next, &solve);
+            start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
+                abandoned.store(true, Ordering::Relaxed);
+                RunError::Threads { count: threads, reason: sweep::reason(&error) }
+            })?;
+        }
+        // The results end when the last worker does.
+        drop(sender);
+        let taken = results.into_iter().try_for_each(&mut sink);
+        abandoned.store(taken.is_err(), Ordering::Relaxed);
+        taken
+    })
+}
+
+fn start<'s>(scope: &'s Scope<'s, '_>, work: impl FnOnce() + Send + 's) -> std::io::Result<()> {
+    thread::Builder::new().spawn_scoped(scope, work).map(|_| ())
+}
+
+/// The work of one thread.
+fn work<T>(next: impl Fn() -> Option<u64>, solve: impl Fn(u64) -> T, sender: &SyncSender<T>) {
+    while let Some(design) = next() {
+        // Nobody listens any more only when the work is abandoned.
+        if sender.send(solve(design)).is_err() {
+            return;
+        }
+    }
+}
+
+/// Groups that nobody has begun, and what is left of the group of each worker.
+struct Queue<G> {
+    groups: G,
+    open: Vec<VecDeque<u64>>,
+}
+
+impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
+    /// The next design for `worker`: of its own group, of a new one, or of the largest that is open.
+    fn next(&mut self, worker: usize) -> Option<u64> {
+        if self.open[worker].is_empty()
+            && let Some(group) = self.groups.next()
+        {
+            self.open[worker] = group.into();
+        }
+        let own = self.open[worker].pop_front();
+        own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::AtomicU64;
+
+    use super::*;
+
+    fn groups(count: u64) -> impl Iterator<Item = Vec<u64>> {
+        (0..count).map(|group| (6 * group..6 * group + 6).collect())
+    }
+
+    /// An error of the sink.
+    fn full() -> RunError {
+        RunError::Threads { count: 0, reason: "full".to_owned() }
+    }
+
+    #[test]
+    fn every_design_is_solved_once_by_any_number_of_threads() {
+        for threads in [1, 2, 8] {
+            let stop = AtomicBool::new(false);
+            let mut results = Vec::new();
+            let sink = |result| {
+                results.push(result);
+                Ok(())
+            };
+            solve(threads, &stop, groups(2_000), |design| design * 3, sink).expect("no error");
+            results.sort_unstable();
+            assert!(results.iter().copied().eq((0..12_000).map(|design| design * 3)));
+        }
+    }
+
+    #[test]
+    fn a_thread_without_a_group_helps_the_others() {
+        let mut queue = Queue { groups: groups(1), open: vec![VecDeque::new(); 2] };
+        let taken: Vec<_> = [0, 1, 0, 1].into_iter().map(|worker| queue.next(worker)).collect();
+        assert_eq!(taken, [Some(0), Some(5), Some(1), Some(4)]);
+    }
+
+    #[test]
+    fn the_first_error_ends_the_work() {
+        let stop = AtomicBool::new(false);
+        let mut left = 10;
+        let sink = |_| {
+            left -= 1;
+            if left == 0 { Err(full()) } else { Ok(()) }
+        };
+        let error = solve(2, &stop, groups(u64::MAX / 6), |design| design, sink).expect_err("full");
+        assert!(error.to_string().contains("full"));
+    }
+
+    #[test]
+    fn who_is_told_to_stop_finishes_what_is_in_hand() {
+        let stop = AtomicBool::new(false);
+        let begun = AtomicU64::new(0);
+        let mut done = 0;
+        let sink = |_| {
+            done += 1;
+            stop.store(done >= 10, Ordering::Relaxed);
+            Ok(())
+        };
+        let begin = |_| begun.fetch_add(1, Ordering::Relaxed);
+        solve(2, &stop, groups(u64::MAX / 6), begin, sink).expect("no error");
+        assert_eq!(done, begun.load(Ordering::Relaxed));
+    }
+}

@@ -1,0 +1,6 @@
+//! The tables of a run, written from its journal.
+
+mod changes;
+pub mod run_info;
+pub mod summary;
+pub mod table_writer;

@@ -1,0 +1,48 @@
+//! The table of what reruns have changed.
+
+use results::columns::design_columns;
+use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
+
+use crate::journal::{Archive, JournalError};
+
+/// Writes the table of what reruns have changed if there is anything to tell, and returns its name.
+pub(super) fn write(
+    archive: &Archive,
+    folder: &RunFolder,
+    format: CsvFormat,
+) -> Result<Option<String>, JournalError> {
+    let mut pairs = archive.entries()?.replaced().peekable();
+    if pairs.peek().is_none() {
+        return Ok(None);
+    }
+    let columns = design_columns(archive.sweep());
+    let mut table = CsvFile::create(folder, RunFolder::RERUNS, format, RERUN_COLUMNS)?;
+    for pair in pairs {
+        let (old, new) = pair?;
+        let rerun = new.rerun;
+        let rows = [archive.row(old), archive.row(new)];
+        changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
+    }
+    table.finish()?;
+    Ok(Some(RunFolder::RERUNS.to_owned()))
+}
+
+/// Every value that changed; one change without a column if none did.
+fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> Vec<RerunChange> {
+    let change = |column, values| RerunChange {
+        design: rows[1].number,
+        rerun,
+        settings: rows.each_ref().map(|row| row.result.settings.clone()),
+        column,
+        values,
+    };
+    // The settings have columns of their own.
+    let columns = columns.iter().filter(|column| column.name != "settings");
+    let values = columns.map(|column| (column.name, rows.each_ref().map(|row| column.cell(row))));
+    let changed = values.filter(|(_, [old, new])| old != new);
+    let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
+    if changes.is_empty() {
+        changes.push(change("", [Cell::Empty, Cell::Empty]));
+    }
+    changes
+}

@@ -1,0 +1,121 @@
+//! The summary of a run: counts and best values.
+
+use std::collections::BTreeMap;
+
+use results::{DesignResult, DesignRow, Outcome};
+use sweep::{DesignNumber, Measure};
+
+/// Counts and best values of the designs of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Summary {
+    /// Designs that were solved.
+    pub designs: u64,
+    /// Designs that lack a value that was asked for.
+    pub failed: u64,
+    /// The number of designs of each status, by its text, for each measure that has a path.
+    pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
+    best: [Option<Best>; 4],
+}
+
+/// A value and the first design that has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Best {
+    /// The name of the value, in words.
+    pub what: &'static str,
+    /// The value.
+    pub value: f64,
+    /// The design.
+    pub design: DesignNumber,
+}
+
+/// A value of which the best is told.
+struct Contest {
+    what: &'static str,
+    is_better: fn(&f64, &f64) -> bool,
+    value: fn(&DesignResult) -> Option<f64>,
+}
+
+/// The values of which the best is told.
+static CONTESTS: [Contest; 4] = [
+    Contest { what: "best coverage", is_better: f64::gt, value: |r| r.coverage },
+    Contest {
+        what: "largest critical force",
+        is_better: f64::gt,
+        value: |r| r.puncture?.measures.critical_force,
+    },
+    Contest {
+        what: "least penetration",
+        is_better: f64::lt,
+        value: |r| r.puncture?.measures.penetration,
+    },
+    Contest {
+        what: "largest compliance",
+        is_better: f64::gt,
+        value: |r| r.flexure?.measures.compliance,
+    },
+];
+
+impl Summary {
+    /// Counts a design. Designs must come in their order, because of equal ones the first is the best.
+    pub(crate) fn add(&mut self, row: &DesignRow) {
+        self.designs += 1;
+        self.failed += u64::from(row.result.failed());
+        let puncture = row.result.puncture.map(|puncture| (Measure::Puncture, puncture.outcome));
+        let flexure = row.result.flexure.map(|flexure| (Measure::Flexure, flexure.outcome));
+        puncture
+            .into_iter()
+            .chain(flexure)
+            .for_each(|(measure, outcome)| self.count(measure, outcome));
+        for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
+            contest.enter(row, best);
+        }
+    }
+
+    fn count(&mut self, measure: Measure, outcome: Outcome) {
+        *self.statuses.entry(measure).or_default().entry(outcome.text()).or_default() += 1;
+    }
+
+    /// The best values, those that exist.
+    pub fn best(&self) -> impl Iterator<Item = &Best> {
+        self.best.iter().flatten()
+    }
+}
+
+impl Contest {
+    /// Puts the value of a design in place of `best` if it is better.
+    fn enter(&self, row: &DesignRow, best: &mut Option<Best>) {
+        let Some(value) = (self.value)(&row.result) else { return };
+        if best.is_none_or(|best| (self.is_better)(&value, &best.value)) {
+            *best = Some(Best { what: self.what, value, design: row.number });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use results::PunctureResult;
+    use sweep::Sweep;
+
+    use super::*;
+
+    #[test]
+    fn counts_and_best_values() {
+        let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a valid sweep");
+        let mut summary = Summary::default();
+        for (index, penetration) in [(0, Some(0.5)), (1, None), (2, Some(0.25))] {
+            let outcome = penetration.map_or(Outcome::RowLimit, |_| Outcome::Complete);
+            let mut puncture = PunctureResult::without_path(outcome);
+            puncture.measures.penetration = penetration;
+            puncture.measures.critical_force = penetration.map(|_| 2.0);
+            let result = DesignResult { puncture: Some(puncture), ..DesignResult::default() };
+            let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
+            summary.add(&DesignRow { number, case, result });
+        }
+        assert_eq!(summary.designs, 3);
+        let counts = &summary.statuses[&Measure::Puncture];
+        assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
+        let best: Vec<_> = summary.best().map(|b| (b.what, b.design.to_string())).collect();
+        let expected = [("largest critical force", "0001"), ("least penetration", "0003")];
+        assert_eq!(best, expected.map(|(what, design)| (what, design.to_owned())));
+    }
+}

@@ -1,0 +1,80 @@
+//! Every table of a run, written from its journal now and then.
+
+use std::time::{Duration, Instant};
+
+use results::columns::tables;
+use results::{CsvFile, CsvFormat, RunFolder, failure_columns};
+
+use super::changes;
+use super::run_info::RunInfo;
+use super::summary::Summary;
+use crate::journal::{Archive, Journal, JournalError};
+use crate::progress::{Finished, RunError};
+
+/// Writing the tables takes at most one part in this many of the time of a run.
+const SHARE: u32 = 20;
+
+/// Writes the tables of one run.
+pub(crate) struct TableWriter<'a> {
+    folder: RunFolder,
+    format: CsvFormat,
+    every: Duration,
+    info: RunInfo<'a>,
+    /// The moment at which the tables were written last, and how long that took.
+    written: Instant,
+    writing: Duration,
+}
+
+impl<'a> TableWriter<'a> {
+    /// A writer of tables to `folder`, due `every` so often.
+    pub fn new(folder: RunFolder, format: CsvFormat, every: Duration, info: RunInfo<'a>) -> Self {
+        let (written, writing) = (Instant::now(), Duration::ZERO);
+        Self { folder, format, every, info, written, writing }
+    }
+
+    /// Whether it is time to write the tables again.
+    pub fn are_due(&self) -> bool {
+        self.written.elapsed() > self.every.max(self.writing * SHARE)
+    }
+
+    /// Writes the tables of what `journal` holds, and the record of the run.
+    pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
+        let begun = Instant::now();
+        journal.sync()?;
+        let archive = journal.archive();
+        let (summary, tables) = self.write_tables(archive)?;
+        self.info.write(archive, &self.folder, &summary)?;
+        self.written = Instant::now();
+        self.writing = begun.elapsed();
+        let missing = archive.designs().len() - archive.done();
+        Ok(Finished { summary, missing, duration: self.info.elapsed(), tables })
+    }
+
+    /// Writes the tables; returns what the run comes to, and their names. Entries are read one by
+    /// one, in the order of their designs.
+    fn write_tables(&self, archive: &Archive) -> Result<(Summary, Vec<String>), JournalError> {
+        let (folder, format) = (&self.folder, self.format);
+        let layouts = tables(archive.sweep());
+        let mut designs = Vec::new();
+        for layout in &layouts {
+            designs.push(CsvFile::create(folder, &layout.file, format, &layout.columns)?);
+        }
+        let columns = failure_columns(archive.sweep());
+        let mut failures = CsvFile::create(folder, RunFolder::FAILURES, format, &columns)?;
+        let mut summary = Summary::default();
+        for entry in archive.entries()?.in_order() {
+            let row = archive.row(entry?);
+            designs.iter_mut().try_for_each(|table| table.write(&row))?;
+            row.failures().try_for_each(|failure| failures.write(&failure))?;
+            summary.add(&row);
+        }
+        designs.into_iter().try_for_each(CsvFile::finish)?;
+        failures.finish()?;
+        let mut files: Vec<_> = layouts.into_iter().map(|layout| layout.file).collect();
+        files.push(RunFolder::FAILURES.to_owned());
+        files.extend(changes::write(archive, folder, format)?);
+        folder.remove_tables_but(&files);
+        folder.sync();
+        Ok((summary, files))
+    }
+}

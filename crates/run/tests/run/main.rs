@@ -1,0 +1,6 @@
+//! The promises of a run: rows that depend on nothing else, journals that survive, committed results.
+
+mod fuzz;
+mod journals;
+mod reference;
+mod rows;

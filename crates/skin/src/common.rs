@@ -1,0 +1,20 @@
+//! Parameters that puncture and bending share.
+
+use contact::Law;
+use solver::Settings;
+
+/// Parameters that the puncture and the bending of a design share: the contact law and the solver's settings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Common {
+    /// Contact law between scales.
+    pub law: Law,
+    /// Steps and tolerances with which paths are followed.
+    pub solver: Settings,
+}
+
+impl Default for Common {
+    /// The law as Shafiei et al. (2021) print it.
+    fn default() -> Self {
+        Self { law: Law::PRINTED, solver: Settings::default() }
+    }
+}

@@ -1,0 +1,110 @@
+//! The axes of a grid as they are written: numbers, lists, ranges; their order.
+
+use super::invalid::Problem;
+use crate::decimal::{self, Decimal};
+use crate::grid::Axis;
+use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::toml_source::{self, KeyValue, KeyValues, Value};
+
+/// The axes that every grid has, with the values that they take unless a definition says otherwise:
+/// those of the paper.
+const PAPER: &str = "
+gap_over_t = { from = 0.1, to = 1, step = 0.1 }
+length_over_t = [0.025, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]
+slant_deg = { from = 0, to = 75, step = 15 }
+";
+
+/// The axis that is always the fastest.
+const FASTEST: &str = "slant_deg";
+
+/// The axis of `parameter` that `value` describes.
+pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis, Problem> {
+    match value {
+        Value::List(items) => Ok(Axis::list(parameter, read_list(parameter, items)?)),
+        Value::Table(entries) => read_range(parameter, entries, value),
+        single => Ok(Axis::list(parameter, vec![parameter.read(single)?])),
+    }
+}
+
+fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
+    if items.is_empty() {
+        let expected = format!("a list of at least one value, each {}", parameter.expected());
+        return Err(WrongValue::NotAccepted { found: "[]".to_owned(), expected }.into());
+    }
+    let mut values = Vec::with_capacity(items.len());
+    for item in items {
+        let value = parameter.read(item)?;
+        if values.contains(&value) {
+            return Err(Problem::Twice { value: item.to_string() });
+        }
+        values.push(value);
+    }
+    Ok(values)
+}
+
+fn read_range(
+    parameter: &'static Parameter,
+    entries: &KeyValues,
+    written: &Value,
+) -> Result<Axis, Problem> {
+    let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
+    if !parameter.takes_numbers() {
+        return Err(wrong(format!("no range of words, expected {}", parameter.expected())));
+    }
+    let [from, to, step] = range_values(entries).map_err(&wrong)?;
+    // Both ends in bounds means all of it, because the bounds are those of an interval.
+    parameter.read(from)?;
+    parameter.read(to)?;
+    let [from, to, step] = [decimal(from), decimal(to), decimal(step)];
+    let (from, to, step) = (from.map_err(&wrong)?, to.map_err(&wrong)?, step.map_err(&wrong)?);
+    let is_broken = |number: Decimal| number.to_usize().is_none();
+    // A step that is not positive has an error of its own.
+    let has_broken_step = step.to_f64() > 0.0 && is_broken(step);
+    if parameter.takes_counts() && (is_broken(from) || is_broken(to) || has_broken_step) {
+        return Err(wrong("not whole, expected whole numbers".to_owned()));
+    }
+    let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
+    let values = numbers.into_iter().map(|number| parameter.scalar(number)).collect();
+    let range = format!("{{ from = {from}, to = {to}, step = {step} }}");
+    Ok(Axis::range(parameter, values, range))
+}
+
+/// The values of the keys `from`, `to` and `step`, the only ones.
+fn range_values(entries: &KeyValues) -> Result<[&Value; 3], String> {
+    const KEYS: [&str; 3] = ["from", "to", "step"];
+    if let Some(entry) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
+        return Err(format!("unknown key {}, expected from, to and step", entry.key));
+    }
+    let value = |key: &str| {
+        let entry = entries.iter().find(|entry| entry.key == key);
+        let missing = || format!("no `{key}`, expected from, to and step");
+        entry.map(|entry| &entry.value).ok_or_else(missing)
+    };
+    Ok([value("from")?, value("to")?, value("step")?])
+}
+
+fn decimal(value: &Value) -> Result<Decimal, String> {
+    match value {
+        Value::Number(text) => text.parse::<Decimal>().map_err(|error| error.to_string()),
+        other => Err(format!("{other} is not accepted, expected a number")),
+    }
+}
+
+/// `written` with the axes that are not, in the order in which they vary: what is not written
+/// first (slowest), then as written, the slant last.
+pub(crate) fn ordered(mut written: Vec<Axis>) -> Vec<Axis> {
+    let is_missing =
+        |axis: &Axis| written.iter().all(|other| other.parameter().key != axis.parameter().key);
+    let mut axes: Vec<Axis> = paper().into_iter().filter(is_missing).collect();
+    axes.append(&mut written);
+    // Stable, so that everything else keeps its order.
+    axes.sort_by_key(|axis| axis.parameter().key == FASTEST);
+    axes
+}
+
+/// The axes of the paper; the tests see that none is lost.
+fn paper() -> Vec<Axis> {
+    let table = toml_source::parse(PAPER, "the paper sweep").unwrap_or_default();
+    let axis = |entry: KeyValue| read(Parameter::named(&entry.key)?, &entry.value).ok();
+    table.into_iter().filter_map(axis).collect()
+}

@@ -1,0 +1,103 @@
+//! Errors of a definition that cannot run.
+
+use crate::grid::TooManyDesigns;
+use crate::parameter::WrongValue;
+use crate::toml_source::{Place, SyntaxError};
+
+/// A definition that cannot run. Each message is one line that names the file, the key, the value
+/// and what would be right.
+#[derive(Debug, thiserror::Error)]
+pub enum InvalidDefinition {
+    /// The file cannot be read.
+    #[error("{file}: cannot be read ({reason}), expected a sweep definition in TOML")]
+    Unreadable {
+        /// Name of the file.
+        file: String,
+        /// The message of the system.
+        reason: String,
+    },
+    /// The file is no TOML.
+    #[error(transparent)]
+    Syntax(#[from] SyntaxError),
+    /// A key or a value is not right.
+    #[error("{place}: {key}: {problem}")]
+    Refused {
+        /// Place of the key.
+        place: Place,
+        /// The key, dotted.
+        key: String,
+        /// The problem, and what would be right.
+        problem: Box<Problem>,
+    },
+}
+
+/// A problem with a key.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// There is no such key.
+    #[error("unknown key (its value is {value}), {hint}")]
+    Unknown {
+        /// The value that the key is set to.
+        value: String,
+        /// The key that may be meant.
+        hint: String,
+    },
+    /// A required key is missing.
+    #[error("missing, expected {expected}")]
+    Missing {
+        /// The values that would be right.
+        expected: &'static str,
+    },
+    /// The value of a parameter.
+    #[error(transparent)]
+    Value(#[from] WrongValue),
+    /// A range that cannot be walked.
+    #[error("{range}: {problem}")]
+    Range {
+        /// The range as written.
+        range: String,
+        /// The problem.
+        problem: String,
+    },
+    /// A value stands in a list twice.
+    #[error("{value} stands in the list twice, expected each value once")]
+    Twice {
+        /// The value.
+        value: String,
+    },
+    /// A parameter is set in its section and in the grid.
+    #[error("{value} contradicts {other} at {place}, expected one of the two")]
+    Contradiction {
+        /// The value that the parameter is set to here.
+        value: String,
+        /// The other key.
+        other: String,
+        /// Place of the other key.
+        place: Place,
+    },
+    /// Steps that no path can follow.
+    #[error("{value} is larger than {other}, expected at most that")]
+    StepOrder {
+        /// The smallest step.
+        value: String,
+        /// A step that must not be smaller, with its value.
+        other: String,
+    },
+    /// The grid is too large.
+    #[error(transparent)]
+    TooManyDesigns(#[from] TooManyDesigns),
+}
+
+pub(crate) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
+    InvalidDefinition::Refused {
+        place: place.clone(),
+        key: key.to_owned(),
+        problem: Box::new(problem.into()),
+    }
+}
+
+/// The message of an error of the system, without its error number.
+pub fn reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or(&text).to_owned()
+}

@@ -1,0 +1,77 @@
+//! The measures of a sweep.
+
+use serde::{Deserialize, Serialize};
+
+use super::invalid::Problem;
+use super::suggestion;
+use crate::parameter::{WrongValue, any_of};
+use crate::toml_source::Value;
+
+/// Something that a sweep measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Measure {
+    /// The share of the substrate that the scales cover.
+    Coverage,
+    /// The puncture of the middle scale of a row.
+    Puncture,
+    /// The bending of a strip of membrane that carries the scales.
+    Flexure,
+}
+
+impl Measure {
+    /// All measures, in the order of the tables.
+    pub const ALL: [Self; 3] = [Self::Coverage, Self::Puncture, Self::Flexure];
+
+    /// The name of the measure in a definition.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Coverage => "coverage",
+            Self::Puncture => "puncture",
+            Self::Flexure => "flexure",
+        }
+    }
+
+    /// The measures of the list `value`, or of the one word.
+    pub(crate) fn read_list(value: &Value) -> Result<Vec<Self>, Problem> {
+        let items = match value {
+            Value::List(items) if !items.is_empty() => items.as_slice(),
+            Value::Text(_) => std::slice::from_ref(value),
+            _ => {
+                return Err(
+                    not_accepted(value, format!("a list of at least one of {}", names())).into()
+                );
+            }
+        };
+        let mut measures = Vec::new();
+        for item in items {
+            let measure = Self::read(item)?;
+            if measures.contains(&measure) {
+                return Err(Problem::Twice { value: item.to_string() });
+            }
+            measures.push(measure);
+        }
+        measures.sort();
+        Ok(measures)
+    }
+
+    fn read(value: &Value) -> Result<Self, WrongValue> {
+        let Value::Text(text) = value else {
+            return Err(not_accepted(value, names()));
+        };
+        let known = Self::ALL.into_iter().find(|measure| measure.key() == text);
+        known.ok_or_else(|| match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
+            Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
+            None => not_accepted(value, names()),
+        })
+    }
+}
+
+fn not_accepted(value: &Value, expected: String) -> WrongValue {
+    WrongValue::NotAccepted { found: value.to_string(), expected }
+}
+
+/// The names of all measures, in words.
+fn names() -> String {
+    any_of(&Measure::ALL.map(Measure::key))
+}

@@ -1,0 +1,162 @@
+//! Keys set from outside of the file, `--set puncture.scales=41`.
+
+use std::sync::Arc;
+
+use crate::parameter::Parameter;
+use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
+
+/// A key and the value that replaces what the file says.
+///
+/// ```
+/// use sweep::Setting;
+///
+/// assert!(Setting::parse("scale.base=2L").is_ok());
+/// assert!(Setting::parse("designs.slant_deg=[0, 45]").is_ok());
+/// assert!(Setting::parse("scale.base").is_err());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    path: Vec<String>,
+    value: Value,
+    place: Place,
+}
+
+/// A setting that cannot be understood.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {problem}, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41")]
+pub struct InvalidSetting {
+    place: Place,
+    problem: String,
+}
+
+impl Setting {
+    /// The setting `key=value`, where `value` is TOML and a single word needs no quotes.
+    ///
+    /// # Errors
+    /// If there is no `=`, the key is empty or the value is no TOML.
+    pub fn parse(text: &str) -> Result<Self, InvalidSetting> {
+        Self::from_option(&format!("--set {text}"), text)
+    }
+
+    /// As [`Self::parse`]; errors name `option`, the option as the user gave it.
+    ///
+    /// # Errors
+    /// As [`Self::parse`].
+    pub fn from_option(option: &str, text: &str) -> Result<Self, InvalidSetting> {
+        let place = Place::Argument(Arc::from(toml_source::one_line(option)));
+        let refuse = |problem: String| InvalidSetting { place: place.clone(), problem };
+        let (key, value) =
+            text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
+        let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
+        if path.iter().any(String::is_empty) {
+            return Err(refuse(format!("`{}` is no key", key.trim())));
+        }
+        let value = toml_source::parse_argument(value, &place).map_err(|message| {
+            refuse(format!("`{}` is no TOML value ({message})", value.trim()))
+        })?;
+        Ok(Self { path, value, place })
+    }
+
+    /// The parameter that is set, if it is one.
+    pub fn parameter(&self) -> Option<&'static Parameter> {
+        match self.path.as_slice() {
+            [section, key] => Parameter::named(key)
+                .filter(|parameter| section == "designs" || section == parameter.section),
+            _ => None,
+        }
+    }
+
+    /// The place at which the key is set.
+    pub fn place(&self) -> &Place {
+        &self.place
+    }
+
+    /// Puts the value into `table`, in place of what is written there.
+    pub(crate) fn apply(&self, table: &mut KeyValues) {
+        self.supersede(table);
+        self.put(table, &self.path);
+    }
+
+    fn put(&self, table: &mut KeyValues, path: &[String]) {
+        let Some((key, rest)) = path.split_first() else { return };
+        match table.iter_mut().find(|entry| entry.key == *key) {
+            Some(KeyValue { value: Value::Table(inner), .. }) if !rest.is_empty() => {
+                self.put(inner, rest);
+            }
+            Some(entry) => *entry = self.entry(key, rest),
+            None => table.push(self.entry(key, rest)),
+        }
+    }
+
+    /// `key` with the value in tables of the names `rest`.
+    fn entry(&self, key: &str, rest: &[String]) -> KeyValue {
+        let value = match rest.split_first() {
+            None => self.value.clone(),
+            Some((next, rest)) => Value::Table(vec![self.entry(next, rest)]),
+        };
+        KeyValue { key: key.to_owned(), value, place: self.place.clone() }
+    }
+
+    /// A parameter stands in its section or among the axes. What the file says in the other of the
+    /// two gives way; what another setting says there stays, and is refused as a contradiction.
+    fn supersede(&self, table: &mut KeyValues) {
+        let Some(parameter) = self.parameter().filter(|parameter| parameter.section != "designs")
+        else {
+            return;
+        };
+        let other = if self.path[0] == "designs" { parameter.section } else { "designs" };
+        for entry in table.iter_mut().filter(|entry| entry.key == other) {
+            if let Value::Table(entries) = &mut entry.value {
+                let is_file = |entry: &KeyValue| matches!(entry.place, Place::File { .. });
+                entries.retain(|entry| entry.key != parameter.key || !is_file(entry));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_that_are_none_say_why() {
+        let message = |text| Setting::parse(text).expect_err("invalid").to_string();
+        insta::assert_snapshot!(message("scales"), @"--set scales: there is no `=`, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("=3"), @"--set =3: `` is no key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is no TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is no TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+    }
+
+    #[test]
+    fn a_word_needs_no_quotes() {
+        let value = |text| Setting::parse(text).expect("valid").value;
+        assert_eq!(value("scale.base=2L"), Value::Text("2L".to_owned()));
+        assert_eq!(value("scale.base=\"2L\""), Value::Text("2L".to_owned()));
+        assert_eq!(value("puncture.scales = 41"), Value::Number("41".to_owned()));
+    }
+
+    #[test]
+    fn a_setting_replaces_adds_and_supersedes() {
+        let set = |file: &str, settings: &[&str]| {
+            let mut table = toml_source::parse(file, "x.toml").expect("TOML");
+            for setting in settings {
+                Setting::parse(setting).expect("valid").apply(&mut table);
+            }
+            Value::Table(table).to_string()
+        };
+        assert_eq!(set("name = 'x'", &["name=y"]), "{ name = \"y\" }");
+        assert_eq!(set("name = 'x'", &["contact.c1=2"]), "{ name = \"x\", contact = { c1 = 2 } }");
+        assert_eq!(
+            set("contact.c1 = 1", &["designs.c1=[1, 2]"]),
+            "{ contact = {}, designs = { c1 = [1, 2] } }"
+        );
+        assert_eq!(
+            set("designs.c1 = [1, 2]", &["contact.c1=3"]),
+            "{ designs = {}, contact = { c1 = 3 } }"
+        );
+        assert_eq!(
+            set("", &["contact.c1=3", "designs.c1=[1, 2]"]),
+            "{ contact = { c1 = 3 }, designs = { c1 = [1, 2] } }"
+        );
+    }
+}

@@ -1,0 +1,83 @@
+//! Suggestions for unknown keys.
+
+use crate::parameter::{PARAMETERS, Parameter};
+
+/// The section of the axes.
+const DESIGNS: &str = "designs";
+
+/// Keys outside of the sections.
+const TOP: [&str; 2] = ["name", "measures"];
+
+/// Whether a definition has a section of that name.
+pub(crate) fn is_section(key: &str) -> bool {
+    sections().contains(&key)
+}
+
+/// The sections, each once, in the order of the parameters.
+pub(crate) fn sections() -> Vec<&'static str> {
+    let mut sections: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.section).collect();
+    sections.dedup();
+    sections
+}
+
+/// A suggestion of what to write instead of `key` in `section` (empty: outside of the sections).
+pub(crate) fn for_key(section: &str, key: &str) -> String {
+    if let Some(parameter) = Parameter::named(key) {
+        return format!("did you mean {}?", parameter.path());
+    }
+    let known = keys_of(section);
+    match nearest(key, &known) {
+        Some(near) if section.is_empty() => format!("did you mean {near}?"),
+        Some(near) => format!("did you mean {section}.{near}?"),
+        None => format!("expected one of {}", known.join(", ")),
+    }
+}
+
+fn keys_of(section: &str) -> Vec<&'static str> {
+    if section.is_empty() {
+        return TOP.into_iter().chain(sections()).collect();
+    }
+    let belongs = |parameter: &&Parameter| section == DESIGNS || section == parameter.section;
+    PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
+}
+
+/// The candidate that `key` is a misspelling of, if one is near enough.
+pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
+    let typos = |candidate: &str| strsim::damerau_levenshtein(key, candidate);
+    let typed = candidates.iter().min_by_key(|candidate| typos(candidate))?;
+    if typos(typed) <= key.chars().count() / 3 {
+        return Some(typed);
+    }
+    // A part of a key, say `slant`, is far from it in typos.
+    let similarity = |candidate: &str| strsim::jaro_winkler(key, candidate);
+    let alike = candidates.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
+    (similarity(alike) > 0.8).then_some(alike)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hints_are_near_or_none() {
+        assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
+        assert_eq!(for_key("contact", "c3"), "expected one of c1, c2");
+        assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
+        assert_eq!(for_key("scale", "c2"), "did you mean contact.c2?");
+        assert_eq!(for_key("", "conatct"), "did you mean contact?");
+        assert_eq!(for_key("", "mesures"), "did you mean measures?");
+    }
+
+    #[test]
+    fn every_key_is_unique_and_every_section_stands_together() {
+        let mut keys: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
+        keys.sort_unstable();
+        keys.dedup();
+        assert_eq!(keys.len(), PARAMETERS.len());
+        let mut sections = sections();
+        let count = sections.len();
+        sections.sort_unstable();
+        sections.dedup();
+        assert_eq!(sections.len(), count);
+    }
+}

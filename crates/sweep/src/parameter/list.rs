@@ -1,0 +1,338 @@
+//! The one list of parameters: it drives validation, messages, axes, columns and documentation.
+
+use skin::Base;
+use skin::flexure::Method;
+use substrate::Coupling;
+
+use crate::parameter::Bound::{Excluded, Included};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range};
+
+const LENGTH: Range = Range { low: Excluded(0.0), high: Included(1e6) };
+const POSITIVE: Range = Range { low: Excluded(0.0), high: Included(1e30) };
+const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
+
+/// Every parameter, in the order of the documentation. Keys are unique over all sections, because
+/// an axis is named by its key alone.
+pub static PARAMETERS: &[Parameter] = &[
+    Parameter {
+        key: "gap_over_t",
+        section: "designs",
+        unit: "t",
+        meaning: "gap d between neighbouring bases",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.gap,
+        },
+    },
+    Parameter {
+        key: "length_over_t",
+        section: "designs",
+        unit: "t",
+        meaning: "length L of a scale",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.length,
+        },
+    },
+    Parameter {
+        key: "slant_deg",
+        section: "designs",
+        unit: "deg",
+        meaning: "slant of the scales from the vertical, to the right",
+        kind: ParameterKind::Number {
+            noun: "an angle",
+            range: Range { low: Included(0.0), high: Excluded(90.0) },
+            field: |c| &mut c.design.slant_deg,
+        },
+    },
+    Parameter {
+        key: "base",
+        section: "scale",
+        unit: "-",
+        meaning: "length of the base of a scale, L or 2L",
+        kind: ParameterKind::Word {
+            words: &["L", "2L"],
+            get: |c| usize::from(c.design.base == Base::TwoL),
+            set: |c, word| c.design.base = [Base::L, Base::TwoL][word],
+        },
+    },
+    Parameter {
+        key: "width_over_t",
+        section: "scale",
+        unit: "t",
+        meaning: "out-of-plane width b of the scales",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.design.width,
+        },
+    },
+    Parameter {
+        key: "poisson_ratio",
+        section: "substrate",
+        unit: "-",
+        meaning: "Poisson's ratio of the substrate",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: Range { low: Included(0.0), high: Included(0.5) },
+            field: |c| &mut c.puncture.poisson_ratio,
+        },
+    },
+    Parameter {
+        key: "coupling",
+        section: "substrate",
+        unit: "-",
+        meaning: "neighbours that the substrate couples a scale with, the nearest or all that matter",
+        kind: ParameterKind::Word {
+            words: &["nearest", "full"],
+            get: |c| usize::from(c.coupling == Coupling::Full),
+            set: |c, word| c.coupling = [Coupling::Nearest, Coupling::Full][word],
+        },
+    },
+    Parameter {
+        key: "c1",
+        section: "contact",
+        unit: "-",
+        meaning: "prefactor C1 of the contact law",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.common.law.c1,
+        },
+    },
+    Parameter {
+        key: "c2",
+        section: "contact",
+        unit: "-",
+        meaning: "exponent C2 of the contact law",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: Range { low: Excluded(0.0), high: Included(10.0) },
+            field: |c| &mut c.common.law.c2,
+        },
+    },
+    Parameter {
+        key: "scales",
+        section: "puncture",
+        unit: "-",
+        meaning: "scales in the row",
+        kind: ParameterKind::RowLength { range: CountRange { low: 1, high: 1_000_000 } },
+    },
+    Parameter {
+        key: "load_position",
+        section: "puncture",
+        unit: "-",
+        meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: Range { low: Included(0.0), high: Included(1.0) },
+            field: |c| &mut c.puncture.load_position,
+        },
+    },
+    Parameter {
+        key: "critical_tilt_deg",
+        section: "puncture",
+        unit: "deg",
+        meaning: "tilt of the punctured scale at which the puncture ends",
+        kind: ParameterKind::Number {
+            noun: "an angle",
+            range: Range { low: Excluded(0.0), high: Excluded(90.0) },
+            field: |c| &mut c.puncture.critical_tilt_deg,
+        },
+    },
+    Parameter {
+        key: "contact_modulus_over_substrate",
+        section: "puncture",
+        unit: "-",
+        meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.puncture.contact_modulus_over_substrate,
+        },
+    },
+    Parameter {
+        key: "method",
+        section: "flexure",
+        unit: "-",
+        meaning: "what is bent: one gap, since all deform alike, or the chain of all",
+        kind: ParameterKind::Word {
+            words: &["unit-cell", "chain"],
+            get: |c| usize::from(c.flexure.method == Method::Chain),
+            set: |c, word| c.flexure.method = [Method::UnitCell, Method::Chain][word],
+        },
+    },
+    Parameter {
+        key: "membrane_length_over_t",
+        section: "flexure",
+        unit: "t",
+        meaning: "length of the membrane, rounded to whole gaps",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.flexure.membrane_length,
+        },
+    },
+    Parameter {
+        key: "membrane_thickness_over_t",
+        section: "flexure",
+        unit: "t",
+        meaning: "thickness h of the membrane",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.flexure.membrane_thickness,
+        },
+    },
+    Parameter {
+        key: "membrane_axis_offset_over_t",
+        section: "flexure",
+        unit: "t",
+        meaning: "depth of the axis of the membrane below the bases of the scales",
+        kind: ParameterKind::Number {
+            noun: "a length",
+            range: Range { low: Included(-1e6), high: Included(1e6) },
+            field: |c| &mut c.flexure.membrane_axis_offset,
+        },
+    },
+    Parameter {
+        key: "elements_per_gap",
+        section: "flexure",
+        unit: "-",
+        meaning: "beam elements of the membrane between two scales",
+        kind: ParameterKind::Count {
+            range: CountRange { low: 1, high: 1000 },
+            field: |c| &mut c.flexure.elements_per_gap,
+        },
+    },
+    Parameter {
+        key: "max_end_rotation_deg",
+        section: "flexure",
+        unit: "deg",
+        meaning: "rotation of each end at which bending ends",
+        kind: ParameterKind::Number {
+            noun: "an angle",
+            range: Range { low: Excluded(0.0), high: Included(180.0) },
+            field: |c| &mut c.flexure.max_end_rotation_deg,
+        },
+    },
+    Parameter {
+        key: "contact_modulus_over_membrane",
+        section: "flexure",
+        unit: "-",
+        meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.flexure.contact_modulus_over_membrane,
+        },
+    },
+    Parameter {
+        key: "gap_cv",
+        section: "imperfection",
+        unit: "-",
+        meaning: "coefficient of variation of the gaps of imperfect rows",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: Range { low: Included(0.0), high: Included(1.0) },
+            field: |c| &mut c.imperfection.gap_cv,
+        },
+    },
+    Parameter {
+        key: "slant_sd_deg",
+        section: "imperfection",
+        unit: "deg",
+        meaning: "standard deviation of the slants of imperfect rows",
+        kind: ParameterKind::Number {
+            noun: "an angle",
+            range: Range { low: Included(0.0), high: Included(30.0) },
+            field: |c| &mut c.imperfection.slant_sd_deg,
+        },
+    },
+    Parameter {
+        key: "samples",
+        section: "imperfection",
+        unit: "-",
+        meaning: "imperfect rows that are solved, if gaps or slants scatter",
+        kind: ParameterKind::Count {
+            range: CountRange { low: 1, high: 1_000_000 },
+            field: |c| &mut c.samples.count,
+        },
+    },
+    Parameter {
+        key: "seed",
+        section: "imperfection",
+        unit: "-",
+        meaning: "seed of the random gaps and slants",
+        kind: ParameterKind::Count {
+            range: CountRange { low: 0, high: 1_000_000_000 },
+            field: |c| &mut c.samples.seed,
+        },
+    },
+    Parameter {
+        key: "first_step",
+        section: "solver",
+        unit: "-",
+        meaning: "first step, as a fraction of the whole path",
+        kind: ParameterKind::Number {
+            noun: "a fraction",
+            range: FRACTION,
+            field: |c| &mut c.common.solver.first_step,
+        },
+    },
+    Parameter {
+        key: "max_step",
+        section: "solver",
+        unit: "-",
+        meaning: "largest step, as a fraction of the whole path",
+        kind: ParameterKind::Number {
+            noun: "a fraction",
+            range: FRACTION,
+            field: |c| &mut c.common.solver.max_step,
+        },
+    },
+    Parameter {
+        key: "min_step",
+        section: "solver",
+        unit: "-",
+        meaning: "smallest step, as a fraction of the whole path, below which the path stops",
+        kind: ParameterKind::Number {
+            noun: "a fraction",
+            range: FRACTION,
+            field: |c| &mut c.common.solver.min_step,
+        },
+    },
+    Parameter {
+        key: "tolerance",
+        section: "solver",
+        unit: "-",
+        meaning: "largest scaled residual of an equilibrium",
+        kind: ParameterKind::Number {
+            noun: "a number",
+            range: Range { low: Excluded(0.0), high: Included(0.01) },
+            field: |c| &mut c.common.solver.tolerance,
+        },
+    },
+    Parameter {
+        key: "max_iterations",
+        section: "solver",
+        unit: "-",
+        meaning: "Newton iterations after which a step is cut to a third",
+        kind: ParameterKind::Count {
+            range: CountRange { low: 1, high: 1000 },
+            field: |c| &mut c.common.solver.max_iterations,
+        },
+    },
+    Parameter {
+        key: "max_points",
+        section: "solver",
+        unit: "-",
+        meaning: "equilibria after which the path stops",
+        kind: ParameterKind::Count {
+            range: CountRange { low: 2, high: 1_000_000_000 },
+            field: |c| &mut c.common.solver.max_points,
+        },
+    },
+];

@@ -1,0 +1,231 @@
+//! The subset of a grid that a run solves: all designs, a random sample, one shard of either.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::str::FromStr;
+
+use rand::RngExt as _;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng as _;
+use serde::{Deserialize, Serialize};
+
+/// The part of a grid that a run solves; by default all of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Subset {
+    /// A random subset of the designs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sample: Option<RandomSample>,
+    /// One shard of the designs, or of the subset.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shard: Option<Shard>,
+}
+
+/// A random subset: the same for the same seed, on any machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RandomSample {
+    /// The number of designs.
+    pub designs: u64,
+    /// Seed of the generator.
+    pub seed: u64,
+}
+
+/// Every N-th design, from the i-th on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Shard {
+    index: u64,
+    count: u64,
+}
+
+/// A text that names no shard.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is no shard, expected i/N with i from 1 to N, e.g. 3/8")]
+pub struct NoShard(String);
+
+/// A subset larger than the grid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("--sample {asked}: there are only {designs} designs, expected from 1 to {designs}")]
+pub struct SampleTooLarge {
+    asked: u64,
+    designs: u64,
+}
+
+impl FromStr for Shard {
+    type Err = NoShard;
+
+    fn from_str(text: &str) -> Result<Self, NoShard> {
+        let number = |text: &str| text.parse::<u64>().ok();
+        text.split_once('/')
+            .and_then(|(index, count)| Some(Self { index: number(index)?, count: number(count)? }))
+            .filter(|shard| (1..=shard.count).contains(&shard.index))
+            .ok_or_else(|| NoShard(text.to_owned()))
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.index, self.count)
+    }
+}
+
+impl TryFrom<String> for Shard {
+    type Error = NoShard;
+
+    fn try_from(text: String) -> Result<Self, NoShard> {
+        text.parse()
+    }
+}
+
+impl From<Shard> for String {
+    fn from(shard: Shard) -> Self {
+        shard.to_string()
+    }
+}
+
+impl fmt::Display for RandomSample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "--sample {} --seed {}", self.designs, self.seed)
+    }
+}
+
+impl fmt::Display for Subset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.sample, self.shard) {
+            (None, None) => f.write_str("all designs"),
+            (Some(sample), None) => write!(f, "{sample}"),
+            (None, Some(shard)) => write!(f, "--shard {shard}"),
+            (Some(sample), Some(shard)) => write!(f, "{sample} --shard {shard}"),
+        }
+    }
+}
+
+/// The designs that a run solves, in order. Holds the subset, if there is one, but never the grid.
+#[derive(Clone, Debug)]
+pub struct SubsetDesigns {
+    /// The designs of the subset, ascending.
+    sample: Option<Vec<u64>>,
+    /// Designs of which every `step`-th is taken.
+    whole: u64,
+    first: u64,
+    step: u64,
+}
+
+impl SubsetDesigns {
+    /// The designs of `part` of a grid of `designs` designs.
+    ///
+    /// # Errors
+    /// If the grid has fewer designs than the subset.
+    pub fn new(designs: u64, part: Subset) -> Result<Self, SampleTooLarge> {
+        let sample = part.sample.map(|sample| draw(designs, sample)).transpose()?;
+        let whole = sample.as_ref().map_or(designs, |sample| sample.len() as u64);
+        let (first, step) = part.shard.map_or((0, 1), |shard| (shard.index - 1, shard.count));
+        Ok(Self { sample, whole, first, step })
+    }
+
+    /// The number of designs; a shard of few designs may have none.
+    pub fn len(&self) -> u64 {
+        self.whole.saturating_sub(self.first).div_ceil(self.step)
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The grid's index of the design at `position`, which is below [`Self::len`].
+    pub fn design(&self, position: u64) -> u64 {
+        let position = self.first + position * self.step;
+        let sampled = |sample: &Vec<u64>| {
+            usize::try_from(position).ok().and_then(|position| sample.get(position)).copied()
+        };
+        self.sample.as_ref().map_or(Some(position), sampled).unwrap_or(u64::MAX)
+    }
+
+    /// The position of the grid's design `index`, if it is one of them.
+    pub fn position(&self, index: u64) -> Option<u64> {
+        let place = match &self.sample {
+            Some(sample) => sample.binary_search(&index).ok()? as u64,
+            None => index,
+        };
+        let dealt = place.checked_sub(self.first).filter(|rest| rest % self.step == 0)?;
+        Some(dealt / self.step).filter(|position| *position < self.len())
+    }
+}
+
+/// Floyd's algorithm (Bentley & Floyd 1987, doi 10.1145/30401.315746): memory for the subset alone.
+fn draw(designs: u64, sample: RandomSample) -> Result<Vec<u64>, SampleTooLarge> {
+    if !(1..=designs).contains(&sample.designs) {
+        return Err(SampleTooLarge { asked: sample.designs, designs });
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(sample.seed);
+    let mut chosen = BTreeSet::new();
+    for last in designs - sample.designs..designs {
+        if !chosen.insert(random.random_range(0..=last)) {
+            chosen.insert(last);
+        }
+    }
+    Ok(chosen.into_iter().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn all(selection: &SubsetDesigns) -> Vec<u64> {
+        (0..selection.len()).map(|position| selection.design(position)).collect()
+    }
+
+    fn part(sample: Option<(u64, u64)>, shard: Option<&str>) -> Subset {
+        let sample = sample.map(|(designs, seed)| RandomSample { designs, seed });
+        Subset { sample, shard: shard.map(|text| text.parse().expect("a shard")) }
+    }
+
+    #[test]
+    fn a_seed_stands_for_its_designs_for_ever() {
+        let drawn =
+            |seed| all(&SubsetDesigns::new(720, part(Some((8, seed)), None)).expect("fewer"));
+        assert_eq!(drawn(7), [59, 112, 119, 258, 431, 503, 520, 611]);
+        assert_ne!(drawn(8), drawn(7));
+    }
+
+    #[test]
+    fn a_subset_of_a_huge_grid_is_small() {
+        let huge = SubsetDesigns::new(u64::MAX, part(Some((1000, 1)), None)).expect("fewer");
+        assert_eq!(huge.len(), 1000);
+        let error = SubsetDesigns::new(5, part(Some((6, 0)), None)).expect_err("more");
+        let message = "--sample 6: there are only 5 designs, expected from 1 to 5";
+        assert_eq!(error.to_string(), message);
+    }
+
+    #[test]
+    fn what_is_no_shard() {
+        for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b"] {
+            let message =
+                format!("{text:?} is no shard, expected i/N with i from 1 to N, e.g. 3/8");
+            assert_eq!(text.parse::<Shard>().expect_err("none").to_string(), message);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn shards_deal_every_design_to_one(designs in 1..500_u64, count in 1..9_u64, half: bool) {
+            let sample = half.then_some((designs.div_ceil(2), 3));
+            let whole = all(&SubsetDesigns::new(designs, part(sample, None)).expect("fewer"));
+            let mut dealt = Vec::new();
+            for index in 1..=count {
+                let shard = format!("{index}/{count}");
+                let shard = SubsetDesigns::new(designs, part(sample, Some(&shard))).expect("fewer");
+                for (position, design) in all(&shard).into_iter().enumerate() {
+                    prop_assert_eq!(shard.position(design), Some(position as u64));
+                    dealt.push(design);
+                }
+                let others = (0..designs).filter(|d| shard.position(*d).is_some()).count();
+                prop_assert_eq!(others as u64, shard.len());
+            }
+            dealt.sort_unstable();
+            prop_assert_eq!(dealt, whole);
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! A sweep definition as it is written: keys and values with their places, not yet understood.
+
+use std::fmt;
+use std::sync::Arc;
+
+use toml::de::{DeTable, DeValue};
+
+/// The place of a key or a value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// In a file.
+    File {
+        /// Name of the file as the user gave it.
+        name: Arc<str>,
+        /// Line, from 1.
+        line: Option<usize>,
+    },
+    /// On the command line.
+    Argument(Arc<str>),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File { name, line: Some(line) } => write!(f, "{name}:{line}"),
+            Self::File { name, line: None } => f.write_str(name),
+            Self::Argument(text) => f.write_str(text),
+        }
+    }
+}
+
+/// A key with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeyValue {
+    /// The key, within its table.
+    pub key: String,
+    /// The value.
+    pub value: Value,
+    /// Place of the key.
+    pub place: Place,
+}
+
+/// Keys and values in the order in which they are written.
+pub type KeyValues = Vec<KeyValue>;
+
+/// A value as it is written. Numbers stay text, so that ranges can count in decimals.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number, `nan` and `inf` included.
+    Number(String),
+    /// A text.
+    Text(String),
+    /// A list.
+    List(Vec<Value>),
+    /// A table.
+    Table(KeyValues),
+    /// A boolean or a date.
+    Other(String),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(text) | Self::Other(text) => f.write_str(text),
+            Self::Text(text) => f.write_str(&quoted(text)),
+            Self::List(items) => {
+                let items: Vec<_> = items.iter().map(ToString::to_string).collect();
+                write!(f, "[{}]", items.join(", "))
+            }
+            Self::Table(entries) if entries.is_empty() => f.write_str("{}"),
+            Self::Table(entries) => {
+                let entry = |e: &KeyValue| format!("{} = {}", e.key, e.value);
+                let entries: Vec<_> = entries.iter().map(entry).collect();
+                write!(f, "{{ {} }}", entries.join(", "))
+            }
+        }
+    }
+}
+
+/// `text` as a TOML string on one line.
+pub fn quoted(text: &str) -> String {
+    toml::Value::from(text.replace(['\n', '\r'], " ")).to_string()
+}
+
+/// A text that is no TOML.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{place}: {line}: not valid TOML ({message}), expected key = value or [section]")]
+pub struct SyntaxError {
+    place: Place,
+    /// The line that cannot be read, shortened.
+    line: String,
+    message: String,
+}
+
+/// The keys and values of the TOML document `text`, which stands in the file `name`.
+///
+/// # Errors
+/// If it is no TOML.
+pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
+    let source = Document { text, name: name.into() };
+    match DeTable::parse(text) {
+        Ok(table) => Ok(source.table(table.get_ref())),
+        Err(error) => Err(SyntaxError {
+            place: source.place(error.span().map(|span| span.start)),
+            line: source.line(error.span().map_or(0, |span| span.start)),
+            message: one_line(error.message()),
+        }),
+    }
+}
+
+/// The lines of `message`, trimmed and joined by commas.
+pub fn one_line(message: &str) -> String {
+    message.lines().map(str::trim).collect::<Vec<_>>().join(", ")
+}
+
+/// A document with its name, from which the places of keys are found.
+struct Document<'a> {
+    text: &'a str,
+    name: Arc<str>,
+}
+
+impl Document<'_> {
+    /// The beginning of the line at `offset`, what cannot be printed left out.
+    fn line(&self, offset: usize) -> String {
+        let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
+        let line = self.text[start.map_or(0, |newline| newline + 1)..].lines().next();
+        let visible = line.unwrap_or_default().trim().chars().filter(|c| !c.is_control());
+        let visible: String = visible.take(60).collect();
+        if visible.is_empty() { "a line that cannot be shown".to_owned() } else { visible }
+    }
+
+    fn place(&self, offset: Option<usize>) -> Place {
+        let before = |offset: usize| self.text.get(..offset.min(self.text.len()));
+        let line = offset.and_then(before).map(|text| text.matches('\n').count() + 1);
+        Place::File { name: Arc::clone(&self.name), line }
+    }
+
+    fn table(&self, table: &DeTable<'_>) -> KeyValues {
+        let place = |offset| self.place(Some(offset));
+        entries(table, &place)
+    }
+}
+
+fn entries(table: &DeTable<'_>, place: &dyn Fn(usize) -> Place) -> KeyValues {
+    let entry = |(key, value): (&toml::Spanned<_>, &toml::Spanned<DeValue<'_>>)| {
+        let key: &toml::Spanned<toml::de::DeString<'_>> = key;
+        KeyValue {
+            key: key.get_ref().to_string(),
+            value: value_of(value.get_ref(), place),
+            place: place(key.span().start),
+        }
+    };
+    table.iter().map(entry).collect()
+}
+
+fn value_of(value: &DeValue<'_>, place: &dyn Fn(usize) -> Place) -> Value {
+    match value {
+        DeValue::String(text) => Value::Text(text.to_string()),
+        DeValue::Integer(number) if number.radix() == 10 => {
+            Value::Number(number.as_str().to_owned())
+        }
+        DeValue::Integer(number) => {
+            let parsed = i128::from_str_radix(number.as_str(), number.radix());
+            Value::Number(parsed.map_or_else(|_| number.to_string(), |n| n.to_string()))
+        }
+        DeValue::Float(number) => Value::Number(number.as_str().to_owned()),
+        DeValue::Boolean(boolean) => Value::Other(boolean.to_string()),
+        DeValue::Datetime(datetime) => Value::Other(datetime.to_string()),
+        DeValue::Array(items) => {
+            Value::List(items.iter().map(|item| value_of(item.get_ref(), place)).collect())
+        }
+        DeValue::Table(table) => Value::Table(entries(table, place)),
+    }
+}
+
+/// The value that `text` stands for on the command line, where quotes may be left out.
+///
+/// # Errors
+/// If it opens a string, list or table and is no TOML.
+pub(crate) fn parse_argument(text: &str, place: &Place) -> Result<Value, String> {
+    let text = text.trim();
+    match DeValue::parse(text) {
+        Ok(value) => Ok(value_of(value.get_ref(), &|_| place.clone())),
+        Err(_) if !text.is_empty() && !text.starts_with(['[', '{', '"', '\'']) => {
+            Ok(Value::Text(text.to_owned()))
+        }
+        Err(error) => Err(one_line(error.message())),
+    }
+}
