@@ -89,7 +89,11 @@ impl ContactLaw {
         let n = self.exponent.recip();
         let ratio = force / self.force;
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
-        let slope = n * self.length / self.force * ratio.abs().max(SMALLEST_FORCE).powf(n - 1.0);
+        let slope = if ratio.abs() > SMALLEST_FORCE {
+            n * value / force
+        } else {
+            n * self.length / self.force * SMALLEST_FORCE.powf(n - 1.0)
+        };
         Approach { value, slope }
     }
 

@@ -42,8 +42,37 @@ impl CornerContact {
         law: &ContactLaw,
         forces: [f64; FORCES],
     ) -> CornerResponse {
+        let mut response = self.acting_response(corners, law, forces);
+        let resting = self.resting_conditions(corners);
+        for (condition, resting) in response.conditions.iter_mut().zip(resting) {
+            *condition = condition.or(resting);
+        }
+        response
+    }
+
+    /// The conditions of the forces that do not act.
+    pub fn resting_conditions(self, corners: &Corners) -> [Option<Equation>; FORCES] {
         match self {
-            Self::Open => CornerResponse::open(corners),
+            Self::Open => [open_condition(corners), None, None],
+            Self::Edge(edge) => {
+                let flush = edge.flush().filter(|&flush| corners.is_within_far_end(flush));
+                let flush = flush.map(|flush| flush_condition(corners, flush));
+                [None, Some(partner_condition(edge, corners)), flush]
+            }
+            Self::Corner(_) => [None; FORCES],
+            Self::Flush(edge) => [None, Some(partner_condition(edge, corners)), None],
+        }
+    }
+
+    /// The same as [`CornerContact::response`] without the conditions of the forces that do not act.
+    pub fn acting_response(
+        self,
+        corners: &Corners,
+        law: &ContactLaw,
+        forces: [f64; FORCES],
+    ) -> CornerResponse {
+        match self {
+            Self::Open => CornerResponse::default(),
             Self::Edge(edge) => CornerResponse::edge(edge, corners, law, forces),
             Self::Corner(edge) => {
                 Together::new(corners, corners.together(edge)).response(law, forces)
@@ -81,17 +110,7 @@ impl CornerContact {
 }
 
 impl CornerResponse {
-    /// No force acts; there is a condition if a corner faces an edge.
-    fn open(corners: &Corners) -> Self {
-        let condition = corners.facing().map(|(edge, value)| Equation {
-            value,
-            by_coordinate: corners.gap(edge).gradient,
-            ..Equation::default()
-        });
-        Self { conditions: [condition, None, None], ..Self::default() }
-    }
-
-    /// A corner rests on an edge: (C6), and the condition of (C7) where a flush contact is within reach.
+    /// A corner rests on an edge: the first condition of (C6) or of (C7).
     fn edge(edge: CornerEdge, corners: &Corners, law: &ContactLaw, forces: [f64; FORCES]) -> Self {
         let gap = corners.gap(edge);
         let approach = law.approach(forces[Force::Own as usize] + forces[Force::Flush as usize]);
@@ -100,12 +119,7 @@ impl CornerResponse {
             by_coordinate: gap.gradient,
             by_force: [approach.slope, 0.0, approach.slope],
         };
-        let [_, partner] = corners.together(edge);
-        let partner = Together::new(corners, [edge, partner]).short_of_the_end();
-        let flush = edge.flush().filter(|&flush| corners.is_within_far_end(flush));
-        let flush = flush.map(|flush| flush_condition(corners, flush));
-        let conditions = [Some(own), Some(partner), flush];
-        let mut response = Self { conditions, ..Self::default() };
+        let mut response = Self { conditions: [Some(own), None, None], ..Self::default() };
         response.add_force(Force::Own, &gap, forces);
         response
     }
@@ -121,6 +135,19 @@ impl CornerResponse {
             }
         }
     }
+}
+
+/// The gap of an open contact; `None` if no corner faces an edge.
+fn open_condition(corners: &Corners) -> Option<Equation> {
+    let (edge, value) = corners.facing()?;
+    let by_coordinate = corners.gap(edge).gradient;
+    Some(Equation { value, by_coordinate, ..Equation::default() })
+}
+
+/// The second condition of (C6) for a corner on an edge.
+fn partner_condition(edge: CornerEdge, corners: &Corners) -> Equation {
+    let [_, partner] = corners.together(edge);
+    Together::new(corners, [edge, partner]).short_of_the_end()
 }
 
 /// `β` of (C7).

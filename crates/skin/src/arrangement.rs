@@ -1,7 +1,7 @@
 //! The scales of a row at rest.
 
 use contact::Pair;
-use geometry::{Parallelogram, Row, UnevenRow};
+use geometry::{Parallelogram, Row, UnevenRow, clearance};
 
 /// Scales that are alike at a constant gap, however many, or each with a slant and a gap of its own.
 #[derive(Clone, Debug)]
@@ -40,6 +40,13 @@ impl Arrangement {
             Self::Even(row) => i as f64 * row.pitch(),
             Self::Uneven(row) => row.place(i),
         }
+    }
+
+    /// The narrowest distance of the scales `i` and `i + 1` across the steeper of their sides.
+    pub(crate) fn clearance(&self, i: usize) -> f64 {
+        let [left, right] = [self.scale(i), self.scale(i + 1)];
+        let steepest = left.slant().abs().max(right.slant().abs());
+        clearance(&left, &right, self.gap(i)) * steepest.cos()
     }
 
     /// Mean distance of neighbouring nodes.

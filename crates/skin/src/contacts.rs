@@ -11,7 +11,7 @@ use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
     Force, Level, Pair, Pose,
 };
-use solver::{BandMatrix, Change, Residual};
+use solver::{Change, Residual, Tangent};
 
 use crate::arrangement::Arrangement;
 
@@ -133,51 +133,130 @@ impl Contacts {
         pairs.map(|contacts| contacts.iter().any(|contact| *contact != CornerContact::Open))
     }
 
+    /// Whether the scales of the first and those of the last pair touch.
+    pub(crate) fn touching_at_ends(state: &State) -> [bool; 2] {
+        let (first, last) = (state.mode.first_chunk::<2>(), state.mode.last_chunk::<2>());
+        let touch = |contacts: &[CornerContact; 2]| {
+            contacts.iter().any(|contact| *contact != CornerContact::Open)
+        };
+        [first, last].map(|pair| pair.is_some_and(touch))
+    }
+
     /// Whether a side and a neighbour's end lie flush anywhere.
     pub(crate) fn flush(state: &State) -> bool {
         state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
-    /// Adds what the contacts contribute to the equations.
+    /// Adds what the closed contacts contribute to the equations.
     pub(crate) fn add_residual(&self, state: &State, residual: &mut Residual) {
-        self.for_each(state, |contact, corners| match state.mode[contact] {
-            CornerContact::Open => self.add_gap(contact, corners, residual),
-            closed => {
-                let forces = self.forces_of(&state.z, contact);
-                let response = closed.response(corners, &self.law, forces);
-                self.add_response(contact, &response, residual);
-            }
+        self.for_closed(state, |contact, acting, response| {
+            self.add_response(contact, acting, response, residual);
         });
-    }
-
-    /// Adds the gap of an open contact.
-    fn add_gap(&self, contact: usize, corners: &Corners, residual: &mut Residual) {
-        let [own, partner, flush] = self.unknowns_of(contact);
-        residual.add(own, corners.facing().map_or(HOLDS, |(_, gap)| gap));
-        residual.add(partner, HOLDS);
-        residual.add(flush, HOLDS);
-    }
-
-    fn add_response(&self, contact: usize, response: &CornerResponse, residual: &mut Residual) {
-        for Part { unknown, coordinate, sign } in self.parts(contact).into_iter().flatten() {
-            residual.add(unknown, sign * response.balance[coordinate].value);
-        }
-        for (unknown, condition) in self.unknowns_of(contact).into_iter().zip(&response.conditions)
-        {
-            residual.add(unknown, condition.map_or(HOLDS, |condition| condition.value));
-        }
     }
 
     /// Adds what the closed contacts contribute to the tangent.
-    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut impl Tangent) {
+        self.for_closed(state, |contact, acting, response| {
+            self.add_derivatives(contact, acting, response, matrix);
+        });
+    }
+
+    /// Adds what the closed contacts contribute to the equations and to the tangent.
+    pub(crate) fn linearise(
+        &self,
+        state: &State,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        self.for_closed(state, |contact, acting, response| {
+            self.add_response(contact, acting, response, residual);
+            self.add_derivatives(contact, acting, response, matrix);
+        });
+    }
+
+    /// Shows the response of every closed contact, and which of its forces act.
+    fn for_closed(
+        &self,
+        state: &State,
+        mut show: impl FnMut(usize, [bool; FORCES], &CornerResponse),
+    ) {
+        for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
+            if modes.iter().all(|mode| *mode == CornerContact::Open) {
+                continue;
+            }
+            let poses = [self.left_pose(&state.z, left), self.pose(&state.z, left + 1)];
+            for (contact, mode) in Self::contacts_of(left).zip(modes) {
+                if *mode != CornerContact::Open {
+                    let forces = self.forces_of(&state.z, contact);
+                    let corners = self.corners(contact, &poses);
+                    show(
+                        contact,
+                        mode.acting(),
+                        &mode.acting_response(&corners, &self.law, forces),
+                    );
+                }
+            }
+        }
+    }
+
+    fn add_response(
+        &self,
+        contact: usize,
+        acting: [bool; FORCES],
+        response: &CornerResponse,
+        residual: &mut Residual,
+    ) {
+        for Part { unknown, coordinate, sign } in self.parts(contact).into_iter().flatten() {
+            residual.add(unknown, sign * response.balance[coordinate].value);
+        }
+        let unknowns = self.unknowns_of(contact);
+        for force in (0..FORCES).filter(|&force| acting[force]) {
+            if let Some(condition) = &response.conditions[force] {
+                residual.add(unknowns[force], condition.value);
+            }
+        }
+    }
+
+    /// Replaces `values` by the conditions of all forces that do not act.
+    pub(crate) fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+        values.clear();
+        values.resize(self.forces.len(), HOLDS);
         self.for_each(state, |contact, corners| {
-            let mode = state.mode[contact];
-            if mode != CornerContact::Open {
-                let forces = self.forces_of(&state.z, contact);
-                let response = mode.response(corners, &self.law, forces);
-                self.add_derivatives(contact, mode.acting(), &response, matrix);
+            let values = &mut values[FORCES * contact..][..FORCES];
+            match state.mode[contact] {
+                CornerContact::Open => {
+                    values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
+                }
+                closed => {
+                    for (value, condition) in
+                        values.iter_mut().zip(closed.resting_conditions(corners))
+                    {
+                        *value = condition.map_or(HOLDS, |condition| condition.value);
+                    }
+                }
             }
         });
+    }
+
+    /// Replaces `slopes` by the derivatives of the conditions of all forces that do not act.
+    pub(crate) fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+        slopes.clear();
+        slopes.resize(self.forces.len(), 0.0);
+        self.for_each(state, |contact, corners| {
+            let conditions = state.mode[contact].resting_conditions(corners);
+            for (slope, condition) in slopes[FORCES * contact..].iter_mut().zip(conditions) {
+                *slope =
+                    condition.map_or(0.0, |condition| self.along(contact, &condition, direction));
+            }
+        });
+    }
+
+    /// The condition of a force that does not act.
+    pub(crate) fn condition(&self, state: &State, constraint: usize) -> f64 {
+        let contact = constraint / FORCES;
+        let poses = self.pair_poses(&state.z, contact);
+        let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
+        conditions[constraint % FORCES].map_or(HOLDS, |condition| condition.value)
     }
 
     fn add_derivatives(
@@ -185,7 +264,62 @@ impl Contacts {
         contact: usize,
         acting: [bool; FORCES],
         response: &CornerResponse,
-        matrix: &mut BandMatrix,
+        matrix: &mut impl Tangent,
+    ) {
+        match (
+            self.relative,
+            self.scales[Self::left(contact)],
+            self.scales[Self::left(contact) + 1],
+        ) {
+            (false, Some(left), Some(right)) => {
+                self.add_blocks(contact, acting, response, [left, right], matrix);
+            }
+            _ => self.add_parts(contact, acting, response, matrix),
+        }
+    }
+
+    /// Adds derivatives where the coordinates of the pair are unknowns, three of each scale in succession.
+    fn add_blocks(
+        &self,
+        contact: usize,
+        acting: [bool; FORCES],
+        response: &CornerResponse,
+        scales: [usize; 2],
+        matrix: &mut impl Tangent,
+    ) {
+        let unknowns = self.unknowns_of(contact);
+        let three = |row: &[f64; COORDINATES], side: usize| -> [f64; 3] {
+            std::array::from_fn(|k| row[3 * side + k])
+        };
+        for (i, row) in scales.into_iter().enumerate() {
+            let balance: [&Equation; 3] = std::array::from_fn(|k| &response.balance[3 * i + k]);
+            for (j, column) in scales.into_iter().enumerate() {
+                let block = balance.map(|equation| three(&equation.by_coordinate, j));
+                matrix.add_block(row, column, &block);
+            }
+            for force in (0..FORCES).filter(|&force| acting[force]) {
+                let column = balance.map(|equation| [equation.by_force[force]]);
+                matrix.add_block(row, unknowns[force], &column);
+            }
+        }
+        for force in (0..FORCES).filter(|&force| acting[force]) {
+            let Some(condition) = &response.conditions[force] else { continue };
+            for (j, column) in scales.into_iter().enumerate() {
+                matrix.add_block(unknowns[force], column, &[three(&condition.by_coordinate, j)]);
+            }
+            for other in (0..FORCES).filter(|&other| acting[other]) {
+                matrix.add(unknowns[force], unknowns[other], condition.by_force[other]);
+            }
+        }
+    }
+
+    /// Adds derivatives where coordinates of the pair are sums of unknowns.
+    fn add_parts(
+        &self,
+        contact: usize,
+        acting: [bool; FORCES],
+        response: &CornerResponse,
+        matrix: &mut impl Tangent,
     ) {
         let parts = self.parts(contact);
         let unknowns = self.unknowns_of(contact);
@@ -215,7 +349,12 @@ impl Contacts {
         let forces = self.forces_of(&state.z, contact);
         let corners = self.corners(contact, &poses);
         let response = state.mode[contact].response(&corners, &self.law, forces);
-        let Some(condition) = response.conditions[constraint % FORCES] else { return 0.0 };
+        let condition = response.conditions[constraint % FORCES];
+        condition.map_or(0.0, |condition| self.along(contact, &condition, direction))
+    }
+
+    /// Derivative of a condition along a direction.
+    fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
         let parts = self.parts(contact).into_iter().flatten();
         let by_parts: f64 = parts
             .map(|part| {
@@ -257,7 +396,7 @@ impl Contacts {
     }
 
     /// The contacts of the pair whose left scale is `left`.
-    fn contacts_of(left: usize) -> std::ops::Range<usize> {
+    pub(crate) fn contacts_of(left: usize) -> std::ops::Range<usize> {
         LEVELS.len() * left..LEVELS.len() * (left + 1)
     }
 

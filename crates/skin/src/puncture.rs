@@ -6,6 +6,7 @@ mod snapshot;
 mod system;
 #[cfg(test)]
 mod tests;
+mod window;
 
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
@@ -13,9 +14,10 @@ use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
+use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, State};
+use crate::contacts::{Point, State};
 use crate::record::{ContactEvent, Iteration, Record};
 use crate::{Common, Design, InvalidDesign, Sample, Status};
 
@@ -25,9 +27,6 @@ pub use snapshot::{At, Snapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
-
-/// An end scale of a row that is long enough has moved by less than this (over `t`; radians).
-const STILL: f64 = 1e-6;
 
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -151,19 +150,6 @@ impl Parameters {
     }
 }
 
-/// The ends of a row that the deformation has reached.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Reached {
-    left: bool,
-    right: bool,
-}
-
-impl Reached {
-    fn any(self) -> bool {
-        self.left || self.right
-    }
-}
-
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
@@ -192,69 +178,72 @@ impl<'a> Problem<'a> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                let layout = Layout { left, right: scales - 1 - left };
-                Ok(self.follow(layout, |_| false)?.0)
+                self.follow(self.chain(Layout { left, right: scales - 1 - left })?, scales)
             }
             RowLength::Auto => self.grow(LONGEST_ROW),
         }
     }
 
-    /// Lengthens the row on the sides that the deformation reaches until it reaches neither, or the
-    /// row is as long as the `longest`.
+    /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        let mut layout = self.first_layout();
-        loop {
-            let (mut puncture, reached) = self.follow(layout, Reached::any)?;
-            if !reached.any() {
-                return Ok(puncture);
-            }
-            let longer = layout.doubled(reached.left, reached.right, longest);
-            if longer == layout {
-                puncture.status = Status::RowLimit;
-                puncture.measures = puncture.measures.without_final_values();
-                return Ok(puncture);
-            }
-            layout = longer;
-        }
+        self.follow(self.part(Layout::first(&self.stiffness))?, longest)
     }
 
-    /// The row that suffices while no scales touch: a displacement of the punctured scale decays
-    /// along the chain by the root below 1 of `β (r + 1/r) = α`, where `β` stands for all neighbours
-    /// on a side.
-    fn first_layout(&self) -> Layout {
-        let RowStiffness { direct, neighbours, .. } = &self.stiffness;
-        let side = |k: usize| neighbours.iter().map(|n| n.direct[k] / direct[k]).sum::<f64>();
-        let slowest = (0..3).map(|k| 2.0 * side(k).abs()).fold(0.0, f64::max);
-        let decay = (1.0 - (1.0 - slowest.min(1.0).powi(2)).sqrt()) / slowest;
-        // A coupling so strong that the estimate fails starts from a long row.
-        let side = (4_u8..100).find(|&n| decay.powi(i32::from(n)) <= 0.1 * STILL);
-        let side = side.map_or(100, usize::from);
-        Layout { left: side, right: side }
-    }
-
-    /// Follows the path on a given row until it ends, or until `give_up` says so of the ends reached.
-    fn follow(
-        &self,
-        layout: Layout,
-        give_up: impl Fn(Reached) -> bool,
-    ) -> Result<(Puncture, Reached), InvalidDesign> {
-        let chain = self.chain(layout)?;
+    /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
+    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
         let rest = State::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
-        let mut reached = Reached::default();
-        while let Some(point) = path.next() {
-            record.visit(&mut path, &point);
-            reached = reached_ends(path.system(), &point.state);
-            if give_up(reached) {
-                break;
+        let mut has_room = true;
+        while has_room {
+            let before = path.point_shared();
+            let Some(point) = path.next() else { break };
+            let reach = path.system().reach(&point.state);
+            let is_beyond = reach.contains(&Reach::Beyond);
+            if !is_beyond {
+                record.visit(&mut path, &point);
+            }
+            if reach != [Reach::Short; 2] {
+                // What lies beyond may have touched within the step: it is taken again.
+                let from = if is_beyond { &before } else { &point };
+                has_room = self.lengthen(&mut path, &mut record, from, reach, longest)?;
             }
         }
-        let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
-        Ok((self.puncture(record, &mut path, status), reached))
+        let status = match has_room {
+            true => Status::of(&path, path.stop().unwrap_or(Stop::Reached)),
+            false => Status::RowLimit,
+        };
+        Ok(self.puncture(record, &mut path, status))
     }
 
-    /// The system of a row.
+    /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
+    fn lengthen(
+        &self,
+        path: &mut Path<Chain>,
+        record: &mut Record<Chain>,
+        from: &Point,
+        reach: [Reach; 2],
+        longest: usize,
+    ) -> Result<bool, InvalidDesign> {
+        let layout = path.system().layout;
+        let longer = layout.grown(reach, longest);
+        if longer == layout {
+            return Ok(false);
+        }
+        let chain = self.part(longer)?;
+        let from = chain.extended(path.system(), from);
+        record.replace_points(|point| chain.extended(path.system(), point), &from);
+        path.go_on(chain, from);
+        Ok(true)
+    }
+
+    /// The system of a part of an endless row.
+    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
+        Ok(self.chain(layout)?.within(surroundings))
+    }
+
+    /// The system of a row that ends.
     fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
         let Self { stiffness, law, parameters, .. } = self;
         let row = self.rows.row(layout)?;
@@ -273,15 +262,5 @@ impl<'a> Problem<'a> {
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
         Puncture { status, measures, path, events, scales, history }
-    }
-}
-
-fn reached_ends(chain: &Chain, state: &State) -> Reached {
-    let last = chain.layout.scales() - 1;
-    let moved = |scale| chain.displacement(&state.z, scale).iter().any(|u| u.abs() > STILL);
-    let touching: Vec<bool> = Contacts::touching(state).collect();
-    Reached {
-        left: moved(0) || touching.first() == Some(&true),
-        right: moved(last) || touching.last() == Some(&true),
     }
 }

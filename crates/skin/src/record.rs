@@ -101,6 +101,12 @@ impl<S: Skin> Record<S> {
         self.before.clone_from(&point.state.mode);
     }
 
+    /// Takes the points that are kept to those of a longer row, where the path goes on from `here`.
+    pub(crate) fn replace_points(&mut self, new: impl Fn(&Point) -> Point, here: &Point) {
+        self.stiffness.replace_points(new);
+        self.before.clone_from(&here.state.mode);
+    }
+
     /// The event of a force that has changed sides, in the state after it.
     fn event(
         &self,

@@ -7,7 +7,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
-use solver::{BandLu, BandMatrix};
+use solver::{BandLu, BandMatrix, Tangent};
 
 /// Unknowns of a scale: its three displacements and, at each of two levels, the two forces of corners that are
 /// together.

@@ -89,6 +89,14 @@ fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> V
         state.z[column] += step;
         let mut residual = Residual::new(system.size());
         system.residual(&state, &mut residual);
+        let mut conditions = Vec::new();
+        system.conditions(&state, &mut conditions);
+        let constraints = system.constraints().iter().zip(&state.active).zip(conditions);
+        for ((&index, active), condition) in constraints {
+            if !active {
+                residual.value[index] = condition;
+            }
+        }
         residual.value
     };
     let (high, low) = (at(step), at(-step));

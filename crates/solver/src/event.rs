@@ -2,11 +2,14 @@
 
 use crate::newton::{FLOOR, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
-use crate::system::System;
+use crate::system::{State, System};
 
 /// An event may lie this far before the point reached: constraints that change sides together are
 /// found one after the other, and each only to round-off.
 const BACKWARD: f64 = 1e-9;
+
+/// A predicted event may lie at this part of the step that was to be taken.
+const FARTHER: f64 = 1.5;
 
 /// Guards as close to zero as this at an event may change sides with the one that was located.
 const TOGETHER: f64 = 1e-10;
@@ -43,6 +46,42 @@ impl Event {
 }
 
 impl<S: System> Path<S> {
+    /// The event that guards and their slopes predict within a distance, if it is the first one and not far from there.
+    pub(crate) fn predicted_event(
+        &mut self,
+        from: &Point<S::Mode>,
+        distance: f64,
+    ) -> Option<Candidate<S::Mode>> {
+        let rate = self.condition(from).of(&from.leaving);
+        let (constraint, along) = self.first_predicted()?;
+        if along * rate > distance {
+            return None;
+        }
+        let state = from.state.moved(along, &from.leaving);
+        let located = self.locate_from(from, state, constraint).ok()?;
+        let condition = self.condition(from);
+        let reached = condition.of(&located.state.z) - condition.value;
+        let within =
+            (0.0..=FARTHER * distance).contains(&reached) && self.progress(&located.state.z) <= 1.0;
+        if !within || self.turns_sharply(from, &located) {
+            return None;
+        }
+        let guards = self.newton.guards(&self.system, &located.state);
+        match self.first_violated(&guards) {
+            Some(earlier) if earlier != constraint => self.event(from, located, earlier).ok(),
+            _ => Some(self.changed(located, constraint, &guards)),
+        }
+    }
+
+    /// The constraint whose guard vanishes first if all go on as they change now, and where, in units of the direction in which
+    /// the path leaves.
+    fn first_predicted(&self) -> Option<(usize, f64)> {
+        let guards = self.guards.iter().zip(&self.slopes).enumerate();
+        let falling = guards.filter(|(_, (guard, slope))| **guard > FLOOR && **slope < 0.0);
+        let places = falling.map(|(constraint, (guard, slope))| (constraint, guard / -slope));
+        places.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The first event between the point reached and `candidate`, or `candidate` where there is none.
     pub(crate) fn first_event(
         &mut self,
@@ -137,14 +176,30 @@ impl<S: System> Path<S> {
         let condition = self.condition(from);
         let before = self.guards[constraint].max(0.0);
         let after = self.newton.guards(&self.system, &beyond.state)[constraint];
-        let mut state = from.state.interpolated(&beyond.state, before / (before - after));
-        let direction =
-            self.newton.locate(&self.system, &mut state, &condition, constraint, &self.settings)?;
+        let state = from.state.interpolated(&beyond.state, before / (before - after));
+        let located = self.locate_from(from, state, constraint)?;
         let span = condition.of(&beyond.state.z) - condition.value;
-        let reached = condition.of(&state.z) - condition.value;
+        let reached = condition.of(&located.state.z) - condition.value;
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
             return Err(NewtonFailure::TooManyIterations);
         }
+        Ok(located)
+    }
+
+    /// The place near `state` where the guard of a constraint vanishes.
+    fn locate_from(
+        &mut self,
+        from: &Point<S::Mode>,
+        mut state: State<S::Mode>,
+        constraint: usize,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let direction = self.newton.locate(
+            &self.system,
+            &mut state,
+            &self.condition(from),
+            constraint,
+            &self.settings,
+        )?;
         Ok(Candidate { state, direction: self.normalised(direction), event: None })
     }
 

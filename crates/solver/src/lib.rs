@@ -19,7 +19,7 @@
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
-//! use solver::{BandMatrix, Control, Path, Residual, Settings, State, Stop, System};
+//! use solver::{Control, Path, Residual, Settings, State, Stop, System, Tangent};
 //!
 //! /// The load `F = u (1 − u²)` that holds a spring which gives way: it has a maximum.
 //! struct SnapThrough([Control; 1]);
@@ -38,7 +38,7 @@
 //!         residual.add(0, z[0] * (1.0 - z[0] * z[0]));
 //!         residual.add(0, -z[1]);
 //!     }
-//!     fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+//!     fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
 //!         let z = &state.z;
 //!         matrix.add(0, 0, 1.0 - 3.0 * z[0] * z[0]);
 //!         matrix.add(0, 1, -1.0);
@@ -56,6 +56,8 @@
 //! assert!(loads.last().is_some_and(|load| load.abs() < 1e-12));
 //! ```
 
+mod block_elimination;
+mod block_matrix;
 mod check;
 mod event;
 mod linear;
@@ -66,7 +68,10 @@ mod rate_problem;
 mod step;
 mod stop;
 mod system;
+mod tangent_solver;
 
+pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
+pub use block_matrix::{BlockMatrix, Blocks, LINK};
 pub use check::{WrongDerivative, check_tangent};
 pub use event::{Change, Event};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
@@ -75,4 +80,4 @@ pub use path::{Path, Point};
 pub use peak::Peak;
 pub use step::Settings;
 pub use stop::Stop;
-pub use system::{Control, Residual, State, System};
+pub use system::{Control, Residual, State, System, Tangent};

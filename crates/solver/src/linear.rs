@@ -6,6 +6,8 @@
 
 use std::ops::Range;
 
+use crate::system::Tangent;
+
 /// A matrix has no LU factorisation in floating point: a column without a usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the matrix is singular: no pivot in column {column} of {size}")]
@@ -55,18 +57,6 @@ impl BandMatrix {
         }
     }
 
-    /// Adds `value` to the entry at (`row`, `column`).
-    ///
-    /// # Panics
-    /// If the entry lies outside the band.
-    pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        let place = self.place(row, column);
-        let start = row * self.width();
-        self.rows[start + place] += value;
-        let [first, end] = self.used[row];
-        self.used[row] = [first.min(place), end.max(place + 1)];
-    }
-
     /// The entry at (`row`, `column`), which must lie within the band.
     ///
     /// # Panics
@@ -106,6 +96,20 @@ impl BandMatrix {
             self.half
         );
         column + self.half - row
+    }
+}
+
+impl Tangent for BandMatrix {
+    /// Adds `value` to the entry at (`row`, `column`).
+    ///
+    /// # Panics
+    /// If the entry lies outside the band.
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        let place = self.place(row, column);
+        let start = row * self.width();
+        self.rows[start + place] += value;
+        let [first, end] = self.used[row];
+        self.used[row] = [first.min(place), end.max(place + 1)];
     }
 }
 

@@ -1,14 +1,12 @@
 //! Newton's method for one equilibrium.
 
-use crate::linear::{BandLu, BandMatrix, SingularMatrix};
+use crate::linear::SingularMatrix;
 use crate::step::Settings;
-use crate::system::{Residual, State, System};
+use crate::system::{Residual, State, System, inactive};
+use crate::tangent_solver::TangentSolver;
 
 /// A guard (N5) below minus this is violated; what is smaller is round-off.
 pub(crate) const FLOOR: f64 = 1e-12;
-
-/// Part of the path over which the slopes of guards are differences.
-const DIFFERENCE: f64 = 1e-7;
 
 /// The condition `Σ c_k z_k = value` that picks a point of the path. Its unknowns lie within a
 /// half-bandwidth of the load, whose row it takes.
@@ -50,12 +48,9 @@ pub enum NewtonFailure {
 /// Storage for the solves of one system, kept from one to the next.
 #[derive(Clone, Debug)]
 pub struct Newton {
-    matrix: BandMatrix,
-    lu: BandLu,
+    solver: TangentSolver,
     residual: Residual,
     step: Vec<f64>,
-    /// Unknowns of the inactive constraints.
-    inactive: Vec<usize>,
     /// Residual norm of every iteration since this was last taken.
     pub(crate) history: Vec<f64>,
 }
@@ -63,14 +58,12 @@ pub struct Newton {
 impl Newton {
     /// Storage for systems like this one.
     pub fn new(system: &impl System) -> Self {
-        let (size, half) = (system.size(), system.half_bandwidth());
+        let size = system.size();
         debug_assert!(system.constraints().is_sorted());
         Self {
-            matrix: BandMatrix::new(size, half),
-            lu: BandLu::new(size, half),
+            solver: TangentSolver::new(system),
             residual: Residual::new(size),
             step: vec![0.0; size],
-            inactive: Vec::with_capacity(system.constraints().len()),
             history: Vec::new(),
         }
     }
@@ -91,8 +84,7 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
-            self.factorise(system, state, condition)?;
-            self.lu.solve(&mut self.step);
+            self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if norm <= settings.tolerance {
                 return Ok(self.direction(system));
@@ -120,9 +112,8 @@ impl Newton {
         for _ in 0..=settings.max_iterations {
             condition.value = condition.of(&state.z);
             let norm = self.evaluate(system, state, &condition)?;
-            let guard = self.guard(system, state, constraint);
-            self.factorise(system, state, &condition)?;
-            self.lu.solve(&mut self.step);
+            let guard = guard(system, state, constraint);
+            self.solver.solve(&mut self.step);
             let direction = self.direction(system);
             let along = |step: &[f64]| guard_slope(system, state, constraint, step);
             let distance = -(guard + along(&self.step)) / along(&direction);
@@ -148,7 +139,8 @@ impl Newton {
         state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<Vec<f64>, NewtonFailure> {
-        self.factorise(system, state, condition)?;
+        let residual = &mut self.residual;
+        self.solver.factorise(system, state, &condition.row, residual)?;
         let direction = self.direction(system);
         if direction.iter().all(|x| x.is_finite()) {
             Ok(direction)
@@ -158,88 +150,83 @@ impl Newton {
     }
 
     /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.
-    pub fn guards<S: System>(&mut self, system: &S, state: &State<S::Mode>) -> Vec<f64> {
-        system.residual(state, &mut self.residual);
-        (0..state.active.len()).map(|c| self.guard(system, state, c)).collect()
+    pub fn guards<S: System>(&self, system: &S, state: &State<S::Mode>) -> Vec<f64> {
+        let mut guards = Vec::with_capacity(state.active.len());
+        system.conditions(state, &mut guards);
+        replace_active(system, state, &state.z, &mut guards);
+        guards
     }
 
-    /// Derivatives of the guards along a direction: exact for active constraints, differences for the others.
+    /// Replaces `slopes` by how fast the guards change along a direction.
     pub(crate) fn guard_slopes<S: System>(
-        &mut self,
+        &self,
         system: &S,
         state: &State<S::Mode>,
         direction: &[f64],
-        guards: &[f64],
-    ) -> Vec<f64> {
-        system.residual(&state.moved(DIFFERENCE, direction), &mut self.residual);
-        let indices = system.constraints().iter().zip(&state.active);
-        let slopes = indices.zip(guards).map(|((&index, &active), guard)| {
-            if active {
-                direction[index]
-            } else {
-                (self.residual.value[index] - guard) / DIFFERENCE
-            }
-        });
-        slopes.collect()
+        slopes: &mut Vec<f64>,
+    ) {
+        system.condition_slopes(state, direction, slopes);
+        replace_active(system, state, direction, slopes);
     }
 
-    fn guard<S: System>(&self, system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
-        let index = system.constraints()[constraint];
-        if state.active[constraint] { state.z[index] } else { self.residual.value[index] }
-    }
-
-    /// Evaluates the equations; leaves minus their values in `step` and returns their norm.
+    /// Evaluates the equations and factorises their tangent; leaves minus the values in `step` and returns their norm.
     fn evaluate<S: System>(
         &mut self,
         system: &S,
         state: &State<S::Mode>,
         condition: &Condition,
     ) -> Result<f64, NewtonFailure> {
-        system.residual(state, &mut self.residual);
+        let residual = &mut self.residual;
+        let factorised = self.solver.factorise(system, state, &condition.row, residual);
         let load = system.load();
-        self.residual.value[load] = condition.of(&state.z) - condition.value;
-        self.residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
-        for (step, value) in self.step.iter_mut().zip(&self.residual.value) {
-            *step = -value;
-        }
+        residual.value[load] = condition.of(&state.z) - condition.value;
+        residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
         for index in inactive(system, state) {
-            self.step[index] = 0.0;
+            residual.value[index] = 0.0;
         }
         let mut norm = 0.0_f64;
-        for (step, size) in self.step.iter().zip(&self.residual.size) {
-            let ratio = (step / size).abs();
+        for ((step, value), size) in self.step.iter_mut().zip(&residual.value).zip(&residual.size) {
+            *step = -value;
+            let ratio = (value / size).abs();
             if !ratio.is_finite() {
                 return Err(NewtonFailure::NotFinite);
             }
             norm = norm.max(ratio);
         }
         self.history.push(norm);
+        factorised?;
         Ok(norm)
-    }
-
-    fn factorise<S: System>(
-        &mut self,
-        system: &S,
-        state: &State<S::Mode>,
-        condition: &Condition,
-    ) -> Result<(), SingularMatrix> {
-        self.matrix.clear();
-        system.tangent(state, &mut self.matrix);
-        self.matrix.clear_row(system.load());
-        for &(index, coefficient) in &condition.row {
-            self.matrix.add(system.load(), index, coefficient);
-        }
-        self.inactive.clear();
-        self.inactive.extend(inactive(system, state));
-        self.lu.factorise_without(&self.matrix, &self.inactive)
     }
 
     /// Solution for a unit right-hand side in the row of the condition.
     fn direction<S: System>(&mut self, system: &S) -> Vec<f64> {
         let mut direction = vec![0.0; system.size()];
-        direction[system.load()] = 1.0;
-        self.lu.solve(&mut direction);
+        self.solver.solve_unit(system.load(), &mut direction);
         direction
+    }
+}
+
+/// Replaces the entries of active constraints by those of their unknowns.
+fn replace_active<S: System>(
+    system: &S,
+    state: &State<S::Mode>,
+    unknowns: &[f64],
+    entries: &mut [f64],
+) {
+    let constraints = system.constraints().iter().zip(&state.active);
+    for ((&index, &active), entry) in constraints.zip(entries) {
+        if active {
+            *entry = unknowns[index];
+        }
+    }
+}
+
+/// How far a constraint is from changing sides.
+fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
+    if state.active[constraint] {
+        state.z[system.constraints()[constraint]]
+    } else {
+        system.condition(state, constraint)
     }
 }
 
@@ -255,15 +242,6 @@ pub(crate) fn guard_slope<S: System>(
     } else {
         system.slope(state, constraint, direction)
     }
-}
-
-/// Unknowns of the inactive constraints.
-fn inactive<'a, S: System>(
-    system: &'a S,
-    state: &'a State<S::Mode>,
-) -> impl Iterator<Item = usize> + 'a {
-    let constraints = system.constraints().iter().zip(&state.active);
-    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
 }
 
 /// Sets the unknowns of inactive constraints to zero, where the iteration keeps them.

@@ -85,7 +85,7 @@ impl<S: System> Path<S> {
             point: Arc::new(point.clone()),
             guards: Vec::new(),
             slopes: Vec::new(),
-            step: settings.first_step,
+            step: settings.first_step.min(settings.max_step),
             points: 0,
             stop: None,
         };
@@ -96,6 +96,27 @@ impl<S: System> Path<S> {
     /// The point that the path has reached.
     pub fn point(&self) -> &Point<S::Mode> {
         &self.point
+    }
+
+    /// The point that the path has reached, shared.
+    pub fn point_shared(&self) -> Arc<Point<S::Mode>> {
+        Arc::clone(&self.point)
+    }
+
+    /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
+    /// it left `point`, whose state need be an equilibrium of the system to first order only.
+    pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) {
+        let history = std::mem::take(&mut self.newton.history);
+        self.newton = Newton::new(&system);
+        self.system = system;
+        self.stop = None;
+        let condition = self.condition(&point);
+        match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
+            Ok(direction) => point.leaving = self.normalised(direction),
+            Err(failure) => self.stop = Some(Stop::from(failure)),
+        }
+        self.newton.history = history;
+        self.stand(point);
     }
 
     /// Why the path ended; `None` while it has not.
@@ -160,7 +181,7 @@ impl<S: System> Path<S> {
     fn stand(&mut self, point: Point<S::Mode>) {
         self.guards = self.newton.guards(&self.system, &point.state);
         let Point { state, leaving, .. } = &point;
-        self.slopes = self.newton.guard_slopes(&self.system, state, leaving, &self.guards);
+        self.newton.guard_slopes(&self.system, state, leaving, &mut self.slopes);
         self.point = Arc::new(point);
     }
 
@@ -169,7 +190,7 @@ impl<S: System> Path<S> {
     }
 
     /// The control parameter over its scale: 1 at the target.
-    fn progress(&self, z: &[f64]) -> f64 {
+    pub(crate) fn progress(&self, z: &[f64]) -> f64 {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
 
@@ -233,7 +254,11 @@ impl<S: System> Path<S> {
 
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
     /// in which the path left.
-    fn turns_sharply(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    pub(crate) fn turns_sharply(
+        &self,
+        from: &Point<S::Mode>,
+        candidate: &Candidate<S::Mode>,
+    ) -> bool {
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;
@@ -281,18 +306,31 @@ impl<S: System> Path<S> {
         }
     }
 
-    /// A step of the given distance, cut short at the first event within it.
+    /// A step that ends at the event that is predicted within the given distance. Where none is, or the prediction fails, a
+    /// step of this distance, cut short at the first event within it.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
-        let mut candidate = self.trial(&from, distance)?;
-        if self.progress(&candidate.state.z) > 1.0 {
-            candidate = self.target(&from, &candidate)?;
-        }
-        candidate = self.first_event(&from, candidate)?;
+        let mut candidate = match self.predicted_event(&from, distance) {
+            Some(candidate) => candidate,
+            None => self.plain_step(&from, distance)?,
+        };
         if self.turns(&from, &candidate) {
             candidate = self.extremum(&from, &candidate)?;
         }
         Ok(candidate)
+    }
+
+    /// A step of the given distance, cut short at the first event within it.
+    fn plain_step(
+        &mut self,
+        from: &Point<S::Mode>,
+        distance: f64,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let mut candidate = self.trial(from, distance)?;
+        if self.progress(&candidate.state.z) > 1.0 {
+            candidate = self.target(from, &candidate)?;
+        }
+        self.first_event(from, candidate)
     }
 
     /// The point between two where the control parameter is at its target.

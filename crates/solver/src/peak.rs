@@ -10,7 +10,7 @@ const FLAT: f64 = 1e-10;
 
 /// A search ends where the place of the maximum is known to this part of the first bracket: near a maximum the value
 /// is then off by the square of it.
-const CLOSE: f64 = 1e-5;
+const CLOSE: f64 = 2e-6;
 
 /// A search ends after this many evaluations. Brent's method rarely needs half as many.
 const EVALUATIONS: usize = 40;
@@ -69,6 +69,16 @@ impl<M> Peak<M> {
     /// The point with the largest value of those visited. `None` if none was.
     pub fn point(&self) -> Option<&Point<M>> {
         self.best.as_ref().map(|best| &*best.point)
+    }
+
+    /// Replaces the points that are kept, where the path has gone on with another system.
+    pub fn replace_points(&mut self, new: impl Fn(&Point<M>) -> Point<M>) {
+        let best = self.best.iter_mut().flat_map(|best| {
+            [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
+        });
+        for point in best.chain(&mut self.last) {
+            *point = Arc::new(new(point));
+        }
     }
 
     /// The largest value on the path, the segments next to the best of the points visited included. `None` if none was

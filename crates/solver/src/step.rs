@@ -20,8 +20,8 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         Self {
-            first_step: 0.01,
-            max_step: 0.05,
+            first_step: 0.1,
+            max_step: 0.2,
             min_step: 1e-9,
             tolerance: 1e-10,
             max_iterations: 12,

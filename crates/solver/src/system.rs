@@ -2,11 +2,14 @@
 
 use std::fmt::Debug;
 
+use crate::block_matrix::Blocks;
 use crate::event::Change;
-use crate::linear::BandMatrix;
 
 /// Largest change of an unknown over which a slope is a difference.
 const DIFFERENCE: f64 = 1e-6;
+
+/// Part of the path over which the slopes of all conditions are differences.
+const ALONG: f64 = 1e-7;
 
 /// A mixed complementarity system with a load parameter.
 ///
@@ -32,6 +35,12 @@ pub trait System {
     /// Half-bandwidth of the tangent.
     fn half_bandwidth(&self) -> usize;
 
+    /// The blocks of the tangent, if it is block-tridiagonal and the controls and the load are in the root block. The tangent is
+    /// then eliminated block by block, and as a band matrix only where that is not safe.
+    fn blocks(&self) -> Option<&Blocks> {
+        None
+    }
+
     /// Index of the load among the unknowns, and of the row without an equation.
     fn load(&self) -> usize;
 
@@ -47,11 +56,53 @@ pub trait System {
     /// The mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
-    /// Evaluates the equations. The equation of a constraint is evaluated whether the constraint is active or not.
+    /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
+    /// [`System::conditions`] of its own.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix. Rows and columns of inactive constraints may be left out.
-    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut BandMatrix);
+    fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
+
+    /// Evaluates the equations and adds `∂r/∂z` to a zero matrix.
+    fn linearise(
+        &self,
+        state: &State<Self::Mode>,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        self.residual(state, residual);
+        self.tangent(state, matrix);
+    }
+
+    /// Replaces `values` by the values of the equations of all constraints. Those of active ones may have any value.
+    fn conditions(&self, state: &State<Self::Mode>, values: &mut Vec<f64>) {
+        let mut residual = Residual::new(self.size());
+        self.residual(state, &mut residual);
+        values.clear();
+        values.extend(self.constraints().iter().map(|&index| residual.value[index]));
+    }
+
+    /// Replaces `slopes` by the derivatives of the equations of all constraints along `direction`. Those of active ones may
+    /// have any value.
+    fn condition_slopes(
+        &self,
+        state: &State<Self::Mode>,
+        direction: &[f64],
+        slopes: &mut Vec<f64>,
+    ) {
+        let (mut here, mut there) = (Vec::new(), Vec::new());
+        self.conditions(state, &mut here);
+        self.conditions(&state.moved(ALONG, direction), &mut there);
+        slopes.clear();
+        slopes.extend(here.iter().zip(&there).map(|(here, there)| (there - here) / ALONG));
+    }
+
+    /// Value of the equation of a constraint (its number).
+    fn condition(&self, state: &State<Self::Mode>, constraint: usize) -> f64 {
+        let mut values = Vec::new();
+        self.conditions(state, &mut values);
+        values[constraint]
+    }
 
     /// Derivative of the equation of a constraint (its number) along `direction`; by differences
     /// unless the system knows better.
@@ -60,12 +111,8 @@ pub trait System {
         if largest == 0.0 {
             return 0.0;
         }
-        let (step, index) = (DIFFERENCE / largest, self.constraints()[constraint]);
-        let mut residual = Residual::new(self.size());
-        let mut at = |step: f64| {
-            self.residual(&state.moved(step, direction), &mut residual);
-            residual.value[index]
-        };
+        let step = DIFFERENCE / largest;
+        let at = |step: f64| self.condition(&state.moved(step, direction), constraint);
         (at(step) - at(-step)) / (2.0 * step)
     }
 
@@ -75,6 +122,27 @@ pub trait System {
     /// constraint cannot change sides in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
+    }
+}
+
+/// A matrix that derivatives are added to.
+pub trait Tangent {
+    /// Adds `value` to the entry at (`row`, `column`).
+    fn add(&mut self, row: usize, column: usize, value: f64);
+
+    /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
+    /// constraint.
+    fn add_block<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        column: usize,
+        values: &[[f64; C]; R],
+    ) {
+        for (i, values) in values.iter().enumerate() {
+            for (j, value) in values.iter().enumerate() {
+                self.add(row + i, column + j, *value);
+            }
+        }
     }
 }
 
@@ -152,9 +220,18 @@ impl<M: Clone> State<M> {
     }
 }
 
+/// Unknowns of the inactive constraints.
+pub(crate) fn inactive<'a, S: System>(
+    system: &'a S,
+    state: &'a State<S::Mode>,
+) -> impl Iterator<Item = usize> + 'a {
+    let constraints = system.constraints().iter().zip(&state.active);
+    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{BandMatrix, Control, Residual, State, System};
+    use super::{Control, Residual, State, System, Tangent};
     use approx::assert_relative_eq;
 
     /// A constraint whose equation is `u³`.
@@ -190,7 +267,7 @@ mod tests {
             residual.add(1, state.z[0].powi(3));
         }
 
-        fn tangent(&self, _state: &State, _matrix: &mut BandMatrix) {}
+        fn tangent(&self, _state: &State, _matrix: &mut impl Tangent) {}
     }
 
     #[test]

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use faer::prelude::*;
 use faer::{Col, Mat};
 use proptest::prelude::*;
-use solver::{BandLu, BandMatrix};
+use solver::{BandLu, BandMatrix, Tangent};
 
 /// A band matrix with one entry for each number of `entries` within its band, row by row; numbers above 2
 /// stand for zeros.

@@ -244,28 +244,18 @@ impl Equations {
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
             for (i, &x) in fields.iter().enumerate() {
-                equations.fill_row(i * depth + k, mesh, x, poisson_ratio, &mut columns);
+                columns.both_sides(mesh, x, &mut sides);
+                equations.fill_row(i * depth + k, &sides, poisson_ratio);
             }
         }
         equations
     }
 
-    /// Fills a row of the three matrices. Sources on the right act with their mirror images on the left, even or odd in `x`.
-    fn fill_row(
-        &mut self,
-        row: usize,
-        mesh: &Mesh,
-        x: f64,
-        poisson_ratio: f64,
-        columns: &mut CellColumns,
-    ) {
-        let (mut right, mut left) = (Vec::new(), Vec::new());
-        for axis in mesh.across() {
-            columns.influence(axis.edges().iter().map(|edge| edge - x), &mut right);
-            columns.influence(axis.edges().iter().map(|edge| -edge - x), &mut left);
-        }
-        for (column, (&right, &left)) in right.iter().zip(&left).enumerate() {
+    /// Sources on the right act with their mirror images on the left, even or odd in `x`.
+    fn fill_row(&mut self, row: usize, [right, left]: &[Vec<Influence>; 2], poisson_ratio: f64) {
+        for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
             // The edges of a mirror image descend, which turns its sign.
             let even = right - left;
             self.shear[(row, column)] = even.tangential(poisson_ratio);
@@ -289,7 +279,17 @@ impl CellColumns {
         Self { line, last: blank.clone(), next: blank }
     }
 
-    /// Returns the appends, column by column, the influence of the cells between the `offsets`; negative where
+    /// The influence at `x` of the cells on the right and of their mirror images on the left.
+    fn both_sides(&mut self, mesh: &Mesh, x: f64, [right, left]: &mut [Vec<Influence>; 2]) {
+        right.clear();
+        left.clear();
+        for axis in mesh.across() {
+            self.influence(axis.edges().iter().map(|edge| edge - x), right);
+            self.influence(axis.edges().iter().map(|edge| -edge - x), left);
+        }
+    }
+
+    /// Appends, column by column, the influence of the cells between the `offsets`; negative where
     /// they descend.
     fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
         let half = self.line.len() / 2;

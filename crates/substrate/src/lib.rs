@@ -42,6 +42,7 @@
 pub mod boundary_element;
 mod cache;
 mod calibrations;
+mod far_field;
 mod footprint;
 pub mod half_space;
 pub mod mesh;
@@ -50,6 +51,7 @@ mod springs;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
+pub use far_field::FarField;
 pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};

@@ -3,7 +3,7 @@
 use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
 use membrane::{GapEnergies, Membrane, Section};
-use solver::{BandMatrix, Change, Condition, Control, Residual, System};
+use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
@@ -53,6 +53,14 @@ impl Layout {
         self.block() * (force / PAIR_FORCES) + force % PAIR_FORCES
     }
 
+    /// A block for each scale that is not held, with the forces of its contacts with the next one. The first has those with
+    /// the scale that is held, too. Unknowns within the gaps would make blocks too large.
+    fn blocks(self) -> Option<Blocks> {
+        let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
+        let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
+        (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1 })
+    }
+
     fn moment(self) -> usize {
         self.size() - 1
     }
@@ -87,6 +95,7 @@ pub(crate) struct Strip {
     /// `E_m I_m`, over `E_m t⁴`.
     bending_stiffness: f64,
     controls: [Control; 3],
+    blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
@@ -118,6 +127,7 @@ impl Strip {
             pitch: row.mean_pitch(),
             bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::relative(row, law, scales, forces),
+            blocks: layout.blocks(),
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
         }
@@ -266,6 +276,10 @@ impl System for Strip {
         self.layout.block()
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn load(&self) -> usize {
         self.layout.moment()
     }
@@ -297,7 +311,7 @@ impl System for Strip {
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         for gap in 0..self.layout.gaps {
             for unknown in self.pinned(&state.active, gap) {
                 matrix.add(unknown, unknown, self.units[unknown]);
@@ -312,6 +326,18 @@ impl System for Strip {
         }
         matrix.add(self.controls[0].index, self.layout.moment(), -1.0);
         self.contacts.add_tangent(state, matrix);
+    }
+
+    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+        self.contacts.conditions(state, values);
+    }
+
+    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+        self.contacts.condition_slopes(state, direction, slopes);
+    }
+
+    fn condition(&self, state: &State, constraint: usize) -> f64 {
+        self.contacts.condition(state, constraint)
     }
 
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {

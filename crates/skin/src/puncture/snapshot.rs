@@ -4,8 +4,8 @@ use solver::{Path, Settings};
 
 use super::system::{Chain, Layout};
 use super::{
-    InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowStiffness, Rows, ScaleState,
-    Status, scales,
+    InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowLength, RowStiffness, Rows,
+    ScaleState, Status, scales,
 };
 use crate::contacts::{Contact, State};
 use crate::crossing::{Crossing, follow};
@@ -71,7 +71,12 @@ pub fn snapshots(
     }
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-    let at = along(problem.chain(layout(&puncture))?, common.solver, at);
+    let layout = layout(&puncture);
+    let chain = match parameters.scales {
+        RowLength::Auto => problem.part(layout),
+        RowLength::Scales(_) => problem.chain(layout),
+    };
+    let at = along(chain?, common.solver, at);
     Ok(Snapshots { puncture, at })
 }
 

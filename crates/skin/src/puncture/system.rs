@@ -2,9 +2,10 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{BandMatrix, Change, Control, Residual, System};
-use substrate::{Neighbour, RowStiffness};
+use solver::{Blocks, Change, Control, Residual, System, Tangent};
+use substrate::{FarField, Neighbour, RowStiffness};
 
+use super::window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, State};
 
@@ -35,15 +36,8 @@ impl Layout {
         (scale.cast_signed() - self.left.cast_signed()) as i64
     }
 
-    /// Twice as many scales on the given sides, as far as a row of the `longest` length has room.
-    pub(crate) fn doubled(self, left: bool, right: bool, longest: usize) -> Self {
-        let room = longest.saturating_sub(self.scales());
-        let more_right = if right { self.right.min(room) } else { 0 };
-        let more_left = if left { self.left.min(room - more_right) } else { 0 };
-        Self { left: self.left + more_left, right: self.right + more_right }
-    }
-
-    fn size(self) -> usize {
+    /// Number of unknowns.
+    pub(crate) fn size(self) -> usize {
         BLOCK * self.scales() - PAIR_FORCES + 1
     }
 
@@ -56,9 +50,23 @@ impl Layout {
         BLOCK * self.left + 3
     }
 
+    /// A block for each scale, with the forces of its contacts with the neighbour on the side of the punctured one.
+    fn blocks(self) -> Blocks {
+        let scales = 0..self.scales();
+        let start = |scale: usize| match scale <= self.left {
+            true => self.scale(scale),
+            false => self.force(PAIR_FORCES * (scale - 1)),
+        };
+        Blocks {
+            starts: scales.clone().map(start).collect(),
+            links: scales.map(|scale| self.scale(scale)).collect(),
+            root: self.left,
+        }
+    }
+
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
-    fn force(self, force: usize) -> usize {
+    pub(crate) fn force(self, force: usize) -> usize {
         let left = force / PAIR_FORCES;
         BLOCK * left + 3 + force % PAIR_FORCES + usize::from(left >= self.left)
     }
@@ -79,9 +87,13 @@ pub(crate) struct Chain {
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
     neighbours: Vec<Neighbour>,
+    /// What lies beyond the ends of a part of an endless row; forces as above.
+    surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
+    /// Blocks of the tangent, where scales feel their nearest neighbours alone.
+    blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
@@ -120,10 +132,40 @@ impl Chain {
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
+            surroundings: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
+            blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
             units,
+        }
+    }
+
+    /// The same row as a part of an endless one.
+    pub(crate) fn within(self, surroundings: Surroundings) -> Self {
+        let a = self.half_base;
+        Self { surroundings: Some(surroundings.scaled([a, a, a.powi(3)])), ..self }
+    }
+
+    /// How near a state has come to the left and to the right end, if there is more beyond them.
+    pub(crate) fn reach(&self, state: &State) -> [Reach; 2] {
+        let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
+        self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
+    }
+
+    fn far_field(&self) -> Option<&FarField> {
+        self.surroundings.as_ref()?.far_field()
+    }
+
+    /// The three displacements of a scale, which may lie beyond an end of the row.
+    pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
+        let last = self.layout.scales().cast_signed() - 1;
+        let nearest = scale.clamp(0, last);
+        let displacement = self.displacement(z, nearest.cast_unsigned());
+        match (self.far_field(), scale.abs_diff(nearest)) {
+            (_, 0) => displacement,
+            (Some(far), distance) => far.displacement(displacement, distance),
+            (None, _) => [0.0; 3],
         }
     }
 
@@ -156,14 +198,11 @@ impl Chain {
     /// the `F_x, F_y, M` of Eq. (1), or of (S9).
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let own = self.displacement(z, scale);
-        let at = |neighbour: Option<usize>| {
-            let neighbour = neighbour.filter(|&i| i < self.layout.scales());
-            neighbour.map_or([0.0; 3], |i| self.displacement(z, i))
-        };
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
         for (before, neighbour) in self.neighbours.iter().enumerate() {
-            let distance = before + 1;
-            let (left, right) = (at(scale.checked_sub(distance)), at(Some(scale + distance)));
+            let [distance, scale] = [before + 1, scale].map(usize::cast_signed);
+            let left = self.displacement_anywhere(z, scale - distance);
+            let right = self.displacement_anywhere(z, scale + distance);
             for k in 0..3 {
                 reaction[k] -= neighbour.direct[k] * (left[k] + right[k]);
             }
@@ -179,6 +218,12 @@ impl Chain {
             let at = self.layout.scale(i);
             for k in 0..3 {
                 entry(at + k, at + k, self.direct[k]);
+            }
+            if let Some(far) = self.far_field() {
+                let ends = [0, self.layout.scales() - 1].iter().filter(|end| **end == i).count();
+                for k in 0..3 {
+                    entry(at + k, at + k, -(ends as f64) * far.relief[k]);
+                }
             }
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
@@ -236,6 +281,10 @@ impl System for Chain {
         BLOCK * self.neighbours.len().max(1) + 3
     }
 
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
     fn load(&self) -> usize {
         self.layout.load()
     }
@@ -259,7 +308,7 @@ impl System for Chain {
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         let z = &state.z;
         self.for_springs(|row, column, value| matrix.add(row, column, value));
         let at = self.layout.scale(self.layout.left);
@@ -268,6 +317,34 @@ impl System for Chain {
         matrix.add(at + 2, self.layout.load(), arm.x);
         matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
         self.contacts.add_tangent(state, matrix);
+    }
+
+    fn linearise(&self, state: &State, residual: &mut Residual, matrix: &mut impl Tangent) {
+        let (z, load) = (&state.z, self.layout.load());
+        residual.clear(&self.units);
+        self.for_springs(|row, column, value| {
+            residual.add(row, value * z[column]);
+            matrix.add(row, column, value);
+        });
+        let at = self.layout.scale(self.layout.left);
+        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        residual.add(at + 1, z[load]);
+        residual.add(at + 2, z[load] * arm.x);
+        matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
+        matrix.add(at + 2, at + 2, -z[load] * arm.y);
+        self.contacts.linearise(state, residual, matrix);
+    }
+
+    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+        self.contacts.conditions(state, values);
+    }
+
+    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+        self.contacts.condition_slopes(state, direction, slopes);
+    }
+
+    fn condition(&self, state: &State, constraint: usize) -> f64 {
+        self.contacts.condition(state, constraint)
     }
 
     fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {

@@ -4,10 +4,11 @@ use std::collections::HashSet;
 
 use approx::assert_relative_eq;
 use contact::{ContactLaw, CornerContact, FORCES, Law};
-use solver::{BandMatrix, Path, Residual, Settings, System, check_tangent};
+use solver::{BandMatrix, Path, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
+use super::window::Reach;
 use super::{Parameters, Problem, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Point, State};
@@ -124,13 +125,13 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
         let at = |shift: f64| {
             let along = state.z.iter().zip(&from.leaving);
             let z = along.map(|(z, d)| z + shift * d).collect();
-            let mut residual = Residual::new(chain.size());
-            chain.residual(&State { z, ..state.clone() }, &mut residual);
-            residual.value
+            let mut conditions = Vec::new();
+            chain.conditions(&State { z, ..state.clone() }, &mut conditions);
+            conditions
         };
         let (low, high) = (at(-1e-7), at(1e-7));
-        for (constraint, &index) in chain.constraints().iter().enumerate() {
-            let difference = (high[index] - low[index]) / 2e-7;
+        for constraint in 0..chain.constraints().len() {
+            let difference = (high[constraint] - low[constraint]) / 2e-7;
             // Where a force cannot act next its condition is constant.
             if !state.active[constraint] && difference != 0.0 {
                 let slope = chain.slope(&state, constraint, &from.leaving);
@@ -288,19 +289,19 @@ fn soft_contacts_store_their_part_of_the_work() {
 }
 
 #[test]
-fn rows_double_as_far_as_there_is_room() {
-    let layout = Layout { left: 4, right: 6 };
-    let doubled = |left, right, longest| {
-        let Layout { left, right } = layout.doubled(left, right, longest);
+fn rows_grow_as_far_as_there_is_room() {
+    use Reach::{Beyond, Near, Short};
+    let layout = Layout { left: 14, right: 17 };
+    let grown = |reach, longest| {
+        let Layout { left, right } = layout.grown(reach, longest);
         [left, right]
     };
-    assert_eq!(doubled(true, false, 100), [8, 6]);
-    assert_eq!(doubled(false, true, 100), [4, 12]);
-    assert_eq!(doubled(true, true, 100), [8, 12]);
-    assert_eq!(doubled(true, true, 18), [5, 12]);
-    assert_eq!(doubled(true, true, 13), [4, 8]);
-    assert_eq!(doubled(true, true, 11), [4, 6]);
-    assert_eq!(doubled(true, true, 5), [4, 6]);
+    assert_eq!(grown([Near, Short], 100), [22, 17]);
+    assert_eq!(grown([Short, Beyond], 100), [14, 25]);
+    assert_eq!(grown([Beyond, Near], 100), [22, 25]);
+    assert_eq!(grown([Near, Near], 42), [16, 25]);
+    assert_eq!(grown([Near, Near], 37), [14, 22]);
+    assert_eq!(grown([Near, Near], 32), [14, 17]);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use skin::{Base, Status};
 use solver::Stop;
 use substrate::Calibrations;
 
-use crate::samples::{design, on_row, solve_with, springs, with_law};
+use crate::samples::{design, in_small_steps, on_row, solve_as, solve_with, springs, with_law};
 
 fn closed_form(
     design: &skin::Design,
@@ -35,7 +35,7 @@ fn the_whole_path_follows_the_closed_form() {
                 let design = design(gap, length, slant, base);
                 let parameters = Parameters { load_position, ..on_row(1) };
                 let exact = closed_form(&design, &parameters, &known);
-                let puncture = solve_with(&known, &design, &parameters);
+                let puncture = solve_as(&known, &design, &in_small_steps(), &parameters);
                 assert_eq!(puncture.status, Status::Complete);
                 assert!(puncture.path.len() > 10);
                 for point in &puncture.path {

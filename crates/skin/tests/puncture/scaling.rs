@@ -75,7 +75,8 @@ fn harder_contacts_settle_to_rigid_ones() {
             complete(&puncture).critical_force.unwrap()
         };
         let [reference, hard, rigid] = [1.0, 1e4, 1e8].map(force);
-        assert!((hard - rigid).abs() < 1e-2 * (reference - rigid).abs());
+        // Those of the printed law are as good as rigid as they are.
+        assert!((hard - rigid).abs() <= 1e-2 * (reference - rigid).abs());
         assert_relative_eq!(hard, rigid, max_relative = 1e-5);
     }
 }

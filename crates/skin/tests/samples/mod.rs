@@ -119,6 +119,12 @@ impl SplitMix64 {
     }
 }
 
+/// Steps fine enough to look at many points of a path.
+pub fn in_small_steps() -> Common {
+    let solver = Settings { first_step: 0.01, max_step: 0.05, ..Settings::default() };
+    Common { solver, ..Common::default() }
+}
+
 /// The reference parameters on a row of this many scales.
 pub fn on_row(scales: usize) -> Parameters {
     Parameters { scales: RowLength::Scales(scales), ..Parameters::default() }

@@ -25,7 +25,7 @@ fn the_extrema_of_an_arch_are_those_of_its_cubic() {
 
 #[test]
 fn a_control_parameter_that_turns_back_is_followed() {
-    let (points, stop) = follow(arch_on_spring(), Settings::default());
+    let (points, stop) = follow(arch_on_spring(), steps(0.05));
     assert_eq!(stop, Stop::Reached);
     let arch = |w: f64| w * (1.0 - w) * (2.0 - w);
     let mut before = 0.0;

@@ -1,6 +1,6 @@
 //! Problems with known answers.
 
-use solver::{BandMatrix, Change, Control, Residual, State, System};
+use solver::{Change, Control, Residual, State, System, Tangent};
 
 /// A system without constraints of a few unknowns, given by functions: equations (one fewer than unknowns; the
 /// load is the last unknown), and their derivatives.
@@ -39,7 +39,7 @@ impl<const N: usize> System for Smooth<N> {
         }
     }
 
-    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut impl Tangent) {
         for (row, values) in (self.derivatives)(z).into_iter().enumerate() {
             for (column, value) in values.into_iter().enumerate() {
                 matrix.add(row, column, value);
@@ -177,7 +177,7 @@ impl System for Bratu {
         }
     }
 
-    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut impl Tangent) {
         let (load, inside) = (self.load(), self.intervals - 1);
         for i in 0..inside {
             let source = self.h().powi(2) * z[i].exp();
@@ -314,7 +314,7 @@ impl System for StringOverFloor {
         }
     }
 
-    fn tangent(&self, _state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, _state: &State, matrix: &mut impl Tangent) {
         for i in 0..self.nodes() {
             let share = self.share(i);
             matrix.add(2 * i, 2 * i, 2.0 * share / self.h());
@@ -374,7 +374,7 @@ impl System for OneConstraint {
         residual.add(1, (self.condition)(z[0], z[1])[0]);
     }
 
-    fn tangent(&self, State { z, active, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, active, .. }: &State, matrix: &mut impl Tangent) {
         let [_, by_u, by_c] = (self.load)(z[0], z[1]);
         for (column, value) in [by_u, by_c, -1.0].into_iter().enumerate() {
             matrix.add(0, column, value);
@@ -493,7 +493,7 @@ impl System for TwoLaws {
         self.law(state.mode).residual(&without_mode(state), residual);
     }
 
-    fn tangent(&self, state: &State<WhichLaw>, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State<WhichLaw>, matrix: &mut impl Tangent) {
         self.law(state.mode).tangent(&without_mode(state), matrix);
     }
 
@@ -540,7 +540,7 @@ impl System for Refusing {
         self.0.residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         self.0.tangent(state, matrix);
     }
 
@@ -587,7 +587,7 @@ impl System for Stuck {
         self.0.residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         self.0.tangent(state, matrix);
     }
 
@@ -627,7 +627,7 @@ impl System for Stiff {
         residual.add(0, -1e15 * z[1]);
     }
 
-    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut impl Tangent) {
         matrix.add(0, 0, 1e15 * z[0].cos());
         matrix.add(0, 1, -1e15);
     }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use solver::{BandMatrix, Change, Control, Residual, State, System};
+use solver::{BandMatrix, Change, Control, Residual, State, System, Tangent};
 
 /// A system whose unknowns are measured in other units: each is `factors` times the one of the `system`, and so
 /// are the scales of its controls. Its path is the same.
@@ -62,7 +62,7 @@ impl<S: System> System for Scaled<S> {
         self.system.residual(&self.unscaled_state(state), residual);
     }
 
-    fn tangent(&self, state: &State<S::Mode>, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State<S::Mode>, matrix: &mut impl Tangent) {
         let mut inner = BandMatrix::new(self.size(), self.half_bandwidth());
         self.system.tangent(&self.unscaled_state(state), &mut inner);
         for row in 0..self.size() {

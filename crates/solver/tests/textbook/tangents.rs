@@ -1,6 +1,6 @@
 //! The tangents of the problems agree with differences of their residuals.
 
-use solver::{BandMatrix, Change, Control, Residual, State, System, check_tangent};
+use solver::{Change, Control, Residual, State, System, Tangent, check_tangent};
 
 use crate::problems::{
     Bratu, OneConstraint, StringOverFloor, arch, arch_on_spring, bump, circle, corner, kink,
@@ -68,7 +68,7 @@ impl System for Wrong {
         self.right.residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
         self.right.tangent(state, matrix);
         if let Some((row, column)) = self.entry {
             matrix.add(row, column, 1e-6);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use solver::{BandMatrix, Control, Residual, State, System};
+use solver::{Control, Residual, State, System, Tangent};
 
 /// A coordinate `u` under a load `p`, against walls that give way: `p = u + Σ c_k` with
 /// `0 ≤ c_k ⟂ r_k(u) + c_k + s_k ≥ 0`, where `s_k` is twice the force on a wall that shields this one. Unknowns
@@ -79,7 +79,7 @@ impl System for Walls {
         }
     }
 
-    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut impl Tangent) {
         self.tangents.fetch_add(1, Ordering::Relaxed);
         matrix.add(0, 0, 1.0);
         matrix.add(0, self.load(), -1.0);

@@ -1,7 +1,7 @@
 //! Plane frames of co-rotational beams under one load, followed along their equilibrium path.
 
 use membrane::{CorotationalBeam, Ends};
-use solver::{BandMatrix, Control, Event, Path, Residual, Settings, State, Stop, System};
+use solver::{Control, Event, Path, Residual, Settings, State, Stop, System, Tangent};
 
 /// A node of a frame.
 #[derive(Clone, Copy, Debug)]
@@ -136,7 +136,7 @@ impl System for PlaneFrame {
         residual.add(self.unknown(self.loaded, 1), z[self.load()]);
     }
 
-    fn tangent(&self, State { z, .. }: &State, matrix: &mut BandMatrix) {
+    fn tangent(&self, State { z, .. }: &State, matrix: &mut impl Tangent) {
         for (i, beam) in self.beams.iter().enumerate() {
             let (ends, unknowns) = self.ends(z, i);
             let tangent = beam.response(&ends).tangent;

@@ -1,0 +1,316 @@
+//! Elimination block by block against faer.
+
+use faer::prelude::*;
+use faer::{Col, Mat, Side};
+use proptest::prelude::*;
+use solver::{BlockElimination, BlockMatrix, Blocks, LINK, Tangent};
+
+/// A chain of blocks; each has so many unknowns before its link and after it.
+#[derive(Clone, Debug)]
+struct Chain {
+    extras: Vec<[usize; 2]>,
+    root: usize,
+}
+
+impl Chain {
+    fn blocks(&self) -> Blocks {
+        let mut blocks = Blocks { root: self.root, ..Blocks::default() };
+        let mut size = 0;
+        for [before, after] in &self.extras {
+            blocks.starts.push(size);
+            blocks.links.push(size + before);
+            size += before + LINK + after;
+        }
+        blocks
+    }
+
+    fn size(&self) -> usize {
+        self.extras.iter().map(|[before, after]| before + LINK + after).sum()
+    }
+
+    fn block(&self, unknown: usize) -> usize {
+        self.blocks().starts.partition_point(|&start| start <= unknown) - 1
+    }
+
+    fn is_link(&self, unknown: usize) -> bool {
+        let link = self.blocks().links[self.block(unknown)];
+        (link..link + LINK).contains(&unknown)
+    }
+
+    /// Whether two unknowns may be coupled.
+    fn couples(&self, i: usize, j: usize) -> bool {
+        let [a, b] = [self.block(i), self.block(j)];
+        let inner_is_link = |inner: usize, outer_block: usize, inner_block: usize| {
+            self.is_link(inner)
+                && inner_block.abs_diff(outer_block) == 1
+                && inner_block.abs_diff(self.root) < outer_block.abs_diff(self.root)
+        };
+        a == b || inner_is_link(i, b, a) || inner_is_link(j, a, b)
+    }
+}
+
+/// Chains of at most eight blocks with at most three more unknowns on each side of a link.
+fn chains() -> impl Strategy<Value = Chain> {
+    let extras = prop::collection::vec(prop::array::uniform2(0_usize..4), 1..8);
+    (extras, 0_usize..8).prop_map(|(extras, root)| Chain { root: root % extras.len(), extras })
+}
+
+/// A dense matrix, of which the rows and columns of some unknowns do not count, in the form of blocks.
+fn in_blocks(chain: &Chain, dense: &Mat<f64>, left_out: &[bool]) -> BlockMatrix {
+    let mut matrix = BlockMatrix::default();
+    let left_out: Vec<_> = (0..chain.size()).filter(|&unknown| left_out[unknown]).collect();
+    matrix.reshape(&chain.blocks(), chain.size(), &left_out);
+    for i in 0..chain.size() {
+        for j in (0..chain.size()).filter(|&j| chain.couples(i, j)) {
+            matrix.add(i, j, dense[(i, j)]);
+        }
+    }
+    matrix
+}
+
+/// Solution without some unknowns, and the smallest pivot relative to the largest: dense, by faer.
+fn reference(dense: &Mat<f64>, left_out: &[bool], rhs: &[f64]) -> (Vec<f64>, f64, f64) {
+    let kept: Vec<_> = (0..rhs.len()).filter(|&i| !left_out[i]).collect();
+    let part = Mat::from_fn(kept.len(), kept.len(), |i, j| dense[(kept[i], kept[j])]);
+    let lu = part.partial_piv_lu();
+    let x = lu.solve(Col::from_fn(kept.len(), |i| rhs[kept[i]]));
+    let pivots = (0..kept.len()).map(|i| lu.U()[(i, i)].abs());
+    let (low, high) = pivots.fold((f64::INFINITY, 0.0), |(l, h), p| (p.min(l), p.max(h)));
+    let mut full = vec![0.0; rhs.len()];
+    for (&k, x) in kept.iter().zip(x.iter()) {
+        full[k] = *x;
+    }
+    (full, low / high, part.determinant())
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64) {
+    let largest = expected.iter().fold(1e-300_f64, |max, x| max.max(x.abs()));
+    for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+        let off = (found - expected).abs() / largest;
+        assert!(off <= tolerance, "{i}: {found} {expected} {off:e}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, max_global_rejects: 20_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn solutions_agree_with_a_dense_solver(
+        chain in chains(),
+        entries in prop::collection::vec(-1.0_f64..1.0, 72 * 72),
+        rhs in prop::collection::vec(-1.0_f64..1.0, 72),
+        marks in prop::collection::vec(0_usize..4, 72),
+    ) {
+        let size = chain.size();
+        let left_out: Vec<_> = (0..size).map(|i| !chain.is_link(i) && marks[i] == 0).collect();
+        let entry = |i: usize, j: usize| if chain.couples(i, j) { entries[72 * i + j] } else { 0.0 };
+        let dense = Mat::from_fn(size, size, entry);
+        let (expected, pivots, determinant) = reference(&dense, &left_out, &rhs[..size]);
+        prop_assume!(pivots > 1e-3);
+        let mut solver = BlockElimination::default();
+        // What an earlier factorisation left behind does not matter.
+        let _ = solver.factorise(&in_blocks(&chain, &dense, &vec![false; size]));
+        let found = solver.factorise(&in_blocks(&chain, &dense, &left_out));
+        // A block of random numbers is hardly ever singular.
+        prop_assume!(found.is_ok());
+        let mut x = rhs[..size].to_vec();
+        solver.solve(&mut x);
+        assert_close(&x, &expected, 1e-7);
+        prop_assert_eq!(solver.negative_blocks() % 2 == 1, determinant < 0.0);
+    }
+
+    #[test]
+    fn a_unit_in_the_root_is_a_right_hand_side_like_others(
+        chain in chains(), entries in prop::collection::vec(-1.0_f64..1.0, 72 * 72), which in 0_usize..9,
+    ) {
+        let size = chain.size();
+        let entry = |i: usize, j: usize| match i == j {
+            true => 20.0 + entries[i],
+            false => if chain.couples(i, j) { entries[72 * i + j] } else { 0.0 },
+        };
+        let matrix = in_blocks(&chain, &Mat::from_fn(size, size, entry), &vec![false; size]);
+        let blocks = chain.blocks();
+        let end = blocks.starts.get(chain.root + 1).copied().unwrap_or(size);
+        let unknown = blocks.starts[chain.root] + which % (end - blocks.starts[chain.root]);
+        let mut solver = BlockElimination::default();
+        solver.factorise(&matrix).unwrap();
+        let (mut x, mut y) = (vec![0.0; size], vec![7.0; size]);
+        x[unknown] = 1.0;
+        solver.solve(&mut x);
+        solver.solve_unit(unknown, &mut y);
+        prop_assert_eq!(x, y);
+    }
+
+    /// Without extras a symmetric matrix has as many negative eigenvalues as its blocks have, one after the other; of
+    /// those of a block, an odd number shows.
+    #[test]
+    fn negative_determinants_count_negative_eigenvalues(
+        count in 1_usize..6, root in 0_usize..6, entries in prop::collection::vec(-1.0_f64..1.0, 18 * 18),
+        shift in 1.0_f64..4.0,
+    ) {
+        let chain = Chain { extras: vec![[0, 0]; count], root: root % count };
+        let size = chain.size();
+        let entry = |i: usize, j: usize| {
+            let value = if chain.couples(i, j) { entries[18 * i.min(j) + i.max(j)] } else { 0.0 };
+            if i == j { shift + value } else { value }
+        };
+        let dense = Mat::from_fn(size, size, entry);
+        let eigenvalues = dense.self_adjoint_eigenvalues(Side::Lower).unwrap();
+        prop_assume!(eigenvalues.iter().all(|value| value.abs() > 1e-6));
+        let negative = eigenvalues.iter().filter(|value| **value < 0.0).count();
+        let mut solver = BlockElimination::default();
+        let found = solver.factorise(&in_blocks(&chain, &dense, &vec![false; size]));
+        prop_assume!(found.is_ok());
+        prop_assert_eq!(solver.negative_blocks() % 2, negative % 2);
+        prop_assert!(solver.negative_blocks() <= negative);
+    }
+}
+
+/// A row of scales: springs under bases of half-width `a` and, between some neighbours, contacts that hardly give way.
+/// Forces stand between the displacements of their scales, the load after those of the root.
+struct Row {
+    chain: Chain,
+    dense: Mat<f64>,
+}
+
+impl Row {
+    fn new(
+        root: usize,
+        contacts: &[usize],
+        a: f64,
+        compliance: f64,
+        number: &mut impl FnMut() -> f64,
+    ) -> Self {
+        let extras = (0..=contacts.len()).map(|i| match i.cmp(&root) {
+            std::cmp::Ordering::Less => [0, contacts[i]],
+            std::cmp::Ordering::Equal => [0, 1],
+            std::cmp::Ordering::Greater => [contacts[i - 1], 0],
+        });
+        let chain = Chain { extras: extras.collect(), root };
+        let links = chain.blocks().links;
+        let mut row = Self { dense: Mat::zeros(chain.size(), chain.size()), chain };
+        for (i, &at) in links.iter().enumerate() {
+            for (k, stiffness) in [2.7 * a, 3.4 * a, 2.5 * a.powi(3)].into_iter().enumerate() {
+                row.dense[(at + k, at + k)] += stiffness;
+                if let Some(&next) = links.get(i + 1) {
+                    row.add_symmetric(at + k, next + k, -0.35 * stiffness);
+                }
+            }
+        }
+        for (i, &count) in contacts.iter().enumerate() {
+            for contact in 0..count {
+                let force = if i < root { links[i] + LINK } else { links[i + 1] - count } + contact;
+                let slope = 3.0 * number();
+                for (at, sign) in [(links[i], 1.0), (links[i + 1], -1.0)] {
+                    let arm = if contact == 0 { 1.0 } else { 0.3 } + 0.5 * number();
+                    for (k, part) in [sign, sign * slope, sign * arm].into_iter().enumerate() {
+                        row.dense[(force, at + k)] = part;
+                        row.dense[(at + k, force)] = -part;
+                    }
+                    // The force turns with the scale.
+                    row.dense[(at + 2, at + 2)] += 0.1 * a * number();
+                }
+                row.dense[(force, force)] = compliance;
+            }
+        }
+        let load = links[root] + LINK;
+        row.dense[(links[root] + 1, load)] = 1.0;
+        row.dense[(links[root] + 2, load)] = 0.8;
+        row.dense[(load, links[root] + 2)] = -5.7;
+        row
+    }
+
+    fn add_symmetric(&mut self, i: usize, j: usize, value: f64) {
+        self.dense[(i, j)] += value;
+        self.dense[(j, i)] += value;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, ..ProptestConfig::default() })]
+
+    #[test]
+    fn rows_of_stiff_contacts_are_solved_as_exactly_as_by_a_dense_solver(
+        root in 0_usize..10, contacts in prop::collection::vec(0_usize..3, 9),
+        half_base in -2.0_f64..0.0, compliance in -18.0_f64..-3.0,
+        numbers in prop::collection::vec(-1.0_f64..1.0, 200),
+    ) {
+        let mut numbers = numbers.into_iter().cycle();
+        let mut number = || numbers.next().unwrap();
+        let row = Row::new(root, &contacts, 10_f64.powf(half_base), 10_f64.powf(compliance), &mut number);
+        let size = row.chain.size();
+        let rhs: Vec<_> = (0..size).map(|_| number()).collect();
+        let left_out = vec![false; size];
+        let matrix = in_blocks(&row.chain, &row.dense, &left_out);
+        let mut solver = BlockElimination::default();
+        prop_assume!(solver.factorise(&matrix).is_ok());
+        let mut x = rhs.clone();
+        solver.solve(&mut x);
+        // What is left of each equation, against its terms.
+        for i in 0..size {
+            let terms = (0..size).map(|j| row.dense[(i, j)] * x[j]);
+            let (sum, scale) = terms.fold((-rhs[i], 1.0), |(s, a), t| (s + t, a + t.abs()));
+            prop_assert!(sum.abs() < 1e-10 * scale, "row {i}: {sum:e} of {scale:e}");
+        }
+        let (expected, ..) = reference(&row.dense, &left_out, &rhs);
+        assert_close(&x, &expected, 1e-8);
+    }
+}
+
+#[test]
+fn a_block_that_its_inner_neighbour_holds_alone_is_refused() {
+    // The outer block is singular, the matrix is not.
+    let chain = Chain { extras: vec![[0, 0]; 2], root: 1 };
+    let dense =
+        Mat::from_fn(6, 6, |i, j| f64::from(u8::from(i % 3 == j % 3 && (i >= 3 || j >= 3))));
+    let mut solver = BlockElimination::default();
+    let error = solver.factorise(&in_blocks(&chain, &dense, &[false; 6])).unwrap_err();
+    assert_eq!((error.block, error.size), (0, 3));
+}
+
+#[test]
+fn a_number_that_is_none_is_refused() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let chain = Chain { extras: vec![[0, 0]; 2], root: 1 };
+        let dense = Mat::from_fn(6, 6, |i, j| match (i, j) {
+            (4, 4) => value,
+            _ => f64::from(u8::from(i == j)),
+        });
+        let mut solver = BlockElimination::default();
+        let found = solver.factorise(&in_blocks(&chain, &dense, &[false; 6]));
+        assert_eq!(found.unwrap_err().block, 1, "{value}");
+    }
+}
+
+#[test]
+fn blocks_that_are_too_large_are_refused() {
+    let chain = Chain { extras: vec![[0, 8]], root: 0 };
+    let dense = Mat::identity(11, 11);
+    let error = BlockElimination::default()
+        .factorise(&in_blocks(&chain, &dense, &[false; 11]))
+        .unwrap_err();
+    assert_eq!(error.size, 11);
+}
+
+#[test]
+fn entries_stand_where_they_were_added() {
+    let chain = Chain { extras: vec![[1, 2], [0, 1], [2, 0]], root: 1 };
+    let size = chain.size();
+    let mut left_out = vec![false; size];
+    left_out[5] = true;
+    let dense = Mat::from_fn(size, size, |i, j| (100 * i + j) as f64);
+    let mut matrix = in_blocks(&chain, &dense, &left_out);
+    matrix.add_block(1, 6, &[[0.5; 3]; 3]);
+    matrix.add_block(6, 6, &[[0.25; 4]; 1]);
+    for i in 0..size {
+        for j in 0..size {
+            let stands = chain.couples(i, j) && !left_out[i] && !left_out[j];
+            let mut expected = if stands { dense[(i, j)] } else { 0.0 };
+            expected += if (1..4).contains(&i) && (6..9).contains(&j) { 0.5 } else { 0.0 };
+            expected += if i == 6 && (6..10).contains(&j) { 0.25 } else { 0.0 };
+            assert_eq!(matrix.get(i, j), expected, "{i} {j}");
+        }
+    }
+    matrix.clear();
+    assert_eq!(matrix.get(0, 0), 0.0);
+}
