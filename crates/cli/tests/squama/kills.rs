@@ -13,7 +13,7 @@ use crate::Place;
 const DESIGNS: &str = "name = 'x'\n[designs]\ngap_over_t = [0.1, 0.3, 0.5, 1]\n\
                        length_over_t = [0.1, 0.2, 0.3, 0.6, 1]\n\
                        slant_deg = { from = 0, to = 72, step = 8 }\n\
-                       [puncture]\nscales = 5\n[solver]\nmax_points = 23\n";
+                       [puncture]\nscales = 5\n[solver]\nmax_points = 7\n";
 
 /// How often and when processes were killed.
 #[derive(Debug, Default)]

@@ -60,7 +60,7 @@ pub enum JournalError {
         problem: String,
     },
     /// The journal is of a format that another version of the program writes.
-    #[error("{}: a journal of format {found}, this squama reads format {}; expected one of this format; squama run --fresh throws the results away and solves them again, the squama that wrote them still reads them", path.display(), FORMAT)]
+    #[error("{}:1: a journal of format {found}, this squama reads format {}; expected one of this format; squama run --fresh throws the results away and solves them again, the squama that wrote them still reads them", path.display(), FORMAT)]
     OtherFormat {
         /// Path of the journal.
         path: PathBuf,

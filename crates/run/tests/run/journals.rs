@@ -15,7 +15,7 @@ use sweep::{Subset, Sweep};
 const DESIGNS: &str = "name = 'x'\nmeasures = ['coverage', 'puncture']\n[designs]\n\
                        gap_over_t = [0.1, 0.3, 0.5]\nlength_over_t = [0.2, 1]\n\
                        slant_deg = { from = 0, to = 70, step = 10 }\n\
-                       [puncture]\nscales = 5\n[solver]\nmax_points = 22\n";
+                       [puncture]\nscales = 5\n[solver]\nmax_points = 7\n";
 
 /// The journal of a run.
 const JOURNAL: &str = "journal.jsonl";
