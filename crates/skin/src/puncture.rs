@@ -209,9 +209,10 @@ impl<'a> Problem<'a> {
                 has_room = self.lengthen(&mut path, &mut record, from, reach, longest)?;
             }
         }
-        let status = match has_room {
-            true => Status::of(&path, path.stop().unwrap_or(Stop::Reached)),
-            false => Status::RowLimit,
+        let status = if has_room {
+            Status::of(&path, path.stop().unwrap_or(Stop::Reached))
+        } else {
+            Status::RowLimit
         };
         Ok(self.puncture(record, &mut path, status))
     }

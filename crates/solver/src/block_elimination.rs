@@ -83,12 +83,11 @@ impl BlockElimination {
         for block in (root + 1..blocks).rev() {
             taken[1] = self.eliminate(matrix, block, &taken[1])?;
         }
-        for i in 0..LINK {
-            for j in 0..LINK {
-                taken[0][i][j] += taken[1][i][j];
-            }
+        let [mut from_both, from_right] = taken;
+        for (sum, right) in from_both.iter_mut().flatten().zip(from_right.iter().flatten()) {
+            *sum += right;
         }
-        self.eliminate(matrix, root, &taken[0]).map(|_| ())
+        self.eliminate(matrix, root, &from_both).map(|_| ())
     }
 
     fn reshape(&mut self, matrix: &BlockMatrix) {

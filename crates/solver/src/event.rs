@@ -1,6 +1,6 @@
 //! Events on the path: where they are.
 
-use crate::newton::{FLOOR, NewtonFailure, guard_slope};
+use crate::newton::{FLOOR, Newton, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
 use crate::system::{State, System};
 
@@ -66,7 +66,7 @@ impl<S: System> Path<S> {
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
-        let guards = self.newton.guards(&self.system, &located.state);
+        let guards = Newton::guards(&self.system, &located.state);
         match self.first_violated(&guards) {
             Some(earlier) if earlier != constraint => self.event(from, located, earlier).ok(),
             _ => Some(self.changed(located, constraint, &guards)),
@@ -88,7 +88,7 @@ impl<S: System> Path<S> {
         from: &Point<S::Mode>,
         candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let guards = self.newton.guards(&self.system, &candidate.state);
+        let guards = Newton::guards(&self.system, &candidate.state);
         if let Some(constraint) = self.first_violated(&guards) {
             return self.event(from, candidate, constraint);
         }
@@ -96,7 +96,7 @@ impl<S: System> Path<S> {
             let condition = self.condition(from);
             let distance = condition.of(&candidate.state.z) - condition.value;
             let inside = self.trial(from, fraction * distance)?;
-            let guards = self.newton.guards(&self.system, &inside.state);
+            let guards = Newton::guards(&self.system, &inside.state);
             if let Some(constraint) = self.first_violated(&guards) {
                 return self.event(from, inside, constraint);
             }
@@ -156,7 +156,7 @@ impl<S: System> Path<S> {
         // Each round finds an event before the last one, so as many rounds as constraints do.
         for _ in 0..=self.guards.len() {
             let located = self.locate(from, &beyond, constraint)?;
-            let guards = self.newton.guards(&self.system, &located.state);
+            let guards = Newton::guards(&self.system, &located.state);
             match self.first_violated(&guards) {
                 Some(earlier) if earlier != constraint => constraint = earlier,
                 _ => return Ok(self.changed(located, constraint, &guards)),
@@ -175,7 +175,7 @@ impl<S: System> Path<S> {
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let condition = self.condition(from);
         let before = self.guards[constraint].max(0.0);
-        let after = self.newton.guards(&self.system, &beyond.state)[constraint];
+        let after = Newton::guards(&self.system, &beyond.state)[constraint];
         let state = from.state.interpolated(&beyond.state, before / (before - after));
         let located = self.locate_from(from, state, constraint)?;
         let span = condition.of(&beyond.state.z) - condition.value;

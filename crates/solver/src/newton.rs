@@ -150,7 +150,7 @@ impl Newton {
     }
 
     /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.
-    pub fn guards<S: System>(&self, system: &S, state: &State<S::Mode>) -> Vec<f64> {
+    pub fn guards<S: System>(system: &S, state: &State<S::Mode>) -> Vec<f64> {
         let mut guards = Vec::with_capacity(state.active.len());
         system.conditions(state, &mut guards);
         replace_active(system, state, &state.z, &mut guards);
@@ -159,7 +159,6 @@ impl Newton {
 
     /// Replaces `slopes` by how fast the guards change along a direction.
     pub(crate) fn guard_slopes<S: System>(
-        &self,
         system: &S,
         state: &State<S::Mode>,
         direction: &[f64],

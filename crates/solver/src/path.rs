@@ -179,9 +179,9 @@ impl<S: System> Path<S> {
 
     /// Makes `point` the one that the path has reached.
     fn stand(&mut self, point: Point<S::Mode>) {
-        self.guards = self.newton.guards(&self.system, &point.state);
+        self.guards = Newton::guards(&self.system, &point.state);
         let Point { state, leaving, .. } = &point;
-        self.newton.guard_slopes(&self.system, state, leaving, &mut self.slopes);
+        Newton::guard_slopes(&self.system, state, leaving, &mut self.slopes);
         self.point = Arc::new(point);
     }
 

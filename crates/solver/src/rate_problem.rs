@@ -1,7 +1,7 @@
 //! The rate complementarity problem: which way the path goes on where constraints change sides.
 
 use crate::event::Change;
-use crate::newton::{Condition, FLOOR, guard_slope};
+use crate::newton::{Condition, FLOOR, Newton, guard_slope};
 use crate::path::Path;
 use crate::stop::Stop;
 use crate::system::{State, System};
@@ -138,7 +138,7 @@ impl<S: System> Path<S> {
         direction: &[f64],
         constraints: &[usize],
     ) -> Option<usize> {
-        let guards = self.newton.guards(&self.system, state);
+        let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
         slopes

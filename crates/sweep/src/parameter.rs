@@ -156,7 +156,7 @@ impl Parameter {
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
             (ParameterKind::CountOrAuto { set, .. }, Scalar::Count(count)) => {
-                set(case, Some(count))
+                set(case, Some(count));
             }
             (ParameterKind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),

@@ -53,9 +53,12 @@ impl Layout {
     /// A block for each scale, with the forces of its contacts with the neighbour on the side of the punctured one.
     fn blocks(self) -> Blocks {
         let scales = 0..self.scales();
-        let start = |scale: usize| match scale <= self.left {
-            true => self.scale(scale),
-            false => self.force(PAIR_FORCES * (scale - 1)),
+        let start = |scale: usize| {
+            if scale <= self.left {
+                self.scale(scale)
+            } else {
+                self.force(PAIR_FORCES * (scale - 1))
+            }
         };
         Blocks {
             starts: scales.clone().map(start).collect(),

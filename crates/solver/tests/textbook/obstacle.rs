@@ -34,7 +34,7 @@ fn a_string_that_touches_without_a_force_lies_free() {
     let z = (0..string.size()).map(|i| if i % 2 == 1 { 0.3 } else { 0.0 }).collect();
     let mut state = State { z, active: vec![false; 3], mode: () };
     newton.solve(&string, &mut state, &condition, &Settings::default()).unwrap();
-    let guards = newton.guards(&string, &state);
+    let guards = Newton::guards(&string, &state);
     assert!(guards.iter().all(|guard| *guard > -1e-12), "{guards:?}");
     assert_relative_eq!(state.z[2], DEPTH, max_relative = 1e-12);
     assert_eq!([state.z[1], state.z[3], state.z[5]], [0.0; 3]);
