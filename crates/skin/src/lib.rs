@@ -13,15 +13,17 @@
 //! |---|---|
 //! | [`Design`], [`Base`] | the geometry of one design |
 //! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
-//! | [`puncture::Parameters`] | contact law, moduli, row length, load, critical tilt |
-//! | [`puncture::Puncture`], [`puncture::Measures`] | its path, events, scales and what they come down to |
+//! | [`Common`] | contact law and solver settings, of puncture and bending |
+//! | [`puncture::Parameters`] | moduli, row length, load, critical tilt |
+//! | [`puncture::Puncture`], [`puncture::Measures`] | its path, events, scales and measures |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
-//! | [`flexure::Parameters`] | contact law, moduli, strip, largest rotation |
-//! | [`flexure::Flexure`], [`flexure::Measures`] | its path, events and what they come down to |
+//! | [`flexure::Parameters`] | moduli, strip, resolution of the membrane, largest rotation |
+//! | [`flexure::Flexure`], [`flexure::Measures`] | its path, events and measures |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
-//! | [`puncture::solve_sample`], [`flexure::solve_sample`] | the same for such a row |
-//! | [`Change`], [`Contact`] | what a contact does, and how it stands |
+//! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
+//! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
+//! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a contact of a state |
 //! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
 //! ```
