@@ -5,6 +5,10 @@
 //! follows it from a first equilibrium to the place where a chosen coordinate, the control parameter, reaches a target: past
 //! load maxima, past points where the control parameter itself turns, from kink to kink. It knows no mechanics.
 //!
+//! A step of the path aims at the first constraint that would change sides, by the values and slopes of its guards (N5). Newton's
+//! method evaluates equations and tangent in one pass and solves for the point and the direction of the path with the same factors. At an
+//! event the directions obey a complementarity problem of rates (N6), which tells how the path goes on.
+//!
 //! | Type | Role |
 //! |---|---|
 //! | [`System`] | the problem: equations, tangent, constraints, control parameter; it never changes |
@@ -15,7 +19,8 @@
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`BandMatrix`], [`BandLu`] | linear solves |
+//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
+//! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
