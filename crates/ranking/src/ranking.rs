@@ -18,7 +18,7 @@ pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_co
 pub struct Ranking<'r> {
     results: &'r Results,
     grid: TetrahedralGrid,
-    candidates: Vec<Candidate>,
+    candidates: Vec<Contender>,
     /// The candidate that is best at each node of the grid.
     winners: Vec<usize>,
     left_out: BTreeMap<LeftOut, usize>,
@@ -26,7 +26,7 @@ pub struct Ranking<'r> {
 
 /// A design that can be ranked.
 #[derive(Clone, Debug)]
-pub(crate) struct Candidate {
+pub(crate) struct Contender {
     /// The row of the design in the results.
     pub row: usize,
     /// The values that the criteria are made from.
@@ -88,7 +88,7 @@ fn columns() -> String {
 #[derive(Clone, Copy, Debug)]
 pub struct RankedDesign<'a> {
     pub(crate) results: &'a Results,
-    pub(crate) candidate: &'a Candidate,
+    pub(crate) candidate: &'a Contender,
     whole: u64,
     /// The weights.
     pub weights: Weights,
@@ -223,7 +223,7 @@ impl<'r> Ranking<'r> {
 
     fn ranked<'a>(
         &'a self,
-        candidate: &'a Candidate,
+        candidate: &'a Contender,
         weights: Weights,
         rank: usize,
     ) -> RankedDesign<'a> {
@@ -278,14 +278,14 @@ fn eligible(row: usize, found: [Option<f64>; 4]) -> Result<Eligible, LeftOut> {
     Ok(Eligible { row, values, criteria })
 }
 
-fn candidates(rows: &[Eligible]) -> Vec<Candidate> {
+fn candidates(rows: &[Eligible]) -> Vec<Contender> {
     let criteria: Vec<Criteria> = rows.iter().map(|eligible| eligible.criteria).collect();
     let front = pareto_front(&criteria);
     let spans: [_; 4] = std::array::from_fn(|c| span(criteria.iter().map(|values| values[c])));
     let candidate = |(&Eligible { row, values, criteria }, on_front): (&Eligible, bool)| {
         let rescaled: Criteria = std::array::from_fn(|c| rescaled(criteria[c], spans[c]));
         let logs = rescaled.map(f64::ln);
-        Candidate { row, values, criteria, rescaled, logs, on_front, nodes: 0, won: 0 }
+        Contender { row, values, criteria, rescaled, logs, on_front, nodes: 0, won: 0 }
     };
     rows.iter().zip(front).map(candidate).collect()
 }
@@ -301,7 +301,7 @@ fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
 }
 
 /// The candidate of the largest fitness, the first of equal ones.
-fn best(candidates: &[Candidate], weights: Weights) -> usize {
+fn best(candidates: &[Contender], weights: Weights) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (i, candidate) in candidates.iter().enumerate() {
         let fitness = weights.log_fitness(&candidate.logs);

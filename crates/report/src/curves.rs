@@ -27,7 +27,7 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
 /// A solved design.
 #[derive(Clone, Debug)]
-pub struct SolvedDesign<'a> {
+pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
     /// The geometry.
@@ -48,7 +48,7 @@ struct Curve {
 }
 
 /// Returns the curves of `designs` as figures: those for which there are paths.
-pub fn curves(name: &str, designs: &[SolvedDesign]) -> Vec<Figure> {
+pub fn curves(name: &str, designs: &[DesignCurves]) -> Vec<Figure> {
     let candidates = [
         ("force-displacement-curves", one_panel(name, &FORCE, designs, puncture)),
         ("moment-curvature-curves", one_panel(name, &MOMENT, designs, flexure)),
@@ -91,14 +91,14 @@ const FLEXURE_ENERGY: FigureText = FigureText {
     note: "solid: bending, dashed: axial, dotted: contacts",
 };
 
-fn puncture(solved: &SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]> {
+fn puncture(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 2]> {
     let puncture = solved.puncture?;
     let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
     let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
     Some([points.collect(), events.collect()])
 }
 
-fn flexure(solved: &SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]> {
+fn flexure(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 2]> {
     let flexure = solved.flexure?;
     let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
     let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
@@ -108,7 +108,7 @@ fn flexure(solved: &SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]> {
 /// The energies of each design, the dashes of each.
 type Energies = Vec<(&'static str, Vec<[f64; 2]>)>;
 
-fn puncture_energies(solved: &SolvedDesign) -> Option<Energies> {
+fn puncture_energies(solved: &DesignCurves) -> Option<Energies> {
     let path = &solved.puncture?.path;
     Some(vec![
         ("none", path.iter().map(|p| [p.displacement, p.substrate_energy]).collect()),
@@ -116,7 +116,7 @@ fn puncture_energies(solved: &SolvedDesign) -> Option<Energies> {
     ])
 }
 
-fn flexure_energies(solved: &SolvedDesign) -> Option<Energies> {
+fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     let path = &solved.flexure?.path;
     Some(vec![
         ("none", path.iter().map(|p| [p.curvature, p.bending_energy]).collect()),
@@ -126,12 +126,12 @@ fn flexure_energies(solved: &SolvedDesign) -> Option<Energies> {
 }
 
 /// Points and crosses of a curve; `None` where there is none.
-type CurveValues = fn(&SolvedDesign) -> Option<[Vec<[f64; 2]>; 2]>;
+type CurveValues = fn(&DesignCurves) -> Option<[Vec<[f64; 2]>; 2]>;
 
 fn one_panel(
     name: &str,
     text: &FigureText,
-    designs: &[SolvedDesign],
+    designs: &[DesignCurves],
     values: CurveValues,
 ) -> Option<String> {
     let curves = curves_of(designs, values);
@@ -160,7 +160,7 @@ fn one_panel(
 }
 
 /// Returns a curve for each design, darker and with other dashes where slants repeat.
-fn curves_of(designs: &[SolvedDesign], values: CurveValues) -> Vec<Curve> {
+fn curves_of(designs: &[DesignCurves], values: CurveValues) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
         let Some([points, crosses]) = values(solved) else { continue };
@@ -216,8 +216,8 @@ fn legend(curve: &Curve, y: f64) -> Element {
 fn panels(
     name: &str,
     text: &FigureText,
-    designs: &[SolvedDesign],
-    values: fn(&SolvedDesign) -> Option<Energies>,
+    designs: &[DesignCurves],
+    values: fn(&DesignCurves) -> Option<Energies>,
 ) -> Option<String> {
     let solved: Vec<_> = designs.iter().filter_map(|d| Some((d, values(d)?))).collect();
     if solved.is_empty() {
@@ -241,7 +241,7 @@ fn panels(
 /// Returns the energies of one design.
 fn energies_of(
     text: &FigureText,
-    solved: &SolvedDesign,
+    solved: &DesignCurves,
     energies: &Energies,
     area: Area,
 ) -> Vec<Element> {

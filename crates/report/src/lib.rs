@@ -15,14 +15,14 @@
 //!
 //! ```
 //! use report::drawings::PunctureDrawing;
-//! use skin::puncture::{At, Parameters, RowLength, snapshots};
+//! use skin::puncture::{At, PunctureParameters, RowLength, snapshots};
 //! use skin::{Base, Common, Design};
 //! use substrate::calibrate;
 //!
 //! // A row of five scales at rest and when the middle one has tilted by 10°.
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
 //! let springs = calibrate(&design.footprint(0.5)?)?;
-//! let parameters = Parameters { scales: RowLength::Scales(5), ..Parameters::default() };
+//! let parameters = PunctureParameters { scales: RowLength::Scales(5), ..PunctureParameters::default() };
 //! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
@@ -48,7 +48,7 @@ mod palette;
 mod png;
 mod svg;
 
-pub use curves::{SolvedDesign, curves};
+pub use curves::{DesignCurves, curves};
 pub use designs::Designs;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};

@@ -8,12 +8,12 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::prelude::*;
-use skin::flexure::{Method, Parameters, solve};
+use skin::flexure::{FlexureParameters, Method, solve};
 use skin::{Base, Common};
 
 fn reference_study(c: &mut Criterion) {
     let designs = samples::reference_study(Base::L);
-    let parameters = Parameters::default();
+    let parameters = FlexureParameters::default();
     let mut group = c.benchmark_group("720 designs");
     group.sample_size(10);
     group.bench_function("unit cell", |b| {
@@ -33,10 +33,10 @@ fn chain_length(c: &mut Criterion) {
     let mut group = c.benchmark_group("chain");
     group.sample_size(10);
     for gaps in [100_u32, 200, 400, 800] {
-        let parameters = Parameters {
+        let parameters = FlexureParameters {
             method: Method::Chain,
             membrane_length: f64::from(gaps) * pitch,
-            ..Parameters::default()
+            ..FlexureParameters::default()
         };
         group.throughput(Throughput::Elements(u64::from(gaps)));
         group.bench_function(BenchmarkId::from_parameter(gaps), |b| {

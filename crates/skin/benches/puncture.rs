@@ -8,7 +8,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use rayon::prelude::*;
-use skin::puncture::{Parameters, solve};
+use skin::puncture::{PunctureParameters, solve};
 use skin::{Base, Common};
 use substrate::Calibrations;
 
@@ -16,7 +16,8 @@ fn reference_study(c: &mut Criterion) {
     let designs = samples::reference_study(Base::L);
     let mut group = c.benchmark_group("720 designs");
     group.sample_size(10);
-    for (name, parameters) in [("41 scales", samples::on_row(41)), ("auto", Parameters::default())]
+    for (name, parameters) in
+        [("41 scales", samples::on_row(41)), ("auto", PunctureParameters::default())]
     {
         group.bench_function(name, |b| {
             b.iter(|| {

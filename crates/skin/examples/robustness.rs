@@ -19,7 +19,7 @@ use contact::Law;
 use rayon::prelude::*;
 use skin::Design;
 use skin::Status;
-use skin::puncture::{Parameters, Puncture};
+use skin::puncture::{Puncture, PunctureParameters};
 use substrate::Calibrations;
 
 /// Names of the laws, in their order.
@@ -62,7 +62,7 @@ fn report(
     known: &Calibrations,
     designs: &[Design],
     law: Law,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
 ) {
     let start = Instant::now();
     let ends: Vec<End> = designs

@@ -26,10 +26,10 @@ pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
 const HOLDS: f64 = 1.0;
 
 /// A state of a skin: its mode is the state of every contact.
-pub(crate) type State = solver::State<Vec<CornerContact>>;
+pub(crate) type SkinState = solver::State<Vec<CornerContact>>;
 
 /// An equilibrium of a skin on its path.
-pub(crate) type Point = solver::Point<Vec<CornerContact>>;
+pub(crate) type SkinPoint = solver::Point<Vec<CornerContact>>;
 
 /// The contacts between the neighbours of a row, and where their unknowns stand.
 ///
@@ -118,7 +118,7 @@ impl Contacts {
     }
 
     /// Number of closed contacts, two where a side lies flush.
-    pub(crate) fn closed(state: &State) -> usize {
+    pub(crate) fn closed(state: &SkinState) -> usize {
         let counts = state.mode.iter().map(|contact| match contact {
             CornerContact::Open => 0,
             CornerContact::Edge(_) | CornerContact::Corner(_) => 1,
@@ -128,13 +128,13 @@ impl Contacts {
     }
 
     /// Whether the scales of each pair touch, along the row.
-    pub(crate) fn touching(state: &State) -> impl Iterator<Item = bool> + '_ {
+    pub(crate) fn touching(state: &SkinState) -> impl Iterator<Item = bool> + '_ {
         let pairs = state.mode.chunks(LEVELS.len());
         pairs.map(|contacts| contacts.iter().any(|contact| *contact != CornerContact::Open))
     }
 
     /// Whether the scales of the first and those of the last pair touch.
-    pub(crate) fn touching_at_ends(state: &State) -> [bool; 2] {
+    pub(crate) fn touching_at_ends(state: &SkinState) -> [bool; 2] {
         let (first, last) = (state.mode.first_chunk::<2>(), state.mode.last_chunk::<2>());
         let touch = |contacts: &[CornerContact; 2]| {
             contacts.iter().any(|contact| *contact != CornerContact::Open)
@@ -143,19 +143,19 @@ impl Contacts {
     }
 
     /// Whether a side and a neighbour's end lie flush anywhere.
-    pub(crate) fn flush(state: &State) -> bool {
+    pub(crate) fn flush(state: &SkinState) -> bool {
         state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
     /// Adds what the closed contacts contribute to the equations.
-    pub(crate) fn add_residual(&self, state: &State, residual: &mut Residual) {
+    pub(crate) fn add_residual(&self, state: &SkinState, residual: &mut Residual) {
         self.for_closed(state, |contact, acting, response| {
             self.add_response(contact, acting, response, residual);
         });
     }
 
     /// Adds what the closed contacts contribute to the tangent.
-    pub(crate) fn add_tangent(&self, state: &State, matrix: &mut impl Tangent) {
+    pub(crate) fn add_tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
         self.for_closed(state, |contact, acting, response| {
             self.add_derivatives(contact, acting, response, matrix);
         });
@@ -164,7 +164,7 @@ impl Contacts {
     /// Adds what the closed contacts contribute to the equations and to the tangent.
     pub(crate) fn linearise(
         &self,
-        state: &State,
+        state: &SkinState,
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
@@ -177,7 +177,7 @@ impl Contacts {
     /// Shows the response of every closed contact, and which of its forces act.
     fn for_closed(
         &self,
-        state: &State,
+        state: &SkinState,
         mut show: impl FnMut(usize, [bool; FORCES], &CornerResponse),
     ) {
         for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
@@ -218,7 +218,7 @@ impl Contacts {
     }
 
     /// Replaces `values` by the conditions of all forces that do not act.
-    pub(crate) fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+    pub(crate) fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         values.clear();
         values.resize(self.forces.len(), HOLDS);
         self.for_each(state, |contact, corners| {
@@ -239,7 +239,12 @@ impl Contacts {
     }
 
     /// Replaces `slopes` by the derivatives of the conditions of all forces that do not act.
-    pub(crate) fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+    pub(crate) fn condition_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        slopes: &mut Vec<f64>,
+    ) {
         slopes.clear();
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
@@ -252,7 +257,7 @@ impl Contacts {
     }
 
     /// The condition of a force that does not act.
-    pub(crate) fn condition(&self, state: &State, constraint: usize) -> f64 {
+    pub(crate) fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         let contact = constraint / FORCES;
         let poses = self.pair_poses(&state.z, contact);
         let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
@@ -343,7 +348,7 @@ impl Contacts {
     }
 
     /// Derivative of the condition of a force along a direction; zero if there is no such condition.
-    pub(crate) fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+    pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let contact = constraint / FORCES;
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
@@ -367,7 +372,7 @@ impl Contacts {
 
     /// Takes the contact of a force that has changed sides to its next state. Returns the force whose condition has to
     /// hold as the path goes on, or `None` if the contact has no such transition.
-    pub(crate) fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+    pub(crate) fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         let contact = change.constraint / FORCES;
         let force = Force::ALL[change.constraint % FORCES];
         let poses = self.pair_poses(&state.z, contact);
@@ -387,7 +392,7 @@ impl Contacts {
     }
 
     /// Shows each contact and its corners, from the left.
-    fn for_each(&self, state: &State, mut show: impl FnMut(usize, &Corners)) {
+    fn for_each(&self, state: &SkinState, mut show: impl FnMut(usize, &Corners)) {
         for (left, poses) in self.pairs(&state.z) {
             for contact in Self::contacts_of(left) {
                 show(contact, &self.corners(contact, &poses));

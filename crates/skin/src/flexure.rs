@@ -17,16 +17,16 @@ use std::collections::HashSet;
 
 use frame::{Frame, Step};
 use geometry::Row;
-use problem::Problem;
+use problem::FlexureProblem;
 
 use crate::arrangement::Arrangement;
 use crate::record::{ContactEvent, Iteration};
 use crate::{Common, ContactChange, Design, InvalidDesign, Sample, Status};
 
-pub use measures::Measures;
-pub use mesh::Mesh;
-pub use point::PathPoint;
-pub use snapshot::{Snapshot, snapshots};
+pub use measures::FlexureMeasures;
+pub use mesh::MembraneMesh;
+pub use point::FlexurePoint;
+pub use snapshot::{StripSnapshot, snapshots};
 
 /// The part of a strip that is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +39,7 @@ pub enum Method {
 
 /// Parameters of bending besides the design.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+pub struct FlexureParameters {
     /// `E_ct / E_m`.
     pub contact_modulus_over_membrane: f64,
     /// One gap or all.
@@ -53,12 +53,12 @@ pub struct Parameters {
     /// Depth of the membrane's axis below the bases of the scales, over `t`.
     pub membrane_axis_offset: f64,
     /// How the membrane of a gap is resolved.
-    pub elements_per_gap: Mesh,
+    pub elements_per_gap: MembraneMesh,
     /// Rotation of each end at which bending ends, degrees.
     pub max_end_rotation_deg: f64,
 }
 
-impl Default for Parameters {
+impl Default for FlexureParameters {
     /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa`, 8 mm thick, on a membrane of
     /// `E_m = 4.5 MPa`, 1 mm thick.
     fn default() -> Self {
@@ -69,7 +69,7 @@ impl Default for Parameters {
             gaps: None,
             membrane_thickness: 0.125,
             membrane_axis_offset: 0.0,
-            elements_per_gap: Mesh::Auto,
+            elements_per_gap: MembraneMesh::Auto,
             max_end_rotation_deg: 180.0,
         }
     }
@@ -81,11 +81,11 @@ pub struct Flexure {
     /// How the path ended, and whether its end can be trusted.
     pub status: Status,
     /// The measures of the bending.
-    pub measures: Measures,
+    pub measures: FlexureMeasures,
     /// Every equilibrium of the path, from rest.
-    pub path: Vec<PathPoint>,
+    pub path: Vec<FlexurePoint>,
     /// Every contact event, in order.
-    pub events: Vec<ContactEvent<PathPoint>>,
+    pub events: Vec<ContactEvent<FlexurePoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
     /// Gaps of the strip, rounded to a whole number.
@@ -120,13 +120,13 @@ impl Flexure {
 ///
 /// In pure bending every gap turns by the same angle, so the unit cell needs no whole number: the angle between its scales is
 /// `2 Φ/n`. A chain, and a strip of imperfect gaps, has [`whole_gaps`].
-pub fn gaps(row: &Row, parameters: &Parameters) -> f64 {
+pub fn gaps(row: &Row, parameters: &FlexureParameters) -> f64 {
     let by_length = parameters.membrane_length / row.pitch();
     parameters.gaps.map_or(by_length, |gaps| gaps as f64).max(1.0)
 }
 
 /// Returns the number of gaps of a chain: [`gaps`], rounded.
-pub fn whole_gaps(row: &Row, parameters: &Parameters) -> usize {
+pub fn whole_gaps(row: &Row, parameters: &FlexureParameters) -> usize {
     // Saturates; a strip with more gaps than a machine word counts does not exist.
     gaps(row, parameters).round() as usize
 }
@@ -138,13 +138,13 @@ pub fn whole_gaps(row: &Row, parameters: &Parameters) -> usize {
 pub fn solve(
     design: &Design,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &FlexureParameters,
 ) -> Result<Flexure, InvalidDesign> {
-    Problem::even(design, common, parameters)?.solve()
+    FlexureProblem::even(design, common, parameters)?.solve()
 }
 
 /// Bends an imperfect strip as [`solve`] does: gaps and slants are those of `sample`. Its gaps deform each in
-/// its own way, so the chain of all is solved, whatever [`Parameters::method`] says. There are as many
+/// its own way, so the chain of all is solved, whatever [`FlexureParameters::method`] says. There are as many
 /// gaps as in the chain of the design, and the curvature counts over the length that they
 /// have.
 ///
@@ -153,8 +153,8 @@ pub fn solve(
 pub fn solve_sample(
     design: &Design,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &FlexureParameters,
     sample: &Sample,
 ) -> Result<Flexure, InvalidDesign> {
-    Problem::sample(design, common, parameters, sample)?.solve()
+    FlexureProblem::sample(design, common, parameters, sample)?.solve()
 }

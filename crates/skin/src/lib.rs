@@ -14,12 +14,12 @@
 //! | [`Design`], [`Base`] | the geometry of one design |
 //! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
 //! | [`Common`] | contact law and solver settings, of puncture and bending |
-//! | [`puncture::Parameters`] | moduli, row length, load, critical tilt |
-//! | [`puncture::Puncture`], [`puncture::Measures`] | its path, events, scales and measures |
+//! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
+//! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
-//! | [`flexure::Parameters`] | moduli, strip, resolution of the membrane, largest rotation |
-//! | [`flexure::Flexure`], [`flexure::Measures`] | its path, events and measures |
+//! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
+//! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | its path, events and measures |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
 //! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
@@ -27,11 +27,11 @@
 //! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
 //! ```
-//! use skin::puncture::{self, Parameters};
+//! use skin::puncture::{self, PunctureParameters};
 //! use skin::{Base, Common, Design, Status};
 //!
 //! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
-//! let parameters = Parameters::default();
+//! let parameters = PunctureParameters::default();
 //! let springs = substrate::calibrate(&design.footprint(parameters.poisson_ratio)?)?;
 //! let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters)?;
 //! assert_eq!(puncture.status, Status::Complete);

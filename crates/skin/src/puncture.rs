@@ -17,13 +17,13 @@ use system::{Chain, Layout};
 use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{Point, State};
+use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, Record};
 use crate::{Common, Design, InvalidDesign, Sample, Status};
 
-pub use measures::Measures;
-pub use point::{PathPoint, ScaleState};
-pub use snapshot::{At, Snapshot, Snapshots, snapshots};
+pub use measures::PunctureMeasures;
+pub use point::{PuncturePoint, ScaleState};
+pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -40,7 +40,7 @@ pub enum RowLength {
 
 /// Parameters of a puncture besides the design and its substrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parameters {
+pub struct PunctureParameters {
     /// Poisson's ratio `ν` of the substrate.
     pub poisson_ratio: f64,
     /// `E_ct / E_s`.
@@ -53,7 +53,7 @@ pub struct Parameters {
     pub critical_tilt_deg: f64,
 }
 
-impl Default for Parameters {
+impl Default for PunctureParameters {
     /// The values of Shafiei et al. (2021): scales of `E_ct = 3 GPa` on a substrate of `E_s = 310 kPa`.
     fn default() -> Self {
         Self {
@@ -72,11 +72,11 @@ pub struct Puncture {
     /// How the path ended, and whether its end can be trusted.
     pub status: Status,
     /// The measures of the puncture.
-    pub measures: Measures,
+    pub measures: PunctureMeasures,
     /// Every equilibrium of the path, from rest.
-    pub path: Vec<PathPoint>,
+    pub path: Vec<PuncturePoint>,
     /// Every contact event, in order.
-    pub events: Vec<ContactEvent<PathPoint>>,
+    pub events: Vec<ContactEvent<PuncturePoint>>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -93,7 +93,7 @@ pub fn solve(
     design: &Design,
     substrate: impl Into<RowStiffness>,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
 ) -> Result<Puncture, InvalidDesign> {
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
@@ -107,7 +107,7 @@ pub fn solve_sample(
     design: &Design,
     substrate: impl Into<RowStiffness>,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
     sample: &Sample,
 ) -> Result<Puncture, InvalidDesign> {
     Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
@@ -129,7 +129,7 @@ impl Rows<'_> {
     }
 }
 
-impl Parameters {
+impl PunctureParameters {
     fn check(&self) -> Result<(), OutOfRange> {
         let scales = match self.scales {
             RowLength::Auto => 1.0,
@@ -156,7 +156,7 @@ struct Problem<'a> {
     stiffness: RowStiffness,
     law: ContactLaw,
     settings: Settings,
-    parameters: &'a Parameters,
+    parameters: &'a PunctureParameters,
 }
 
 impl<'a> Problem<'a> {
@@ -165,7 +165,7 @@ impl<'a> Problem<'a> {
         design: &'a Design,
         stiffness: RowStiffness,
         common: &Common,
-        parameters: &'a Parameters,
+        parameters: &'a PunctureParameters,
     ) -> Result<Self, InvalidDesign> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
@@ -191,7 +191,7 @@ impl<'a> Problem<'a> {
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
-        let rest = State::at_rest(&chain);
+        let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
         let mut has_room = true;
@@ -222,7 +222,7 @@ impl<'a> Problem<'a> {
         &self,
         path: &mut Path<Chain>,
         record: &mut Record<Chain>,
-        from: &Point,
+        from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
     ) -> Result<bool, InvalidDesign> {
@@ -255,7 +255,7 @@ impl<'a> Problem<'a> {
 
     fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
         let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let measures = Measures::new(&record, path, modulus);
+        let measures = PunctureMeasures::new(&record, path, modulus);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),

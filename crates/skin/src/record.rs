@@ -3,7 +3,7 @@
 use contact::{CornerContact, CornerEdge};
 use solver::{Change, Path, Peak, System};
 
-use crate::contacts::{ContactChange, Contacts, Point, State};
+use crate::contacts::{ContactChange, Contacts, SkinPoint, SkinState};
 
 /// A contact that changes its state: it opens, closes or passes a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,19 +41,19 @@ pub(crate) trait Skin: System<Mode = Vec<CornerContact>> {
     fn contacts(&self) -> &Contacts;
 
     /// The numbers to record of an equilibrium.
-    fn path_point(&self, point: &Point) -> Self::PathPoint;
+    fn path_point(&self, point: &SkinPoint) -> Self::PathPoint;
 
     /// The control parameter, degrees.
-    fn angle_deg(&self, state: &State) -> f64;
+    fn angle_deg(&self, state: &SkinState) -> f64;
 
     /// Derivative of the load with respect to what the load moves, along a direction of the path.
-    fn stiffness(&self, state: &State, direction: &[f64]) -> f64;
+    fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64;
 
     /// Number of a scale as people count them; `None` where every pair does the same.
     fn number(&self, scale: usize) -> Option<i64>;
 
     /// Whether any two scales that may meet overlap by more than the approach of their contacts.
-    fn interpenetrates(&self, state: &State) -> bool;
+    fn interpenetrates(&self, state: &SkinState) -> bool;
 }
 
 /// Points, events and iterations of a path, and its largest stiffness.
@@ -84,7 +84,7 @@ impl<S: Skin> Record<S> {
     }
 
     /// Records the point that the path has come to.
-    pub(crate) fn visit(&mut self, path: &mut Path<S>, point: &Point) {
+    pub(crate) fn visit(&mut self, path: &mut Path<S>, point: &SkinPoint) {
         let residuals = path.take_history();
         let skin = path.system();
         let (here, step) = (skin.path_point(point), self.path.len());
@@ -102,7 +102,11 @@ impl<S: Skin> Record<S> {
     }
 
     /// Takes the points that are kept to those of a longer row, where the path goes on from `here`.
-    pub(crate) fn replace_points(&mut self, new: impl Fn(&Point) -> Point, here: &Point) {
+    pub(crate) fn replace_points(
+        &mut self,
+        new: impl Fn(&SkinPoint) -> SkinPoint,
+        here: &SkinPoint,
+    ) {
         self.stiffness.replace_points(new);
         self.before.clone_from(&here.state.mode);
     }
@@ -111,7 +115,7 @@ impl<S: Skin> Record<S> {
     fn event(
         &self,
         skin: &S,
-        after: &State,
+        after: &SkinState,
         point: S::PathPoint,
         change: Change,
     ) -> Option<ContactEvent<S::PathPoint>> {
@@ -132,7 +136,7 @@ impl<S: Skin> Record<S> {
     }
 
     /// The point of the largest stiffness of those that were recorded.
-    pub(crate) fn stiffest(&self) -> Option<&Point> {
+    pub(crate) fn stiffest(&self) -> Option<&SkinPoint> {
         self.stiffness.point()
     }
 

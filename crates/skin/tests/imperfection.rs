@@ -1,22 +1,22 @@
 //! Rows and strips with random gaps and slants.
 
 use approx::assert_relative_eq;
-use skin::flexure::{self, Flexure, Mesh, Method};
+use skin::flexure::{self, Flexure, MembraneMesh, Method};
 use skin::puncture::{self, RowLength};
 use skin::{Base, Common, ContactChange, Design, Imperfection, Sample, Status};
 use substrate::calibrate;
 
 const STEEP: Design = Design { gap: 0.1, length: 1.0, slant_deg: 60.0, base: Base::L, width: 1.0 };
 
-fn strip() -> flexure::Parameters {
-    flexure::Parameters {
+fn strip() -> flexure::FlexureParameters {
+    flexure::FlexureParameters {
         contact_modulus_over_membrane: 667.0,
         method: Method::Chain,
         membrane_length: 22.0,
         membrane_thickness: 0.125,
         membrane_axis_offset: 0.0,
         gaps: None,
-        elements_per_gap: Mesh::Auto,
+        elements_per_gap: MembraneMesh::Auto,
         max_end_rotation_deg: 40.0,
     }
 }
@@ -115,7 +115,8 @@ fn without_scatter_a_row_is_the_perfect_one() {
     let common = Common::default();
     let springs = calibrate(&STEEP.footprint(0.5).unwrap()).unwrap();
     for scales in [RowLength::Auto, RowLength::Scales(8)] {
-        let parameters = puncture::Parameters { scales, ..puncture::Parameters::default() };
+        let parameters =
+            puncture::PunctureParameters { scales, ..puncture::PunctureParameters::default() };
         let perfect = puncture::solve(&STEEP, &springs, &common, &parameters).unwrap();
         let ours = puncture::solve_sample(&STEEP, &springs, &common, &parameters, &sample).unwrap();
         assert_eq!(ours.status, perfect.status);
@@ -175,7 +176,7 @@ fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
     let width = |strip: &Flexure| {
         let at_rest = strip.path[0].stiffness;
         let at = |factor: f64| {
-            let steep = |point: &&flexure::PathPoint| point.stiffness > factor * at_rest;
+            let steep = |point: &&flexure::FlexurePoint| point.stiffness > factor * at_rest;
             strip.path.iter().find(steep).unwrap().curvature
         };
         at(10.0) - at(2.0)

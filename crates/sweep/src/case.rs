@@ -14,9 +14,9 @@ pub struct Case {
     /// The contact law and the solver's settings, of puncture and bending.
     pub common: Common,
     /// The other parameters of the puncture.
-    pub puncture: puncture::Parameters,
+    pub puncture: puncture::PunctureParameters,
     /// The other parameters of bending.
-    pub flexure: flexure::Parameters,
+    pub flexure: flexure::FlexureParameters,
     /// The neighbours of a scale that the substrate couples it with.
     pub coupling: Coupling,
     /// The scatter of gaps and slants.
@@ -50,8 +50,8 @@ impl Default for Case {
         Self {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             common: Common::default(),
-            puncture: puncture::Parameters::default(),
-            flexure: flexure::Parameters::default(),
+            puncture: puncture::PunctureParameters::default(),
+            flexure: flexure::FlexureParameters::default(),
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },

@@ -111,12 +111,12 @@ impl Drawing<'_> {
         Ok((0..FRAMES).map(frame).chain([critical]).collect())
     }
 
-    fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::Snapshot>> {
+    fn puncture_states(&self, at: &[puncture::At]) -> anyhow::Result<Vec<puncture::RowSnapshot>> {
         let case = &self.case;
         let substrate = substrate(case)?;
         let solved =
             puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, at)?;
-        let reached = |(at, state): (&puncture::At, Option<puncture::Snapshot>)| match state {
+        let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
         };
@@ -134,7 +134,7 @@ impl Drawing<'_> {
             at => at.to_vec(),
         };
         let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
-        let reached = |(at, state): (&f64, Option<flexure::Snapshot>)| match state {
+        let reached = |(at, state): (&f64, Option<flexure::StripSnapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: bending does not turn the ends by {at}°", self.number),
         };

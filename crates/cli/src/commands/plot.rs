@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::bail;
-use report::{SolvedDesign, curves, figures};
+use report::{DesignCurves, curves, figures};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
@@ -52,7 +52,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let shown: Vec<_> = solved
         .iter()
         .zip(&chosen)
-        .map(|((puncture, flexure), (number, case))| SolvedDesign {
+        .map(|((puncture, flexure), (number, case))| DesignCurves {
             number: number.to_string(),
             design: &case.design,
             puncture: Some(puncture),

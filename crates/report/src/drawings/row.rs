@@ -3,7 +3,7 @@
 use contact::Pose;
 use geometry::{Corner, OutOfRange, Row};
 use skin::Design;
-use skin::puncture::{ScaleState, Snapshot};
+use skin::puncture::{RowSnapshot, ScaleState};
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
@@ -36,7 +36,7 @@ pub struct PunctureDrawing<'a> {
     /// Place of the load on the top of the punctured scale.
     pub load_position: f64,
     /// The states, from the top; the row at rest is drawn above them.
-    pub states: &'a [Snapshot],
+    pub states: &'a [RowSnapshot],
 }
 
 impl PunctureDrawing<'_> {
@@ -100,7 +100,7 @@ impl RowSheet {
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
         let bars = AIR + scale + deepest + 18.0;
-        let load = |state: &Snapshot| state.force * puncture.design.length;
+        let load = |state: &RowSnapshot| state.force * puncture.design.length;
         let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(s)));
         let reactions = states.iter().flat_map(|state| {
             let load = load(state);
@@ -143,7 +143,7 @@ impl RowSheet {
     }
 
     /// Returns the height at the top of a state's panel in which nothing is drawn, px.
-    fn free(&self, state: &Snapshot) -> f64 {
+    fn free(&self, state: &RowSnapshot) -> f64 {
         let view = self.measured_from_left(state);
         let arrow = |contact: &skin::Contact| {
             view.place(contact.point)[1] - self.force * contact.force[1].abs()
@@ -153,7 +153,7 @@ impl RowSheet {
         (highest - 8.0).max(0.0)
     }
 
-    fn state(&self, state: &Snapshot, free: f64) -> DrawingPanel {
+    fn state(&self, state: &RowSnapshot, free: f64) -> DrawingPanel {
         let shown: Vec<&ScaleState> =
             state.scales.iter().filter(|s| (self.first..=self.last).contains(&s.scale)).collect();
         let poses: Vec<_> = shown.iter().map(|s| (s.scale, pose(s))).collect();
@@ -170,7 +170,7 @@ impl RowSheet {
         lifted(free, self.height, self.caption(state), inside)
     }
 
-    fn caption(&self, state: &Snapshot) -> String {
+    fn caption(&self, state: &RowSnapshot) -> String {
         let load = state.force * self.length;
         let largest = contacts::largest(&state.contacts);
         let force = if largest > 0.0 && load > 0.0 {
@@ -238,12 +238,12 @@ impl RowSheet {
             .containing(self.numbers().map(ghost))
     }
 
-    fn overlaps(&self, state: &Snapshot) -> Element {
+    fn overlaps(&self, state: &RowSnapshot) -> Element {
         let poses: Vec<_> = state.scales.iter().map(pose).collect();
         contacts::overlaps(&self.measured_from_left(state), &overlaps(&self.row, &poses))
     }
 
-    fn contacts(&self, state: &Snapshot) -> Element {
+    fn contacts(&self, state: &RowSnapshot) -> Element {
         let view = self.measured_from_left(state);
         let radius = (0.09 * self.view.scale).clamp(4.0, 9.0);
         let first = state.scales.first().map_or(0, |scale| scale.scale);
@@ -259,13 +259,13 @@ impl RowSheet {
     }
 
     /// Returns the view of what is measured from the left end of the row.
-    fn measured_from_left(&self, state: &Snapshot) -> View {
+    fn measured_from_left(&self, state: &RowSnapshot) -> View {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
     /// Returns the ends of the arrow of the load; `None` without a load.
-    fn load_arrow(&self, state: &Snapshot) -> Option<[Spot; 2]> {
+    fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -276,7 +276,7 @@ impl RowSheet {
         Some([[to[0], to[1] - length], to])
     }
 
-    fn load(&self, state: &Snapshot) -> Element {
+    fn load(&self, state: &RowSnapshot) -> Element {
         let drawn = self.load_arrow(state).map(|[from, to]| {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
@@ -285,7 +285,7 @@ impl RowSheet {
     }
 
     /// Returns the angle between the base of the punctured scale and its place at rest.
-    fn tilt(&self, state: &Snapshot) -> Element {
+    fn tilt(&self, state: &RowSnapshot) -> Element {
         let Some(punctured) = state.scales.iter().find(|s| s.scale == 0) else {
             return Element::group("tilt");
         };
@@ -371,7 +371,7 @@ fn pose(state: &ScaleState) -> Pose {
 }
 
 /// Returns the first and last scale to be shown: those that touch or move, and two on either side.
-fn window(row: &Row, states: &[Snapshot]) -> (i64, i64) {
+fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
     let moved = |s: &ScaleState| s.displacement[0].hypot(s.displacement[1]);
     let all = || states.iter().flat_map(|state| &state.scales);
     let most = all().map(moved).fold(0.0, f64::max);

@@ -2,7 +2,7 @@
 
 use contact::Pose;
 use geometry::{OutOfRange, Row};
-use skin::flexure::Snapshot;
+use skin::flexure::StripSnapshot;
 use skin::{Contact, Design};
 
 use super::bodies::{corners, overlaps};
@@ -31,7 +31,7 @@ pub struct FlexureDrawing<'a> {
     /// Thickness `h/t` of the membrane.
     pub membrane_thickness: f64,
     /// The states, from the top.
-    pub states: &'a [Snapshot],
+    pub states: &'a [StripSnapshot],
 }
 
 impl FlexureDrawing<'_> {
@@ -54,7 +54,7 @@ impl FlexureDrawing<'_> {
         Ok(Frames::new(self.states.iter().map(|state| self.panel(&row, state)).collect()))
     }
 
-    fn panel(&self, row: &Row, state: &Snapshot) -> DrawingPanel {
+    fn panel(&self, row: &Row, state: &StripSnapshot) -> DrawingPanel {
         let shape = Shape::upright(row, state);
         let area = [WIDTH - ENLARGED - 3.0 * MARGIN, TALLEST];
         let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
@@ -78,7 +78,7 @@ impl FlexureDrawing<'_> {
     }
 
     /// Draws the gap in the middle of the strip, enlarged, with the forces and the overlap.
-    fn cell(&self, row: &Row, state: &Snapshot, tall: f64) -> Element {
+    fn cell(&self, row: &Row, state: &StripSnapshot, tall: f64) -> Element {
         let left = (state.scales.len() - 1) / 2;
         let shape = Shape::of_gap(row, state, left);
         let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - HEIGHT)];
@@ -130,7 +130,7 @@ fn outline(row: &Row, scale: f64) -> f64 {
     0.12 * scale * row.pitch()
 }
 
-fn caption(state: &Snapshot) -> String {
+fn caption(state: &StripSnapshot) -> String {
     format!(
         "$κ^*$ = {},  $M^*$ = {},  each end turned by {:.2}°,  {}",
         short(state.curvature),
@@ -149,7 +149,7 @@ struct Shape {
 }
 
 impl Shape {
-    fn upright(row: &Row, state: &Snapshot) -> Self {
+    fn upright(row: &Row, state: &StripSnapshot) -> Self {
         let poses = poses(state);
         let bodies = poses.iter().enumerate().map(|(i, pose)| corners(row, i as f64, pose));
         let shape = Self {
@@ -163,7 +163,7 @@ impl Shape {
     }
 
     /// Returns the gap right of scale `left` and its two scales.
-    fn of_gap(row: &Row, state: &Snapshot, left: usize) -> Self {
+    fn of_gap(row: &Row, state: &StripSnapshot, left: usize) -> Self {
         let pair: Vec<Pose> = poses(state)[left..left + 2].to_vec();
         let along = left as f64 * row.pitch();
         let bodies = (0..2).map(|i| corners(row, (left + i) as f64, &pair[i]));
@@ -218,7 +218,7 @@ impl Shape {
     }
 }
 
-fn poses(state: &Snapshot) -> Vec<Pose> {
+fn poses(state: &StripSnapshot) -> Vec<Pose> {
     state.scales.iter().map(|&[x, y, rotation]| Pose::new(x, y, rotation)).collect()
 }
 

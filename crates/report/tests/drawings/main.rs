@@ -4,7 +4,7 @@ mod overlap;
 mod page;
 
 use report::drawings;
-use skin::puncture::{At, Parameters, Snapshot, snapshots};
+use skin::puncture::{At, PunctureParameters, RowSnapshot, snapshots};
 use skin::{Base, Common, Design};
 use substrate::Springs;
 
@@ -15,13 +15,13 @@ fn design(slant_deg: f64) -> Design {
 
 /// A design punctured with contacts so soft that overlaps are seen, at a displacement and at the
 /// critical tilt.
-fn punctured(design: &Design, modulus: f64) -> Vec<Snapshot> {
+fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
     let springs: Springs =
         substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
-    let parameters = Parameters {
+    let parameters = PunctureParameters {
         contact_modulus_over_substrate: modulus,
         scales: skin::puncture::RowLength::Scales(9),
-        ..Parameters::default()
+        ..PunctureParameters::default()
     };
     let at = [At::Displacement(0.15), At::Tilt(10.0), At::Force(0.05)];
     let solved =
@@ -29,7 +29,7 @@ fn punctured(design: &Design, modulus: f64) -> Vec<Snapshot> {
     solved.at.into_iter().map(|state| state.expect("reached")).collect()
 }
 
-fn svg(design: &Design, states: &[Snapshot]) -> String {
+fn svg(design: &Design, states: &[RowSnapshot]) -> String {
     let drawing = drawings::PunctureDrawing { name: "test", design, load_position: 1.0, states };
     drawing.svg().expect("a drawing")
 }

@@ -2,7 +2,7 @@
 
 use contact::Pose;
 use skin::Design;
-use skin::puncture::Snapshot;
+use skin::puncture::RowSnapshot;
 
 use crate::{design, punctured, svg};
 
@@ -38,7 +38,7 @@ fn shared(a: &[Point; 4], b: &[Point; 4]) -> f64 {
 }
 
 /// Corners of every scale, from the node of the first.
-fn bodies(design: &Design, state: &Snapshot) -> Vec<[Point; 4]> {
+fn bodies(design: &Design, state: &RowSnapshot) -> Vec<[Point; 4]> {
     let row = design.row().expect("a row");
     let body = |(i, scale): (usize, &skin::puncture::ScaleState)| {
         let [x, y] = scale.displacement;

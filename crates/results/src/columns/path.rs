@@ -1,13 +1,13 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{PathPoint, ScaleState};
+use skin::puncture::{PuncturePoint, ScaleState};
 use skin::{ContactEvent, Iteration};
 
 use super::Column;
 
 /// The columns of `path.csv`.
-pub static PATH: &[Column<PathPoint>] = &[
+pub static PATH: &[Column<PuncturePoint>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |p| {
         p.displacement.into()
     }),
@@ -17,7 +17,7 @@ pub static PATH: &[Column<PathPoint>] = &[
 ];
 
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<ContactEvent<PathPoint>>] = &[
+pub static EVENTS: &[Column<ContactEvent<PuncturePoint>>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
         e.point.displacement.into()
     }),
@@ -61,7 +61,7 @@ pub static STEPS: &[Column<Iteration>] = &[
 ];
 
 /// The columns of `flexure_path.csv`.
-pub static FLEXURE_PATH: &[Column<flexure::PathPoint>] = &[
+pub static FLEXURE_PATH: &[Column<flexure::FlexurePoint>] = &[
     Column::new("curvature", "1/t", "curvature of the strip", |p| p.curvature.into()),
     Column::new("moment", "E_m I_m/t", "bending moment", |p| p.moment.into()),
     Column::new(
@@ -87,7 +87,7 @@ pub static FLEXURE_PATH: &[Column<flexure::PathPoint>] = &[
 ];
 
 /// The columns of `flexure_events.csv`.
-pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::PathPoint>>] = &[
+pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &[
     Column::new("curvature", "1/t", "curvature of the strip", |e| e.point.curvature.into()),
     Column::new("moment", "E_m I_m/t", "bending moment", |e| e.point.moment.into()),
     Column::new("end_rotation_deg", "deg", "rotation of each end", |e| {

@@ -1,7 +1,7 @@
 //! The columns of the measured values of a design.
 
 use skin::flexure;
-use skin::puncture::Measures;
+use skin::puncture::PunctureMeasures;
 
 use super::MeasuredValue;
 use super::cell::Cell;
@@ -226,7 +226,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
     },
 ];
 
-fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&Measures) -> Option<T>) -> Cell {
+fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureMeasures) -> Option<T>) -> Cell {
     row.result.puncture.and_then(|puncture| value(&puncture.measures)).into()
 }
 
@@ -234,6 +234,6 @@ fn punctured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureResult) -> T) ->
     row.result.puncture.as_ref().map(value).into()
 }
 
-fn bent<T: Into<Cell>>(row: &DesignRow, value: fn(&flexure::Measures) -> Option<T>) -> Cell {
+fn bent<T: Into<Cell>>(row: &DesignRow, value: fn(&flexure::FlexureMeasures) -> Option<T>) -> Cell {
     row.result.flexure.and_then(|flexure| value(&flexure.measures)).into()
 }

@@ -91,7 +91,7 @@ pub struct PunctureResult {
     /// The outcome: complete, or why it stopped.
     pub outcome: Outcome,
     /// The measures; they have no final values unless the outcome is complete.
-    pub measures: puncture::Measures,
+    pub measures: puncture::PunctureMeasures,
     /// Equilibria of the path.
     pub points: usize,
     /// Newton iterations.
@@ -105,7 +105,7 @@ impl PunctureResult {
     pub fn without_path(outcome: Outcome) -> Self {
         Self {
             outcome,
-            measures: puncture::Measures::default(),
+            measures: puncture::PunctureMeasures::default(),
             points: 0,
             iterations: 0,
             calibration_error: None,
@@ -115,7 +115,10 @@ impl PunctureResult {
     /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
         let measures = puncture.measures;
-        let few = puncture::Measures { scales: measures.scales, ..puncture::Measures::default() };
+        let few = puncture::PunctureMeasures {
+            scales: measures.scales,
+            ..puncture::PunctureMeasures::default()
+        };
         let (outcome, measures) =
             finite_or(puncture_numbers(&measures), puncture.status.into(), measures, few);
         Self {
@@ -135,7 +138,7 @@ pub struct FlexureResult {
     /// The outcome: complete, or why it stopped.
     pub outcome: Outcome,
     /// The measures; they have no final values unless the outcome is complete.
-    pub measures: flexure::Measures,
+    pub measures: flexure::FlexureMeasures,
     /// Equilibria of the path.
     pub points: usize,
     /// Newton iterations.
@@ -145,13 +148,14 @@ pub struct FlexureResult {
 impl FlexureResult {
     /// The result of a bending without a path.
     pub fn without_path(outcome: Outcome) -> Self {
-        Self { outcome, measures: flexure::Measures::default(), points: 0, iterations: 0 }
+        Self { outcome, measures: flexure::FlexureMeasures::default(), points: 0, iterations: 0 }
     }
 
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
         let measures = flexure.measures;
-        let few = flexure::Measures { gaps: measures.gaps, ..flexure::Measures::default() };
+        let few =
+            flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let (outcome, measures) =
             finite_or(flexure_numbers(&measures), flexure.status.into(), measures, few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
@@ -178,7 +182,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::Measures) -> [Option<f64>; 9] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -192,7 +196,7 @@ fn puncture_numbers(measures: &puncture::Measures) -> [Option<f64>; 9] {
     ]
 }
 
-fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 6] {
+fn flexure_numbers(measures: &flexure::FlexureMeasures) -> [Option<f64>; 6] {
     [
         measures.compliance,
         measures.initial_compliance,
@@ -206,16 +210,16 @@ fn flexure_numbers(measures: &flexure::Measures) -> [Option<f64>; 6] {
 #[cfg(test)]
 mod tests {
     use skin::Status;
-    use skin::puncture::Measures;
+    use skin::puncture::PunctureMeasures;
 
     use super::*;
 
     fn puncture(status: Status, critical_force: f64) -> Puncture {
-        let measures = Measures {
+        let measures = PunctureMeasures {
             critical_force: Some(critical_force),
             sink: Some(1.0),
             scales: 41,
-            ..Measures::default()
+            ..PunctureMeasures::default()
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
         Puncture { status, measures, path, events, scales, history }
@@ -225,7 +229,7 @@ mod tests {
     fn a_complete_puncture_that_is_not_finite_is_not_complete() {
         let result = PunctureResult::new(&puncture(Status::Complete, f64::NAN), 0.0);
         assert_eq!(result.outcome, Outcome::NotFinite);
-        assert_eq!(result.measures, Measures { scales: 41, ..Measures::default() });
+        assert_eq!(result.measures, PunctureMeasures { scales: 41, ..PunctureMeasures::default() });
         let result = PunctureResult::new(&puncture(Status::Complete, 2.0), 0.0);
         assert_eq!(
             (result.outcome, result.measures.critical_force),

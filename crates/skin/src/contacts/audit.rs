@@ -3,7 +3,7 @@
 use contact::{CornerContact, Overlap, Pose, overlaps};
 use geometry::Vec2;
 
-use super::{Contacts, State};
+use super::{Contacts, SkinState};
 
 /// Overlap (over `t`) by which the audit may differ from the contact law: round-off of the
 /// collision query.
@@ -14,14 +14,14 @@ const OFF_EDGE: f64 = 1e-6;
 
 impl Contacts {
     /// Forces of a contact on the left scale of its pair: of its corners, and of its flush contact.
-    pub(super) fn forces_on_left(&self, state: &State, contact: usize) -> [Vec2; 2] {
+    pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         state.mode[contact].forces_on_left(&self.corners(contact, &poses), forces)
     }
 
     /// Sum of the forces of a contact, for which the law holds.
-    fn force(&self, state: &State, contact: usize) -> f64 {
+    fn force(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode[contact] {
             CornerContact::Open => 0.0,
             _ => self.forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
@@ -29,19 +29,19 @@ impl Contacts {
     }
 
     /// Approach of the scales at a contact, over `t`.
-    pub(super) fn approach(&self, state: &State, contact: usize) -> f64 {
+    pub(super) fn approach(&self, state: &SkinState, contact: usize) -> f64 {
         self.law.approach(self.force(state, contact)).value
     }
 
     /// Elastic energy of all contacts.
-    pub(crate) fn energy(&self, state: &State) -> f64 {
+    pub(crate) fn energy(&self, state: &SkinState) -> f64 {
         let energy = |contact| self.law.energy(self.force(state, contact));
         (0..state.mode.len()).map(energy).sum()
     }
 
     /// Whether any contact carries beyond an end of its edge: at the end where the corners meet it would not be on its
     /// edge any more, and at the other one the model has no contact to go on with.
-    pub(crate) fn off_edge(&self, state: &State) -> bool {
+    pub(crate) fn off_edge(&self, state: &SkinState) -> bool {
         let contacts = state.mode.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
             let edges = match *mode {
@@ -57,7 +57,7 @@ impl Contacts {
     }
 
     /// Whether any two scales overlap by more than the approach of their contacts.
-    pub(crate) fn interpenetrate(&self, state: &State) -> bool {
+    pub(crate) fn interpenetrate(&self, state: &SkinState) -> bool {
         let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
         overlaps(standing, &self.poses(&state.z)).iter().any(|overlap| {
             let neighbours = overlap.right == overlap.left + 1;
@@ -68,7 +68,7 @@ impl Contacts {
 
     /// Whether any two neighbours overlap by more than the approach of their contacts. A strip that is bent to a ring
     /// may meet its own other end.
-    pub(crate) fn neighbours_interpenetrate(&self, state: &State) -> bool {
+    pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
         self.pairs(&state.z).any(|(left, poses)| {
             let allowed = self.pair_approach(state, left) + AUDIT_TOLERANCE;
             self.pair_overlaps(left, &poses).iter().any(|overlap| overlap.depth > allowed)
@@ -83,7 +83,7 @@ impl Contacts {
     }
 
     /// The largest approach of the contacts of a pair.
-    fn pair_approach(&self, state: &State, left: usize) -> f64 {
+    fn pair_approach(&self, state: &SkinState, left: usize) -> f64 {
         Self::contacts_of(left).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
     }
 }

@@ -2,7 +2,7 @@
 
 use contact::{FORCES, Force};
 
-use super::State;
+use super::SkinState;
 
 /// A change of a contact at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl ContactChange {
     }
 
     /// The change of a contact of which a force has changed sides, from the state after the event.
-    pub(crate) fn of(state: &State, change: solver::Change) -> Self {
+    pub(crate) fn of(state: &SkinState, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
         match (Force::ALL[change.constraint % FORCES], change.activated) {
             (Force::Own | Force::Flush, true) => Self::Closed,

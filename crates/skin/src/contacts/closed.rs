@@ -3,7 +3,7 @@
 use contact::{CornerContact, CornerEdge};
 use geometry::Vec2;
 
-use super::{Contacts, State};
+use super::{Contacts, SkinState};
 
 /// A closed contact between neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,13 +23,13 @@ pub struct Contact {
 impl Contacts {
     /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
     /// sees it.
-    pub(crate) fn closed_contacts(&self, state: &State) -> Vec<Contact> {
+    pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
         let contacts = 0..state.mode.len();
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
     /// The closed contacts at one level of a pair: of the corners with each other's edge, and the flush one.
-    fn closed_at(&self, state: &State, contact: usize) -> [Option<Contact>; 2] {
+    fn closed_at(&self, state: &SkinState, contact: usize) -> [Option<Contact>; 2] {
         let [own, flush] = match state.mode[contact] {
             CornerContact::Open => [None, None],
             CornerContact::Edge(edge) | CornerContact::Corner(edge) => [Some(edge), None],

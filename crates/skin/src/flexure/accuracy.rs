@@ -4,7 +4,7 @@ use membrane::GapEnergies;
 use solver::{Newton, Settings};
 
 use super::strip::Strip;
-use crate::contacts::State;
+use crate::contacts::SkinState;
 use crate::record::Skin;
 
 /// A quantity below this, in its own unit, counts as this much where its relative change is taken: it is round-off.
@@ -20,7 +20,7 @@ struct Quantities {
 
 impl Quantities {
     /// Solves the strip for the rotation that `state` has, with its contacts. `None` if Newton's method does not get there.
-    fn at(strip: &Strip, mut state: State, settings: &Settings) -> Option<Self> {
+    fn at(strip: &Strip, mut state: SkinState, settings: &Settings) -> Option<Self> {
         let condition = strip.same_rotation(&state);
         let direction = Newton::new(strip).solve(strip, &mut state, &condition, settings).ok()?;
         let GapEnergies { axial, bending } = strip.membrane_energy(&state);
@@ -43,7 +43,7 @@ impl Quantities {
 pub(crate) fn change(
     strip: &Strip,
     finer: &Strip,
-    state: &State,
+    state: &SkinState,
     settings: &Settings,
 ) -> Option<f64> {
     let ours = Quantities::at(strip, state.clone(), settings)?;

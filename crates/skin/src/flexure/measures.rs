@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use solver::Path;
 
-use super::PathPoint;
+use super::FlexurePoint;
 use super::strip::Strip;
 use crate::record::Record;
 
@@ -12,7 +12,7 @@ use crate::record::Record;
 /// The moment is `M* = M t/(E_m I_m)`, the curvature `κ* = κ t` with `κ` the rotation of one end
 /// against the other over the length `n p` of the strip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Measures {
+pub struct FlexureMeasures {
     /// Flexural compliance `C_f* = 1/max(dM*/dκ*)`.
     pub compliance: Option<f64>,
     /// `1/(dM*/dκ*)` at rest.
@@ -34,7 +34,7 @@ pub struct Measures {
     pub gaps: f64,
 }
 
-impl Measures {
+impl FlexureMeasures {
     /// The measures of a path that came to its end.
     pub(crate) fn new(record: &Record<Strip>, path: &mut Path<Strip>) -> Self {
         let stiffest = record.largest_stiffness(path);
@@ -68,6 +68,6 @@ impl Measures {
 }
 
 /// Part of the axial energy in the elastic energy; not a number at rest.
-fn axial_energy_share(point: &PathPoint) -> f64 {
+fn axial_energy_share(point: &FlexurePoint) -> f64 {
     point.axial_energy / (point.bending_energy + point.axial_energy + point.contact_energy)
 }

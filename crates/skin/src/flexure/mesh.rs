@@ -6,7 +6,7 @@ use crate::InvalidDesign;
 
 /// How finely the membrane between two scales is resolved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mesh {
+pub enum MembraneMesh {
     /// As finely as the measures need: the extensible elastica, by a spectral element whose order is raised until they
     /// change by less than a ten-thousandth.
     #[default]
@@ -46,7 +46,7 @@ impl Resolution {
     }
 }
 
-/// Order with which [`Mesh::Auto`] begins. It resolves layers at the bases of a hundredth of the gap, and is within 1e-4 for
+/// Order with which [`MembraneMesh::Auto`] begins. It resolves layers at the bases of a hundredth of the gap, and is within 1e-4 for
 /// nearly all designs of the reference study.
 const FIRST_ORDER: usize = 12;
 
@@ -56,7 +56,7 @@ const ORDER_STEP: usize = 6;
 /// Largest order. Beyond, layers are thinner than a thousandth of the gap, and the membrane is no beam.
 const LAST_ORDER: usize = 48;
 
-impl Mesh {
+impl MembraneMesh {
     /// The resolution to begin with.
     pub(crate) fn coarsest(self) -> Resolution {
         match self {

@@ -1,12 +1,12 @@
 //! Equilibria of a strip as they are recorded.
 
 use super::strip::Strip;
-use crate::contacts::{Contacts, Point, State};
+use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
+pub struct FlexurePoint {
     /// `κ*`.
     pub curvature: f64,
     /// `M*`.
@@ -28,17 +28,17 @@ pub struct PathPoint {
 }
 
 impl Skin for Strip {
-    type PathPoint = PathPoint;
+    type PathPoint = FlexurePoint;
 
     fn contacts(&self) -> &Contacts {
         &self.contacts
     }
 
-    fn path_point(&self, point: &Point) -> PathPoint {
+    fn path_point(&self, point: &SkinPoint) -> FlexurePoint {
         let state = &point.state;
         let repeats = self.repeats();
         let membrane = self.membrane_energy(state);
-        PathPoint {
+        FlexurePoint {
             curvature: self.curvature(&state.z),
             moment: self.normalised_moment(&state.z),
             stiffness: self.normalised_stiffness(self.stiffness(state, &point.leaving)),
@@ -51,12 +51,12 @@ impl Skin for Strip {
         }
     }
 
-    fn angle_deg(&self, state: &State) -> f64 {
+    fn angle_deg(&self, state: &SkinState) -> f64 {
         0.5 * (self.rotation(&state.z) * self.repeats()).to_degrees()
     }
 
     /// `dM/dΦ` of the gaps that are solved for.
-    fn stiffness(&self, _state: &State, direction: &[f64]) -> f64 {
+    fn stiffness(&self, _state: &SkinState, direction: &[f64]) -> f64 {
         self.moment(direction) / self.rotation(direction)
     }
 
@@ -65,7 +65,7 @@ impl Skin for Strip {
     }
 
     /// A strip that is bent to a ring may meet its own other end: neighbours count alone.
-    fn interpenetrates(&self, state: &State) -> bool {
+    fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.neighbours_interpenetrate(state)
     }
 }

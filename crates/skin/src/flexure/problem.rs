@@ -7,9 +7,9 @@ use solver::{Path, Stop};
 use super::accuracy::change;
 use super::mesh::Resolution;
 use super::strip::{Extent, Strip};
-use super::{Flexure, Measures, Method, Parameters, gaps, whole_gaps};
+use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, State};
+use crate::contacts::{Contacts, SkinState};
 use crate::record::Record;
 use crate::{Common, Design, InvalidDesign, Sample, Status};
 
@@ -17,9 +17,9 @@ use crate::{Common, Design, InvalidDesign, Sample, Status};
 const TOLERANCE: f64 = 1e-4;
 
 /// A strip to be bent.
-pub(crate) struct Problem<'a> {
+pub(crate) struct FlexureProblem<'a> {
     common: &'a Common,
-    parameters: &'a Parameters,
+    parameters: &'a FlexureParameters,
     pub(crate) row: Arrangement,
     half_base: f64,
     section: Section,
@@ -30,12 +30,12 @@ pub(crate) struct Problem<'a> {
     solved: usize,
 }
 
-impl<'a> Problem<'a> {
+impl<'a> FlexureProblem<'a> {
     /// The strip of a design.
     pub(crate) fn even(
         design: &Design,
         common: &'a Common,
-        parameters: &'a Parameters,
+        parameters: &'a FlexureParameters,
     ) -> Result<Self, InvalidDesign> {
         let row = design.row()?;
         let (gaps, solved) = match parameters.method {
@@ -52,7 +52,7 @@ impl<'a> Problem<'a> {
     pub(crate) fn sample(
         design: &Design,
         common: &'a Common,
-        parameters: &'a Parameters,
+        parameters: &'a FlexureParameters,
         sample: &Sample,
     ) -> Result<Self, InvalidDesign> {
         let gaps = whole_gaps(&design.row()?, parameters);
@@ -63,7 +63,7 @@ impl<'a> Problem<'a> {
     pub(crate) fn new(
         design: &Design,
         common: &'a Common,
-        parameters: &'a Parameters,
+        parameters: &'a FlexureParameters,
         row: Arrangement,
         gaps: f64,
         solved: usize,
@@ -123,7 +123,7 @@ impl<'a> Problem<'a> {
 
     fn bend(&self, resolution: Resolution) -> Result<Flexure, InvalidDesign> {
         let strip = self.strip(resolution)?;
-        let rest = State::at_rest(&strip);
+        let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
         let mut steps = vec![strip.steps(&rest.z)];
         let mut path = Path::new(strip, rest, self.common.solver);
@@ -142,7 +142,7 @@ impl<'a> Problem<'a> {
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
         let error = self.error(resolution, &path, &record)?;
-        let measures = Measures { error, ..Measures::new(&record, &mut path) };
+        let measures = FlexureMeasures { error, ..FlexureMeasures::new(&record, &mut path) };
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),

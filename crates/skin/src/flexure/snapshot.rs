@@ -2,12 +2,12 @@
 
 use solver::Path;
 
-use super::Parameters;
+use super::FlexureParameters;
 use super::frame::Frame;
-use super::problem::Problem;
+use super::problem::FlexureProblem;
 use super::strip::Strip;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contact, State};
+use crate::contacts::{Contact, SkinState};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
 use crate::{Common, Design, InvalidDesign};
@@ -17,7 +17,7 @@ const INTERVALS: usize = 12;
 
 /// A strip in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Snapshot {
+pub struct StripSnapshot {
     /// `κ*`.
     pub curvature: f64,
     /// `M*`.
@@ -42,25 +42,25 @@ pub struct Snapshot {
 pub fn snapshots(
     design: &Design,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &FlexureParameters,
     end_rotations_deg: &[f64],
-) -> Result<Vec<Option<Snapshot>>, InvalidDesign> {
-    let problem = Problem::even(design, common, parameters)?;
+) -> Result<Vec<Option<StripSnapshot>>, InvalidDesign> {
+    let problem = FlexureProblem::even(design, common, parameters)?;
     let (row, strip) = (&problem.row, problem.resolved_strip()?);
     let crossing = |&degrees: &f64| Crossing {
-        quantity: |strip: &Strip, state: &State| strip.rotation(&state.z),
+        quantity: |strip: &Strip, state: &SkinState| strip.rotation(&state.z),
         value: 2.0 * degrees.to_radians() / strip.repeats(),
     };
     let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
-    let rest = State::at_rest(&strip);
+    let rest = SkinState::at_rest(&strip);
     let mut path = Path::new(strip, rest, common.solver);
     let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<State>| Some(snapshot(row, path.system(), &state?));
+    let snapshot = |state: Option<SkinState>| Some(snapshot(row, path.system(), &state?));
     Ok(states.into_iter().map(snapshot).collect())
 }
 
 /// The whole strip, from a state of the gaps that are solved for.
-fn snapshot(row: &Arrangement, strip: &Strip, state: &State) -> Snapshot {
+fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapshot {
     let (solved, gaps) = (strip.gaps(), strip.whole_gaps());
     let frames = Frame::strip(&strip.steps(&state.z), gaps, row);
     let displacement = |(i, frame): (usize, &Frame)| frame.displacement(i, row);
@@ -74,7 +74,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &State) -> Snapshot {
         contacts.iter().map(move |contact| (left(contact), contact))
     });
     let placed = |(left, contact): (usize, &Contact)| placed(&frames[left], left, contact);
-    Snapshot {
+    StripSnapshot {
         curvature: strip.curvature(&state.z),
         moment: strip.normalised_moment(&state.z),
         end_rotation_deg: strip.angle_deg(state),

@@ -7,7 +7,7 @@ use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, Part, State};
+use crate::contacts::{Contacts, PAIR_FORCES, Part, SkinState};
 
 /// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
@@ -180,7 +180,7 @@ impl Strip {
     }
 
     /// Energy of the membrane of the gaps that are solved for.
-    pub(crate) fn membrane_energy(&self, state: &State) -> GapEnergies {
+    pub(crate) fn membrane_energy(&self, state: &SkinState) -> GapEnergies {
         let mut energy = GapEnergies { axial: 0.0, bending: 0.0 };
         for gap in 0..self.layout.gaps {
             let of_gap = self.membrane(gap).energies(&self.acting(state, gap));
@@ -191,20 +191,20 @@ impl Strip {
     }
 
     /// The largest strain at the surface of the membrane of any gap.
-    pub(crate) fn largest_strain(&self, state: &State) -> f64 {
+    pub(crate) fn largest_strain(&self, state: &SkinState) -> f64 {
         let strain = |gap: usize| self.membrane(gap).largest_strain(&self.acting(state, gap));
         (0..self.layout.gaps).map(strain).fold(0.0, f64::max)
     }
 
     /// The deformed axis of the membrane in a gap, in intervals of its elements, from the node of the
     /// left scale and seen from it.
-    pub(crate) fn axis(&self, state: &State, gap: usize, intervals: usize) -> Vec<Vec2> {
+    pub(crate) fn axis(&self, state: &SkinState, gap: usize, intervals: usize) -> Vec<Vec2> {
         self.membrane(gap).axis(&self.acting(state, gap), intervals)
     }
 
     /// Returns a state of this strip as a state of `finer`, the same strip with more unknowns in each gap. `None` if their
     /// membranes are elements, which have no other resolution.
-    pub(crate) fn transferred(&self, state: &State, finer: &Self) -> Option<State> {
+    pub(crate) fn transferred(&self, state: &SkinState, finer: &Self) -> Option<SkinState> {
         let mut z = Vec::with_capacity(finer.layout.size());
         for gap in 0..self.layout.gaps {
             let start = self.layout.membrane(gap);
@@ -213,11 +213,11 @@ impl Strip {
             z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
         }
         z.push(state.z[self.layout.moment()]);
-        Some(State { z, active: state.active.clone(), mode: state.mode.clone() })
+        Some(SkinState { z, active: state.active.clone(), mode: state.mode.clone() })
     }
 
     /// The condition that the ends have turned against each other as they have in `state`.
-    pub(crate) fn same_rotation(&self, state: &State) -> Condition {
+    pub(crate) fn same_rotation(&self, state: &SkinState) -> Condition {
         Condition::through(vec![(self.controls[0].index, 1.0)], &state.z)
     }
 
@@ -236,7 +236,7 @@ impl Strip {
     }
 
     /// The state of a gap's membrane, seen from its left scale, without the unknowns that vanish.
-    fn acting(&self, state: &State, gap: usize) -> Vec<f64> {
+    fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
         let start = self.layout.membrane(gap);
         let end = start + self.layout.interior + 3;
         let first = start + self.vanishing(&state.active, gap);
@@ -296,7 +296,7 @@ impl System for Strip {
         self.contacts.open()
     }
 
-    fn residual(&self, state: &State, residual: &mut Residual) {
+    fn residual(&self, state: &SkinState, residual: &mut Residual) {
         residual.clear(&self.units);
         for gap in 0..self.layout.gaps {
             for unknown in self.pinned(&state.active, gap) {
@@ -311,7 +311,7 @@ impl System for Strip {
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
+    fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
         for gap in 0..self.layout.gaps {
             for unknown in self.pinned(&state.active, gap) {
                 matrix.add(unknown, unknown, self.units[unknown]);
@@ -328,23 +328,23 @@ impl System for Strip {
         self.contacts.add_tangent(state, matrix);
     }
 
-    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+    fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
     }
 
-    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+    fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
         self.contacts.condition_slopes(state, direction, slopes);
     }
 
-    fn condition(&self, state: &State, constraint: usize) -> f64 {
+    fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         self.contacts.condition(state, constraint)
     }
 
-    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+    fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         self.contacts.slope(state, constraint, direction)
     }
 
-    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+    fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         self.contacts.transition(state, change)
     }
 }

@@ -3,14 +3,14 @@
 use contact::Law;
 use solver::{Path, Settings};
 
-use super::problem::Problem;
+use super::problem::FlexureProblem;
 use super::strip::Strip;
-use super::{Method, Parameters};
-use crate::contacts::{Point, State};
+use super::{FlexureParameters, Method};
+use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design};
 
 /// `∫ M dΦ` between two points: the rule of Boole on five equilibria, evenly apart in `Φ`.
-fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
+fn work(path: &mut Path<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let strip = path.system();
@@ -21,9 +21,9 @@ fn work(path: &mut Path<Strip>, from: &Point, to: &Point) -> f64 {
 
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
-fn balance(design: &Design, common: &Common, parameters: &Parameters) -> [f64; 3] {
-    let strip = Problem::even(design, common, parameters).unwrap().resolved_strip().unwrap();
-    let rest = State::at_rest(&strip);
+fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> [f64; 3] {
+    let strip = FlexureProblem::even(design, common, parameters).unwrap().resolved_strip().unwrap();
+    let rest = SkinState::at_rest(&strip);
     let mut path = Path::new(strip, rest, common.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);
     loop {
@@ -52,10 +52,10 @@ fn the_work_of_the_moment_is_stored() {
         for (law, modulus) in
             [(Law::PRINTED, 667.0), (Law::EXCHANGED, 667.0), (Law::EXCHANGED, 1.0)]
         {
-            let parameters = Parameters {
+            let parameters = FlexureParameters {
                 contact_modulus_over_membrane: modulus,
                 membrane_length: 20.0,
-                ..Parameters::default()
+                ..FlexureParameters::default()
             };
             let [off, axial, contact] =
                 balance(&design(gap, length, slant_deg), &Common { law, solver }, &parameters);
@@ -71,7 +71,11 @@ fn the_work_of_the_moment_is_stored() {
 fn a_chain_stores_what_its_cells_do() {
     let design = Design { gap: 0.3, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
     let solver = Settings { max_step: 0.01, ..Settings::default() };
-    let chain = Parameters { method: Method::Chain, membrane_length: 8.0, ..Parameters::default() };
+    let chain = FlexureParameters {
+        method: Method::Chain,
+        membrane_length: 8.0,
+        ..FlexureParameters::default()
+    };
     let common = Common { solver, ..Common::default() };
     let [off, axial, _] = balance(&design, &common, &chain);
     assert!(off < 1e-6, "{off:e}");

@@ -3,22 +3,22 @@
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
 
-use super::problem::Problem;
-use super::{Flexure, Mesh, Method, Parameters};
+use super::problem::FlexureProblem;
+use super::{Flexure, FlexureParameters, MembraneMesh, Method};
 use crate::arrangement::Arrangement;
 use crate::{Base, Common, ContactChange, Design, Status};
 
 const GAPS: [f64; 6] = [0.05, 0.07, 0.04, 0.06, 0.055, 0.045];
 
-fn parameters() -> Parameters {
-    Parameters {
+fn parameters() -> FlexureParameters {
+    FlexureParameters {
         contact_modulus_over_membrane: 667.0,
         method: Method::Chain,
         membrane_length: 6.0,
         membrane_thickness: 0.125,
         membrane_axis_offset: 0.0,
         gaps: None,
-        elements_per_gap: Mesh::Elements(2),
+        elements_per_gap: MembraneMesh::Elements(2),
         max_end_rotation_deg: 60.0,
     }
 }
@@ -33,7 +33,8 @@ fn bent(gaps: &[f64], slants_deg: &[f64]) -> Flexure {
     let row = Arrangement::Uneven(row);
     let (design, parameters, common) = (design(0.0), parameters(), Common::default());
     let gaps = gaps.len();
-    let problem = Problem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
+    let problem =
+        FlexureProblem::new(&design, &common, &parameters, row, gaps as f64, gaps).unwrap();
     let flexure = problem.solve().unwrap();
     assert_eq!(flexure.status, Status::Complete);
     flexure
@@ -82,7 +83,7 @@ fn the_mirror_image_of_a_strip_bends_alike() {
 fn a_strip_of_equal_gaps_is_the_even_strip() {
     let uneven = bent(&[0.05; 6], &[60.0; 7]);
     let (common, parameters) = (Common::default(), parameters());
-    let even = Problem::even(&design(60.0), &common, &parameters).unwrap().solve().unwrap();
+    let even = FlexureProblem::even(&design(60.0), &common, &parameters).unwrap().solve().unwrap();
     assert_eq!(even.gaps, 6);
     let measures = |flexure: &Flexure| {
         let m = flexure.measures;

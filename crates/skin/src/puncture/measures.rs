@@ -9,7 +9,7 @@ use crate::record::{Record, Skin};
 
 /// The measures of a puncture; `None` where the value does not exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Measures {
+pub struct PunctureMeasures {
     /// `F_c* = F (1−ν²)/(E_s L t)` at the critical tilt.
     pub critical_force: Option<f64>,
     /// Largest `F*` up to the critical tilt.
@@ -36,7 +36,7 @@ pub struct Measures {
     pub secant_stiffness: Option<f64>,
 }
 
-impl Measures {
+impl PunctureMeasures {
     /// The measures of a path that came to its end. `modulus` is `E*/E_s`: stiffness is measured in `E_s t`, the force in
     /// `E* t²`.
     pub(crate) fn new(record: &Record<Chain>, path: &mut Path<Chain>, modulus: f64) -> Self {

@@ -1,12 +1,12 @@
 //! Equilibria of a row as they are recorded.
 
 use super::system::Chain;
-use crate::contacts::{Contacts, Point, State};
+use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
 
 /// One equilibrium of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
+pub struct PuncturePoint {
     /// `u*` of the punctured point, downward.
     pub displacement: f64,
     /// `F*`.
@@ -36,15 +36,15 @@ pub struct ScaleState {
 }
 
 impl Skin for Chain {
-    type PathPoint = PathPoint;
+    type PathPoint = PuncturePoint;
 
     fn contacts(&self) -> &Contacts {
         &self.contacts
     }
 
-    fn path_point(&self, point: &Point) -> PathPoint {
+    fn path_point(&self, point: &SkinPoint) -> PuncturePoint {
         let state = &point.state;
-        PathPoint {
+        PuncturePoint {
             displacement: self.depth(&state.z),
             force: self.force(state),
             tilt_deg: self.angle_deg(state),
@@ -54,12 +54,12 @@ impl Skin for Chain {
         }
     }
 
-    fn angle_deg(&self, state: &State) -> f64 {
+    fn angle_deg(&self, state: &SkinState) -> f64 {
         -self.displacement(&state.z, self.layout.left)[2].to_degrees()
     }
 
     /// Tangent stiffness `dF/du` of the punctured point, over `E* t`.
-    fn stiffness(&self, state: &State, direction: &[f64]) -> f64 {
+    fn stiffness(&self, state: &SkinState, direction: &[f64]) -> f64 {
         direction[self.layout.load()] / self.depth_slope(&state.z, direction)
     }
 
@@ -67,13 +67,13 @@ impl Skin for Chain {
         Some(self.layout.number(scale))
     }
 
-    fn interpenetrates(&self, state: &State) -> bool {
+    fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.interpenetrate(state)
     }
 }
 
 /// Every scale of a row, from the left.
-pub(super) fn scales(chain: &Chain, state: &State) -> Vec<ScaleState> {
+pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
     let scale = |i| {
         let [x, y, rotation] = chain.displacement(&state.z, i);
         ScaleState {

@@ -4,10 +4,10 @@ use solver::{Path, Settings};
 
 use super::system::{Chain, Layout};
 use super::{
-    InvalidDesign, Parameters, PathPoint, Problem, Puncture, RowLength, RowStiffness, Rows,
-    ScaleState, Status, scales,
+    InvalidDesign, Problem, Puncture, PunctureParameters, PuncturePoint, RowLength, RowStiffness,
+    Rows, ScaleState, Status, scales,
 };
-use crate::contacts::{Contact, State};
+use crate::contacts::{Contact, SkinState};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
 use crate::{Common, Design};
@@ -28,7 +28,7 @@ pub enum At {
 
 /// A row of scales in equilibrium.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Snapshot {
+pub struct RowSnapshot {
     /// `u*` of the punctured point, downward.
     pub displacement: f64,
     /// `F*`.
@@ -47,7 +47,7 @@ pub struct Snapshots {
     /// The puncture, followed as far as the snapshots need.
     pub puncture: Puncture,
     /// A snapshot for each place; `None` where the path does not get there.
-    pub at: Vec<Option<Snapshot>>,
+    pub at: Vec<Option<RowSnapshot>>,
 }
 
 /// Solves the puncture of `design` at the places `at`: each is an equilibrium of its own, not
@@ -59,7 +59,7 @@ pub fn snapshots(
     design: &Design,
     substrate: impl Into<RowStiffness>,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
     at: &[At],
 ) -> Result<Snapshots, InvalidDesign> {
     let stiffness = &substrate.into();
@@ -83,7 +83,7 @@ pub fn snapshots(
 /// Whether a path that came to its end has not come to every place.
 fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
     let largest =
-        |value: fn(&PathPoint) -> f64| puncture.path.iter().map(value).fold(0.0, f64::max);
+        |value: fn(&PuncturePoint) -> f64| puncture.path.iter().map(value).fold(0.0, f64::max);
     let beyond = |at: &At| match *at {
         At::Displacement(u) => u > largest(|point| point.displacement),
         At::Force(force) => force > largest(|point| point.force),
@@ -99,9 +99,9 @@ fn layout(puncture: &Puncture) -> Layout {
     Layout { left, right: puncture.scales.len().saturating_sub(left + 1) }
 }
 
-fn along(chain: Chain, settings: Settings, at: &[At]) -> Vec<Option<Snapshot>> {
+fn along(chain: Chain, settings: Settings, at: &[At]) -> Vec<Option<RowSnapshot>> {
     let crossing = |&at: &At| {
-        let quantity = move |chain: &Chain, state: &State| match at {
+        let quantity = move |chain: &Chain, state: &SkinState| match at {
             At::Displacement(_) => chain.depth(&state.z),
             At::Force(_) => chain.force(state),
             At::Tilt(_) => chain.angle_deg(state),
@@ -110,15 +110,15 @@ fn along(chain: Chain, settings: Settings, at: &[At]) -> Vec<Option<Snapshot>> {
         Crossing { quantity, value }
     };
     let crossings: Vec<_> = at.iter().map(crossing).collect();
-    let rest = State::at_rest(&chain);
+    let rest = SkinState::at_rest(&chain);
     let mut path = Path::new(chain, rest, settings);
     let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<State>| Some(snapshot(path.system(), &state?));
+    let snapshot = |state: Option<SkinState>| Some(snapshot(path.system(), &state?));
     states.into_iter().map(snapshot).collect()
 }
 
-fn snapshot(chain: &Chain, state: &State) -> Snapshot {
-    Snapshot {
+fn snapshot(chain: &Chain, state: &SkinState) -> RowSnapshot {
+    RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
         tilt_deg: chain.angle_deg(state),

@@ -7,7 +7,7 @@ use substrate::{FarField, Neighbour, RowStiffness};
 
 use super::window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, State};
+use crate::contacts::{Contacts, PAIR_FORCES, SkinState};
 
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
@@ -151,7 +151,7 @@ impl Chain {
     }
 
     /// How near a state has come to the left and to the right end, if there is more beyond them.
-    pub(crate) fn reach(&self, state: &State) -> [Reach; 2] {
+    pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
         self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
     }
@@ -246,12 +246,12 @@ impl Chain {
     }
 
     /// `F*`.
-    pub(crate) fn force(&self, state: &State) -> f64 {
+    pub(crate) fn force(&self, state: &SkinState) -> f64 {
         state.z[self.layout.load()] / self.length
     }
 
     /// Elastic energy of the springs, over `E* t³`.
-    pub(crate) fn substrate_energy(&self, state: &State) -> f64 {
+    pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let springs = (0..self.layout.scales()).map(|i| {
             let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
             -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
@@ -304,14 +304,14 @@ impl System for Chain {
         self.contacts.open()
     }
 
-    fn residual(&self, state: &State, residual: &mut Residual) {
+    fn residual(&self, state: &SkinState, residual: &mut Residual) {
         residual.clear(&self.units);
         self.add_springs(&state.z, residual);
         self.add_load(&state.z, residual);
         self.contacts.add_residual(state, residual);
     }
 
-    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
+    fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
         let z = &state.z;
         self.for_springs(|row, column, value| matrix.add(row, column, value));
         let at = self.layout.scale(self.layout.left);
@@ -322,7 +322,7 @@ impl System for Chain {
         self.contacts.add_tangent(state, matrix);
     }
 
-    fn linearise(&self, state: &State, residual: &mut Residual, matrix: &mut impl Tangent) {
+    fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
         self.for_springs(|row, column, value| {
@@ -338,23 +338,23 @@ impl System for Chain {
         self.contacts.linearise(state, residual, matrix);
     }
 
-    fn conditions(&self, state: &State, values: &mut Vec<f64>) {
+    fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
     }
 
-    fn condition_slopes(&self, state: &State, direction: &[f64], slopes: &mut Vec<f64>) {
+    fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
         self.contacts.condition_slopes(state, direction, slopes);
     }
 
-    fn condition(&self, state: &State, constraint: usize) -> f64 {
+    fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
         self.contacts.condition(state, constraint)
     }
 
-    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+    fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         self.contacts.slope(state, constraint, direction)
     }
 
-    fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
+    fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
         self.contacts.transition(state, change)
     }
 }

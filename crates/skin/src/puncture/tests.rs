@@ -9,9 +9,9 @@ use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::system::{Chain, Layout};
 use super::window::Reach;
-use super::{Parameters, Problem, Rows};
+use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
-use crate::contacts::{Point, State};
+use crate::contacts::{SkinPoint, SkinState};
 use crate::{Base, Common, Design, Status};
 
 /// A steep row in which contacts open, close, slide to corners and change their parts.
@@ -64,12 +64,15 @@ fn path_on(
     let row = design.row().unwrap();
     let row = Arrangement::Even(row);
     let chain = Chain::new(row, stiffness, law, layout, load_position, tilt, design.length);
-    let rest = State::at_rest(&chain);
+    let rest = SkinState::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
 }
 
 /// Shows every segment of a path.
-fn for_segments(mut path: Path<Chain>, mut show: impl FnMut(&mut Path<Chain>, &Point, &Point)) {
+fn for_segments(
+    mut path: Path<Chain>,
+    mut show: impl FnMut(&mut Path<Chain>, &SkinPoint, &SkinPoint),
+) {
     loop {
         let from = path.point().clone();
         let Some(to) = path.next() else { return };
@@ -126,7 +129,7 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
             let along = state.z.iter().zip(&from.leaving);
             let z = along.map(|(z, d)| z + shift * d).collect();
             let mut conditions = Vec::new();
-            chain.conditions(&State { z, ..state.clone() }, &mut conditions);
+            chain.conditions(&SkinState { z, ..state.clone() }, &mut conditions);
             conditions
         };
         let (low, high) = (at(-1e-7), at(1e-7));
@@ -144,7 +147,7 @@ fn the_slope_of_an_open_gap_agrees_with_finite_differences() {
 }
 
 /// `∫ F du` between two points: the rule of Boole on five equilibria, `u'` by their polynomial.
-fn work(path: &mut Path<Chain>, from: &Point, to: &Point) -> f64 {
+fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let chain = path.system();
@@ -242,8 +245,10 @@ fn one_neighbour_without_rotation_is_the_paper() {
         let mut one = RowStiffness::solve(&footprint, 1).unwrap();
         one.neighbours[0].cross = 0.0;
         let springs = calibrate(&footprint).unwrap();
-        let parameters =
-            Parameters { scales: super::RowLength::Scales(21), ..Parameters::default() };
+        let parameters = PunctureParameters {
+            scales: super::RowLength::Scales(21),
+            ..PunctureParameters::default()
+        };
         let ours = super::solve(&design, &one, &Common::default(), &parameters).unwrap();
         let paper = super::solve(&design, &springs, &Common::default(), &parameters).unwrap();
         assert_eq!(ours.measures, paper.measures);
@@ -260,7 +265,7 @@ fn more_neighbours_change_next_to_nothing() {
         let design = Design { slant_deg, ..BLOCKS };
         let at = |neighbours| {
             let row = RowStiffness::solve(&design.footprint(0.5).unwrap(), neighbours).unwrap();
-            super::solve(&design, &row, &Common::default(), &Parameters::default())
+            super::solve(&design, &row, &Common::default(), &PunctureParameters::default())
                 .unwrap()
                 .measures
         };
@@ -307,7 +312,7 @@ fn rows_grow_as_far_as_there_is_room() {
 #[test]
 fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let springs = calibrate(&DOMINO.footprint(0.5).unwrap()).unwrap();
-    let parameters = &Parameters::default();
+    let parameters = &PunctureParameters::default();
     let row = Rows::Even(DOMINO.row().unwrap());
     let problem =
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
@@ -326,8 +331,8 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
 #[test]
 fn parameters_out_of_their_range_are_refused() {
     let springs = calibrate(&BLOCKS.footprint(0.5).unwrap()).unwrap();
-    let refused = |change: fn(&mut Parameters)| {
-        let mut parameters = Parameters::default();
+    let refused = |change: fn(&mut PunctureParameters)| {
+        let mut parameters = PunctureParameters::default();
         change(&mut parameters);
         super::solve(&BLOCKS, &springs, &Common::default(), &parameters).unwrap_err().to_string()
     };

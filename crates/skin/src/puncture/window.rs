@@ -11,7 +11,7 @@ use substrate::{FarField, RowStiffness};
 use super::Rows;
 use super::system::{Chain, Layout};
 use crate::InvalidDesign;
-use crate::contacts::{Contacts, PAIR_FORCES, Point, State};
+use crate::contacts::{Contacts, PAIR_FORCES, SkinPoint, SkinState};
 
 /// Scales on each side of the punctured one with which the path of an endless row begins.
 const FIRST_SCALES: usize = 4;
@@ -96,7 +96,7 @@ impl Surroundings {
     }
 
     /// How near a state of a `chain` has come to the left and to the right end.
-    pub(super) fn reach(&self, chain: &Chain, state: &State) -> [Reach; 2] {
+    pub(super) fn reach(&self, chain: &Chain, state: &SkinState) -> [Reach; 2] {
         let last = chain.layout.scales() - 1;
         let [left, right] = Contacts::touching_at_ends(state);
         [(0, left, 0), (last, right, 1)].map(|(end, touches, side)| {
@@ -146,7 +146,7 @@ fn still_beyond(stiffness: &RowStiffness) -> usize {
 
 impl Chain {
     /// A point of the path of a `shorter` row, which lies within this one, as a point of this one.
-    pub(super) fn extended(&self, shorter: &Self, point: &Point) -> Point {
+    pub(super) fn extended(&self, shorter: &Self, point: &SkinPoint) -> SkinPoint {
         let added = self.layout.left - shorter.layout.left;
         let constraint = |constraint: usize| constraint + PAIR_FORCES * added;
         let event = point.event.clone().map(|event| match event {
@@ -159,11 +159,11 @@ impl Chain {
             other => other,
         });
         let unknowns = |z: &[f64]| self.extended_unknowns(shorter, z);
-        let mut state = State::at_rest(self);
+        let mut state = SkinState::at_rest(self);
         state.z = unknowns(&point.state.z);
         copy_to(&mut state.active, constraint(0), &point.state.active);
         copy_to(&mut state.mode, Contacts::contacts_of(added).start, &point.state.mode);
-        Point {
+        SkinPoint {
             state,
             arriving: unknowns(&point.arriving),
             leaving: unknowns(&point.leaving),

@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use contact::Law;
 use rayon::prelude::*;
-use skin::flexure::{Method, Parameters, Snapshot, snapshots, solve, whole_gaps};
+use skin::flexure::{FlexureParameters, Method, StripSnapshot, snapshots, solve, whole_gaps};
 use skin::{Common, Design, Status};
 
 use crate::samples::{LAWS, forty, with_law};
@@ -13,10 +13,10 @@ const AT: [f64; 12] = [1.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 150.
 
 fn compare(design: &Design, law: Law) -> usize {
     let with = |method| {
-        let gaps = Some(whole_gaps(&design.row().unwrap(), &Parameters::default()));
-        let parameters = Parameters { method, gaps, ..Parameters::default() };
+        let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));
+        let parameters = FlexureParameters { method, gaps, ..FlexureParameters::default() };
         let shots = snapshots(design, &with_law(law), &parameters, &AT).unwrap();
-        shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<Snapshot>>()
+        shots.into_iter().map(|shot| shot.expect("reached")).collect::<Vec<StripSnapshot>>()
     };
     let [cell, chain] = [with(Method::UnitCell), with(Method::Chain)];
     for (cell, chain) in cell.iter().zip(&chain) {
@@ -41,8 +41,8 @@ fn forty_designs_have_the_same_moments_with_both() {
 fn and_the_same_measures() {
     for design in forty().iter().step_by(5) {
         let with = |method| {
-            let gaps = Some(whole_gaps(&design.row().unwrap(), &Parameters::default()));
-            let parameters = Parameters { method, gaps, ..Parameters::default() };
+            let gaps = Some(whole_gaps(&design.row().unwrap(), &FlexureParameters::default()));
+            let parameters = FlexureParameters { method, gaps, ..FlexureParameters::default() };
             let flexure = solve(design, &Common::default(), &parameters).unwrap();
             assert_eq!(flexure.status, Status::Complete);
             flexure.measures

@@ -4,7 +4,7 @@ use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,
 };
 use approx::assert_relative_eq;
-use skin::flexure::{Flexure, Mesh, Parameters, solve};
+use skin::flexure::{Flexure, FlexureParameters, MembraneMesh, solve};
 use skin::{Base, Common, ContactChange};
 
 use crate::samples::{design, forty, in_small_steps};
@@ -14,7 +14,7 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
     let mut compared = 0;
     for design in forty() {
         let pitch = design.row().unwrap().pitch();
-        let flexure = solve(&design, &in_small_steps(), &Parameters::default()).unwrap();
+        let flexure = solve(&design, &in_small_steps(), &FlexureParameters::default()).unwrap();
         let free = flexure.path.iter().skip(1).take_while(|point| point.contacts == 0);
         for point in free {
             let expected = point.curvature * moment_over_curvature(design.gap, pitch);
@@ -28,15 +28,19 @@ fn before_contact_the_moment_is_the_curvature_times_pitch_over_gap() {
 }
 
 /// Upright blocks on a strip so short that they meet, with this mesh in each gap.
-fn blocks(gap: f64, length: f64, elements_per_gap: Mesh) -> Flexure {
-    let parameters = Parameters { membrane_length: 4.0, elements_per_gap, ..Parameters::default() };
+fn blocks(gap: f64, length: f64, elements_per_gap: MembraneMesh) -> Flexure {
+    let parameters = FlexureParameters {
+        membrane_length: 4.0,
+        elements_per_gap,
+        ..FlexureParameters::default()
+    };
     solve(&design(gap, length, 0.0, Base::L), &Common::default(), &parameters).unwrap()
 }
 
 #[test]
 fn upright_blocks_meet_at_a_moment_of_one() {
     for (gap, length) in [(0.1, 1.0), (0.1, 0.2), (0.3, 0.5), (0.5, 1.0)] {
-        let flexure = blocks(gap, length, Mesh::Auto);
+        let flexure = blocks(gap, length, MembraneMesh::Auto);
         let first = flexure.events[0];
         assert_eq!(first.change, ContactChange::Closed);
         assert_relative_eq!(first.point.moment, CONTACT_MOMENT, max_relative = 1e-9);
@@ -50,7 +54,7 @@ fn upright_blocks_meet_at_a_moment_of_one() {
 fn with_few_elements_they_meet_where_the_polygon_says() {
     for elements in [1, 2, 3, 8] {
         for gap in [0.1, 0.5, 1.0] {
-            let first = blocks(gap, 1.0, Mesh::Elements(elements)).events[0];
+            let first = blocks(gap, 1.0, MembraneMesh::Elements(elements)).events[0];
             let expected = contact_moment_of_polygon(gap, elements);
             assert_relative_eq!(first.point.moment, expected, max_relative = 1e-9);
         }

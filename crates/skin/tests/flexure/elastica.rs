@@ -4,7 +4,7 @@
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
-use skin::flexure::{Measures, Mesh, Parameters, solve};
+use skin::flexure::{FlexureMeasures, FlexureParameters, MembraneMesh, solve};
 use skin::{Base, Common, Design, Status};
 
 /// A design with the values of the reference.
@@ -40,9 +40,10 @@ fn reference(line: &str) -> Reference {
 }
 
 impl Reference {
-    fn measures(&self, elements_per_gap: Mesh) -> Measures {
+    fn measures(&self, elements_per_gap: MembraneMesh) -> FlexureMeasures {
         let membrane_length = self.gaps * self.design.row().unwrap().pitch();
-        let parameters = Parameters { membrane_length, elements_per_gap, ..Parameters::default() };
+        let parameters =
+            FlexureParameters { membrane_length, elements_per_gap, ..FlexureParameters::default() };
         let flexure = solve(&self.design, &Common::default(), &parameters).unwrap();
         assert_eq!(flexure.status, Status::Complete, "{:?}", self.design);
         flexure.measures
@@ -54,7 +55,7 @@ fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
     let references = references();
     assert_eq!(references.len(), 60 + 10);
     references.par_iter().for_each(|reference| {
-        let ours = reference.measures(Mesh::Auto);
+        let ours = reference.measures(MembraneMesh::Auto);
         let error = ours.error.unwrap();
         assert!(error <= 1e-4, "{:?}: {error:e}", reference.design);
         let close = |ours: Option<f64>, theirs: f64, tolerance: f64| {
@@ -72,7 +73,7 @@ fn sixty_designs_with_whole_gaps_and_ten_with_parts_of_one() {
 fn elements_converge_to_it_with_the_square_of_their_length() {
     for reference in references().iter().step_by(7) {
         let error = |elements: usize| {
-            let ours = reference.measures(Mesh::Elements(elements));
+            let ours = reference.measures(MembraneMesh::Elements(elements));
             ours.max_moment.unwrap() / reference.end_moment - 1.0
         };
         let [coarse, fine] = [error(32), error(64)];
@@ -95,10 +96,10 @@ const ONE_ELEMENT: [(f64, f64, usize, f64, f64); 6] = [
 fn one_element_gives_the_numbers_of_the_first_tables() {
     for (gap, length, gaps, compliance, end_moment) in ONE_ELEMENT {
         let design = Design { gap, length, slant_deg: 75.0, base: Base::L, width: 1.0 };
-        let parameters = Parameters {
+        let parameters = FlexureParameters {
             gaps: Some(gaps),
-            elements_per_gap: Mesh::Elements(1),
-            ..Parameters::default()
+            elements_per_gap: MembraneMesh::Elements(1),
+            ..FlexureParameters::default()
         };
         let measures = solve(&design, &Common::default(), &parameters).unwrap().measures;
         assert_relative_eq!(measures.compliance.unwrap(), compliance, max_relative = 1e-9);

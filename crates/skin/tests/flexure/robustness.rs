@@ -1,7 +1,7 @@
 //! Every design of the reference study can be bent to a full turn.
 
 use rayon::prelude::*;
-use skin::flexure::{Mesh, Parameters, solve};
+use skin::flexure::{FlexureParameters, MembraneMesh, solve};
 use skin::{Base, Common, Status};
 use solver::Stop;
 
@@ -14,7 +14,8 @@ fn the_reference_study_completes_with_either_law() {
             let touching: usize = reference_study(base)
                 .par_iter()
                 .map(|design| {
-                    let flexure = solve(design, &with_law(law), &Parameters::default()).unwrap();
+                    let flexure =
+                        solve(design, &with_law(law), &FlexureParameters::default()).unwrap();
                     assert_eq!(flexure.status, Status::Complete, "{design:?} {law:?}");
                     usize::from(flexure.measures.contact == Some(true))
                 })
@@ -27,7 +28,7 @@ fn the_reference_study_completes_with_either_law() {
 /// Scales as long as a third of the strip turn so far against each other that a corner slides off the top of a side.
 #[test]
 fn a_contact_beyond_its_edge_fails_the_audit() {
-    let parameters = Parameters { gaps: Some(3), ..Parameters::default() };
+    let parameters = FlexureParameters { gaps: Some(3), ..FlexureParameters::default() };
     let flexure =
         solve(&design(0.05, 2.05, 30.0, Base::L), &Common::default(), &parameters).unwrap();
     assert_eq!(flexure.status, Status::OffEdge);
@@ -42,12 +43,12 @@ fn a_strip_whose_sides_come_to_lie_flush_has_no_compliance() {
         (design(0.97, 0.4, 80.0, Base::L), 4, 356.83),
         (design(0.18, 3.0, 80.0, Base::L), 9, 20275.2),
     ] {
-        let parameters = Parameters {
+        let parameters = FlexureParameters {
             gaps: Some(gaps),
             // An elastica gives way before its side lies flush.
-            elements_per_gap: Mesh::Elements(1),
+            elements_per_gap: MembraneMesh::Elements(1),
             membrane_axis_offset: 1.0,
-            ..Parameters::default()
+            ..FlexureParameters::default()
         };
         let flexure = solve(&design, &in_small_steps(), &parameters).unwrap();
         assert_eq!(flexure.status, Status::Stopped(Stop::Singular));

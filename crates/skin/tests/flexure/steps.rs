@@ -3,7 +3,7 @@
 use approx::assert_relative_eq;
 use rayon::prelude::*;
 use skin::Common;
-use skin::flexure::{Parameters, solve};
+use skin::flexure::{FlexureParameters, solve};
 use solver::Settings;
 
 use crate::samples::{LAWS, finer, forty};
@@ -14,8 +14,9 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     let fine = finer(coarse);
     for law in LAWS {
         forty().par_iter().for_each(|design| {
-            let with =
-                |solver| solve(design, &Common { law, solver }, &Parameters::default()).unwrap();
+            let with = |solver| {
+                solve(design, &Common { law, solver }, &FlexureParameters::default()).unwrap()
+            };
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
             let compliance =

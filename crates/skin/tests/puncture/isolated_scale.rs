@@ -3,7 +3,7 @@
 use analytical::isolated_scale::IsolatedScale;
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::puncture::Parameters;
+use skin::puncture::PunctureParameters;
 use skin::{Base, Status};
 use solver::Stop;
 use substrate::Calibrations;
@@ -12,7 +12,7 @@ use crate::samples::{design, in_small_steps, on_row, solve_as, solve_with, sprin
 
 fn closed_form(
     design: &skin::Design,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
     known: &Calibrations,
 ) -> IsolatedScale {
     let (a, springs) = (design.half_base(), springs(design, parameters, known));
@@ -33,7 +33,7 @@ fn the_whole_path_follows_the_closed_form() {
         {
             for load_position in [1.0, 0.8] {
                 let design = design(gap, length, slant, base);
-                let parameters = Parameters { load_position, ..on_row(1) };
+                let parameters = PunctureParameters { load_position, ..on_row(1) };
                 let exact = closed_form(&design, &parameters, &known);
                 let puncture = solve_as(&known, &design, &in_small_steps(), &parameters);
                 assert_eq!(puncture.status, Status::Complete);
@@ -78,7 +78,7 @@ fn its_measures_are_those_of_the_closed_form() {
 /// it buckles. The tilt cannot drive it.
 #[test]
 fn a_load_over_the_node_does_not_tilt_a_block() {
-    let parameters = Parameters { load_position: 0.5, ..on_row(1) };
+    let parameters = PunctureParameters { load_position: 0.5, ..on_row(1) };
     let (known, common) = (Calibrations::default(), with_law(Law::EXCHANGED));
     let block = design(0.1, 1.0, 0.0, Base::L);
     let puncture = crate::samples::solve_as(&known, &block, &common, &parameters);

@@ -26,22 +26,22 @@ mod two_blocks;
 
 use approx::assert_relative_eq;
 use skin::Status;
-use skin::puncture::{Measures, PathPoint, Puncture};
+use skin::puncture::{Puncture, PunctureMeasures, PuncturePoint};
 
 /// The measures of a puncture that went all the way.
-fn complete(puncture: &Puncture) -> Measures {
+fn complete(puncture: &Puncture) -> PunctureMeasures {
     assert_eq!(puncture.status, Status::Complete);
     puncture.measures
 }
 
 /// The end of a path.
-fn end(puncture: &Puncture) -> PathPoint {
+fn end(puncture: &Puncture) -> PuncturePoint {
     *puncture.path.last().unwrap()
 }
 
 /// Compares all measures but the length of the row.
-fn assert_same_measures(ours: &Measures, theirs: &Measures, max_relative: f64) {
-    let numbers = |m: &Measures| {
+fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_relative: f64) {
+    let numbers = |m: &PunctureMeasures| {
         [
             m.critical_force,
             m.peak_force,

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::puncture::{PathPoint, Puncture};
+use skin::puncture::{Puncture, PuncturePoint};
 use skin::{Common, ContactChange, ContactEvent, Status};
 
 use solver::{Settings, Stop};
@@ -60,7 +60,9 @@ fn reactions_add_up_to_the_load() {
 
 /// Contacts that the events leave closed: their kinds at each level of each pair. Two are beside each other on flush
 /// edges, and one of them is left where it is handed over to the other or the corner is reached.
-fn closed_by(events: &[ContactEvent<PathPoint>]) -> HashMap<(i64, bool), HashSet<&'static str>> {
+fn closed_by(
+    events: &[ContactEvent<PuncturePoint>],
+) -> HashMap<(i64, bool), HashSet<&'static str>> {
     let mut closed = HashMap::new();
     for event in events {
         let kind = event.corner_edge.name();

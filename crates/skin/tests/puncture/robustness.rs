@@ -6,7 +6,7 @@ use contact::Law;
 use rayon::prelude::*;
 use skin::Design;
 use skin::Status;
-use skin::puncture::{Parameters, Puncture};
+use skin::puncture::{Puncture, PunctureParameters};
 use substrate::Calibrations;
 
 use crate::end;
@@ -18,7 +18,7 @@ use crate::samples::{
 fn solve_all(
     designs: &[Design],
     law: Law,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
     known: &Calibrations,
 ) -> Vec<Puncture> {
     let solve = |design| solve_as(known, design, &with_law(law), parameters);

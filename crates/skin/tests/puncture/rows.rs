@@ -1,7 +1,7 @@
 //! Rows of any length.
 
 use approx::assert_relative_eq;
-use skin::puncture::{Parameters, RowLength};
+use skin::puncture::{PunctureParameters, RowLength};
 use skin::{Base, Design};
 use substrate::{Calibrations, RowStiffness};
 
@@ -10,8 +10,8 @@ use crate::samples::{
 };
 use crate::{assert_same_measures, complete};
 
-fn automatic() -> Parameters {
-    Parameters { scales: RowLength::Auto, ..Parameters::default() }
+fn automatic() -> PunctureParameters {
+    PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::puncture::{self, Measures, Parameters};
+use skin::puncture::{self, PunctureMeasures, PunctureParameters};
 use skin::{Base, Common, Design};
 use substrate::Calibrations;
 
@@ -13,7 +13,7 @@ use crate::samples::{LAWS, on_row, settled, solve_as, springs, with_law};
 const SAME: f64 = 1e-9;
 
 /// Measures on the springs of an incompressible substrate, whatever the Poisson's ratio says.
-fn measured(design: &Design, parameters: &Parameters) -> Measures {
+fn measured(design: &Design, parameters: &PunctureParameters) -> PunctureMeasures {
     let springs = springs(&settled(), &on_row(1), &Calibrations::default());
     complete(&puncture::solve(design, &springs, &Common::default(), parameters).unwrap())
 }
@@ -22,7 +22,7 @@ fn measured(design: &Design, parameters: &Parameters) -> Measures {
 #[test]
 fn contact_and_plane_modulus_count_by_their_ratio() {
     let rubber = on_row(41);
-    let mut cork = Parameters { poisson_ratio: 0.0, ..rubber };
+    let mut cork = PunctureParameters { poisson_ratio: 0.0, ..rubber };
     cork.contact_modulus_over_substrate *= 0.75;
     let [rubber, cork] = [rubber, cork].map(|parameters| measured(&settled(), &parameters));
     let same = |a: Option<f64>, b: Option<f64>, factor: f64| {

@@ -2,18 +2,18 @@
 
 use approx::assert_relative_eq;
 use contact::CornerEdge;
-use skin::puncture::{At, Parameters, Snapshot, Snapshots, snapshots};
+use skin::puncture::{At, PunctureParameters, RowSnapshot, Snapshots, snapshots};
 use skin::{Common, Design};
 use substrate::Calibrations;
 
 use crate::samples::{folding, on_row, settled, solve, spread, springs};
 
-fn shots(design: &Design, parameters: &Parameters, at: &[At]) -> Snapshots {
+fn shots(design: &Design, parameters: &PunctureParameters, at: &[At]) -> Snapshots {
     let springs = springs(design, parameters, &Calibrations::default());
     snapshots(design, &springs, &Common::default(), parameters, at).unwrap()
 }
 
-fn shot(design: &Design, at: At) -> Snapshot {
+fn shot(design: &Design, at: At) -> RowSnapshot {
     shots(design, &on_row(41), &[at]).at.remove(0).expect("a place of the path")
 }
 
@@ -51,7 +51,7 @@ fn places_between_the_points_are_solved_for() {
 fn every_scale_is_in_equilibrium() {
     for design in spread() {
         for tilt in [2.0, 6.0, 10.0] {
-            let Snapshot { force, scales, contacts, .. } = shot(&design, At::Tilt(tilt));
+            let RowSnapshot { force, scales, contacts, .. } = shot(&design, At::Tilt(tilt));
             let first = scales[0].scale;
             let mut vertical: Vec<f64> = scales.iter().map(|scale| scale.reaction).collect();
             let punctured = usize::try_from(-first).unwrap();
@@ -71,7 +71,7 @@ fn every_scale_is_in_equilibrium() {
 #[test]
 fn a_contact_stands_at_the_corner_that_touches() {
     let design = folding();
-    let Snapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
+    let RowSnapshot { scales, contacts, .. } = shot(&design, At::Tilt(10.0));
     let row = design.row().unwrap();
     assert!(contacts.iter().any(|contact| contact.corner_edge == CornerEdge::BottomLeftOnBase));
     for contact in contacts {

@@ -1,6 +1,6 @@
 //! The pair of blocks of Fig. 3 of Shafiei et al. (2021): a kink in the curve where they touch.
 
-use skin::puncture::{PathPoint, Puncture};
+use skin::puncture::{Puncture, PuncturePoint};
 use skin::{Base, Common, ContactChange, Design};
 use solver::Settings;
 use substrate::Calibrations;
@@ -15,7 +15,7 @@ fn finely(design: &Design) -> Puncture {
 }
 
 /// Mean stiffness between two points, in units of that of the force.
-fn stiffness(points: &[PathPoint]) -> f64 {
+fn stiffness(points: &[PuncturePoint]) -> f64 {
     (points[1].force - points[0].force) / (points[1].displacement - points[0].displacement)
 }
 

@@ -4,7 +4,7 @@
 #![allow(dead_code)]
 
 use contact::Law;
-use skin::puncture::{self, Parameters, Puncture, RowLength};
+use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
 use skin::{Base, Common, Design};
 use solver::Settings;
 use substrate::{Calibrations, Springs};
@@ -126,8 +126,8 @@ pub fn in_small_steps() -> Common {
 }
 
 /// The reference parameters on a row of this many scales.
-pub fn on_row(scales: usize) -> Parameters {
-    Parameters { scales: RowLength::Scales(scales), ..Parameters::default() }
+pub fn on_row(scales: usize) -> PunctureParameters {
+    PunctureParameters { scales: RowLength::Scales(scales), ..PunctureParameters::default() }
 }
 
 /// These settings with steps a tenth as long.
@@ -140,12 +140,16 @@ pub fn finer(settings: Settings) -> Settings {
 }
 
 /// Springs under a design.
-pub fn springs(design: &Design, parameters: &Parameters, known: &Calibrations) -> Springs {
+pub fn springs(design: &Design, parameters: &PunctureParameters, known: &Calibrations) -> Springs {
     known.get(&design.footprint(parameters.poisson_ratio).unwrap()).unwrap()
 }
 
 /// Solves a design whose springs may be known.
-pub fn solve_with(known: &Calibrations, design: &Design, parameters: &Parameters) -> Puncture {
+pub fn solve_with(
+    known: &Calibrations,
+    design: &Design,
+    parameters: &PunctureParameters,
+) -> Puncture {
     solve_as(known, design, &Common::default(), parameters)
 }
 
@@ -154,7 +158,7 @@ pub fn solve_as(
     known: &Calibrations,
     design: &Design,
     common: &Common,
-    parameters: &Parameters,
+    parameters: &PunctureParameters,
 ) -> Puncture {
     puncture::solve(design, &springs(design, parameters, known), common, parameters).unwrap()
 }
@@ -165,6 +169,6 @@ pub fn with_law(law: Law) -> Common {
 }
 
 /// Solves a design.
-pub fn solve(design: &Design, parameters: &Parameters) -> Puncture {
+pub fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
     solve_with(&Calibrations::default(), design, parameters)
 }

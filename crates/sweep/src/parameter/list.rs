@@ -1,7 +1,7 @@
 //! The one list of parameters: it drives validation, messages, axes, columns and documentation.
 
 use skin::Base;
-use skin::flexure::{Mesh, Method};
+use skin::flexure::{MembraneMesh, Method};
 use skin::puncture::RowLength;
 use substrate::Coupling;
 
@@ -226,11 +226,12 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::CountOrAuto {
             range: CountRange { low: 1, high: 1000 },
             get: |c| match c.flexure.elements_per_gap {
-                Mesh::Auto => None,
-                Mesh::Elements(count) => Some(count),
+                MembraneMesh::Auto => None,
+                MembraneMesh::Elements(count) => Some(count),
             },
             set: |c, count| {
-                c.flexure.elements_per_gap = count.map_or(Mesh::Auto, Mesh::Elements);
+                c.flexure.elements_per_gap =
+                    count.map_or(MembraneMesh::Auto, MembraneMesh::Elements);
             },
         },
     },

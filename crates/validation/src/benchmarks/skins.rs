@@ -4,7 +4,7 @@ use analytical::isolated_scale::IsolatedScale;
 use analytical::upright_blocks::{
     CONTACT_MOMENT, contact_curvature, contact_moment_of_polygon, moment_over_curvature,
 };
-use skin::flexure::Mesh;
+use skin::flexure::MembraneMesh;
 use skin::puncture::RowLength;
 use skin::{Base, Common, Design, flexure, puncture};
 
@@ -25,8 +25,10 @@ pub(super) fn benchmarks() -> Result<Vec<Benchmark>, ValidationError> {
 /// Compares the critical force and displacement of a scale without neighbours.
 fn isolated_scale() -> Result<Vec<Benchmark>, ValidationError> {
     let design = Design { gap: 1.0, length: 0.5, slant_deg: 45.0, base: Base::L, width: 1.0 };
-    let parameters =
-        puncture::Parameters { scales: RowLength::Scales(1), ..puncture::Parameters::default() };
+    let parameters = puncture::PunctureParameters {
+        scales: RowLength::Scales(1),
+        ..puncture::PunctureParameters::default()
+    };
     let footprint = design.footprint(parameters.poisson_ratio).map_err(|e| wrong(&e))?;
     let springs = substrate::calibrate(&footprint).map_err(|e| wrong(&e))?;
     let measures = puncture::solve(&design, &springs, &Common::default(), &parameters)
@@ -56,14 +58,14 @@ fn bending() -> Result<Vec<Benchmark>, ValidationError> {
     let (gap, pitch) = (design.gap, design.gap + design.length);
     let missing = || ValidationError::Benchmark("upright blocks do not meet".to_owned());
     let bent = |elements_per_gap| {
-        let parameters = flexure::Parameters {
+        let parameters = flexure::FlexureParameters {
             membrane_length: 10.0,
             elements_per_gap,
-            ..flexure::Parameters::default()
+            ..flexure::FlexureParameters::default()
         };
         flexure::solve(&design, &Common::default(), &parameters).map_err(|e| wrong(&e))
     };
-    let (one, many) = (bent(Mesh::Elements(1))?, bent(Mesh::Auto)?);
+    let (one, many) = (bent(MembraneMesh::Elements(1))?, bent(MembraneMesh::Auto)?);
     let free = one.path.get(1).ok_or_else(missing)?;
     let first = |flexure: &flexure::Flexure| {
         Ok::<_, ValidationError>(flexure.events.first().ok_or_else(missing)?.point)

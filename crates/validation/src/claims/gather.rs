@@ -3,7 +3,7 @@
 use ranking::{Ranking, TetrahedralGrid, Weights};
 use rayon::prelude::*;
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, At, Puncture, RowLength, Snapshot, Snapshots};
+use skin::puncture::{self, At, Puncture, RowLength, RowSnapshot, Snapshots};
 use skin::{ContactChange, Status};
 use solver::Settings;
 use substrate::RowStiffness;
@@ -97,7 +97,7 @@ fn first_contact(puncture: &Puncture) -> Option<[f64; 2]> {
     (first.displacement < DEPTH).then_some([first.displacement, first.force])
 }
 
-fn curve_end(case: &Case, snapshot: &Snapshot) -> CurveEnd {
+fn curve_end(case: &Case, snapshot: &RowSnapshot) -> CurveEnd {
     let a = case.design.half_base();
     let depths = snapshot
         .scales
@@ -112,7 +112,7 @@ fn curve_end(case: &Case, snapshot: &Snapshot) -> CurveEnd {
 }
 
 /// Returns the angle between the strongest contact force and the horizontal.
-fn contact_angle_deg(snapshot: &Snapshot) -> Option<f64> {
+fn contact_angle_deg(snapshot: &RowSnapshot) -> Option<f64> {
     let forces = snapshot.contacts.iter().map(|contact| contact.force);
     let strongest = forces.max_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])))?;
     Some(strongest[1].abs().atan2(strongest[0].abs()).to_degrees())
@@ -131,7 +131,7 @@ fn loaded(study: &Study) -> Option<[LoadedRow; 2]> {
     Some([upright?, steep?])
 }
 
-fn loaded_row(snapshot: &Snapshot) -> LoadedRow {
+fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
     let load: f64 = snapshot.scales.iter().map(|scale| scale.reaction).sum();
     let carries = |scale: &&puncture::ScaleState| scale.reaction >= CARRIES * load;
     let touches = |i: &usize| {
@@ -182,7 +182,7 @@ fn bent(study: &Study, slant: f64, length: f64) -> Option<Flexure> {
 }
 
 fn bent_strip(slant: f64, bent: &Flexure) -> BentStrip {
-    let axial = |point: &flexure::PathPoint| point.axial_energy / point.bending_energy;
+    let axial = |point: &flexure::FlexurePoint| point.axial_energy / point.bending_energy;
     let free = bent.path.iter().filter(|p| p.contacts == 0 && p.bending_energy > 0.0);
     let slopes: Vec<f64> =
         bent.path.iter().filter(|point| point.contacts > 0).map(|point| point.stiffness).collect();
