@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
+use results::Completeness;
 
 /// Version and revision of the source.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVISION"), ")");
@@ -91,10 +92,11 @@ Examples:
 
 Writes designs.csv, a table for each measure, failures.csv and run.toml, from a journal to which
 every design is added as it is done. The tables do not depend on the number of threads, nor on
-how often the run was ended and resumed. The first SIGINT or SIGTERM ends the run once the designs in
-hand are done, the second at once.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
-SIGINT or SIGTERM.")]
+how often the run was ended and resumed. Last comes contents.toml, which says what was written: every command that reads
+the folder checks it. The first SIGINT, SIGTERM or SIGHUP ends the run once the designs in hand are done, a
+second one at once, if it comes a second later.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
 pub struct RunArguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -128,6 +130,21 @@ pub struct RunArguments {
 
     #[command(flatten)]
     pub format: Format,
+}
+
+/// Whether results are used that are not whole.
+#[derive(Debug, Args)]
+pub struct Partial {
+    /// Use the designs that are done, though others are missing; what is made from them says so
+    #[arg(long)]
+    pub partial: bool,
+}
+
+impl Partial {
+    /// The results that will do.
+    pub fn completeness(&self) -> Completeness {
+        if self.partial { Completeness::Partial } else { Completeness::Whole }
+    }
 }
 
 /// How designs are solved.
@@ -167,8 +184,8 @@ Examples:
 Replaces the rows of these designs in every table. Their column `settings` then says what was set;
 it is empty where the settings are the sweep's own. reruns.csv says which values have changed.
 Without --set designs are solved with the sweep's own settings.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
-SIGINT or SIGTERM.")]
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
 pub struct RerunArguments {
     /// Folder of a run
@@ -208,8 +225,9 @@ pub struct RerunArguments {
 Examples:
   squama status results/paper
 
-The run may be going on meanwhile.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input.")]
+The run may be going on meanwhile. Checks every table against what the run states of it, and lists what was made from
+tables that are no longer there.
+Exit code: 0 done, 1 some designs failed or are missing, or tables are not as they were written, 2 bad input.")]
 pub struct StatusArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
@@ -223,7 +241,8 @@ Examples:
   squama merge results/paper/shards/* --out results/paper
 
 Puts the results of shards together; the tables are those of a run without shards. What is in the
-folder --out already stays there, so that merging again adds what has come meanwhile.
+folder --out already stays there, so that merging again adds what has come meanwhile. A folder merged into itself,
+squama merge DIR --out DIR, has its tables written again from its journal.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk.")]
 pub struct MergeArguments {
     /// Folders of the shards
@@ -376,6 +395,9 @@ pub struct PlotArguments {
     /// Folder of the figures [default: RESULTS/figures]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// What `squama plot` plots besides a sweep.
@@ -428,6 +450,9 @@ pub struct ReportArguments {
     /// The page [default: RESULTS/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// Arguments of `squama export`.
@@ -447,6 +472,9 @@ pub struct ExportArguments {
     /// The workbook
     #[arg(long, value_name = "FILE")]
     pub xlsx: PathBuf,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// Arguments of `squama rank`.
@@ -490,6 +518,9 @@ pub struct RankArguments {
     /// Folder of the tables [default: RESULTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// Arguments of `squama compare`.
@@ -522,6 +553,9 @@ pub struct CompareArguments {
     /// Folder of the tables of what differs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// Arguments of `squama check`.

@@ -3,6 +3,7 @@
 mod calibrate;
 mod check;
 mod compare;
+mod derived;
 mod design;
 mod draw;
 mod export;
@@ -37,6 +38,7 @@ pub use validate::validate;
 use std::path::{Path, PathBuf};
 
 use ::run::Program;
+use results::verify_record;
 use sweep::{InvalidSetting, Setting, Sweep};
 
 use crate::args::Definition;
@@ -57,6 +59,7 @@ fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {
 }
 
 fn read(definition: &Definition) -> anyhow::Result<Sweep> {
+    verify_record(&definition.path)?;
     Ok(Sweep::read(&definition.path, &settings(definition)?)?)
 }
 

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `args` | command-line arguments |
 //! | `commands` | one file per command |
-//! | `interrupt` | signals that ask a run to end |
+//! | `interrupt` | signals that ask a process to end |
 //! | `progress` | the bar on the terminal |
 //! | `print` | text for people: aligned tables, closed pipes |
 
@@ -20,6 +20,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use crate::args::{Arguments, Command};
+use crate::interrupt::Interrupt;
 
 /// The input, or the disk, is at fault.
 const BAD_INPUT: u8 = 2;
@@ -30,9 +31,15 @@ fn main() -> ExitCode {
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
+    let interrupt = match Interrupt::listen() {
+        Ok(interrupt) => interrupt,
+        Err(error) => {
+            return refuse(&anyhow::Error::new(error).context("signals cannot be listened to"));
+        }
+    };
     let done = match command {
-        Command::Run(arguments) => commands::run(&arguments),
-        Command::Rerun(arguments) => commands::rerun(&arguments),
+        Command::Run(arguments) => commands::run(&arguments, &interrupt),
+        Command::Rerun(arguments) => commands::rerun(&arguments, &interrupt),
         Command::Status(arguments) => commands::status(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Slurm(arguments) => commands::slurm(&arguments),

@@ -17,6 +17,8 @@
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`Results`] | the designs of a run read back |
+//! | [`Contents`], [`VerifiedFolder`] | what a run states of its folder, and the folder once that is checked |
+//! | [`Derivation`] | what was made from the tables, and from which |
 //!
 //! ```
 //! use results::columns::design_columns;
@@ -38,14 +40,20 @@
 //! ```
 
 pub mod columns;
+mod contents;
 mod design;
+mod digest;
 mod folder;
 mod path_tables;
 mod reader;
+mod shell;
 mod tables;
 
 pub use columns::cell::Cell;
 pub use columns::{Column, failure_columns};
+pub use contents::derivation::Derivation;
+pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
+pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{
     DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
 };
@@ -53,8 +61,13 @@ pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detai
 pub use design::outcome::Outcome;
 pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
-pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};
+pub use digest::sha256;
+pub use folder::{
+    AtomicFile, OutputError, RunFolder, exit_without_partial_files, make_folder,
+    remove_abandoned_files, sync_folder, write_text,
+};
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
+pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

@@ -56,7 +56,8 @@ pub struct Merged {
 }
 
 /// Puts the results in `folders`, shards of one sweep, into the folder `out`, and writes the tables of
-/// the whole. What is there already stays, so that merging twice is merging once.
+/// the whole. What is there already stays, so that merging twice is merging once. If `out` is the only one of the folders,
+/// its tables are written again from its journal.
 ///
 /// # Errors
 /// If the folders hold results of different definitions or programs, one is in use, or the disk
@@ -70,13 +71,42 @@ pub fn merge(
     let clock = Instant::now();
     let out = RunFolder::new(out);
     let sources = open(folders, &out)?;
+    if sources.is_empty() {
+        return if folders.is_empty() {
+            Err(MergeError::Nothing)
+        } else {
+            written_again(out, format, program)
+        };
+    }
     let header = sources[0].archive.header().clone().of_all_shards();
     out.make().map_err(RunError::from)?;
     let mut journal = Journal::begin(&out, header, Start::Resume)?;
-    out.remove_partial_files();
+    out.remove_abandoned_files();
     let formats = [journal.archive(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
+    finish(journal, out, format, added, program, clock)
+}
+
+/// The tables in `out`, written again from the journal there.
+fn written_again(
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    program: &Program,
+) -> Result<Merged, MergeError> {
+    let journal = Journal::resume(&out)?;
+    out.remove_abandoned_files();
+    finish(journal, out, format, 0, program, Instant::now())
+}
+
+fn finish(
+    journal: Journal,
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    added: u64,
+    program: &Program,
+    clock: Instant,
+) -> Result<Merged, MergeError> {
     let archive = journal.archive();
     let (sweep, missing) =
         (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
@@ -105,6 +135,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
             return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
         }
         let archive = Archive::open(&folder)?;
+        archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header().clone().of_all_shards();
             let header = archive.header().clone().of_all_shards();
@@ -112,7 +143,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
         }
         sources.push(ShardResults { folder, archive });
     }
-    if sources.is_empty() { Err(MergeError::Nothing) } else { Ok(sources) }
+    Ok(sources)
 }
 
 /// Appends to `journal` what it lacks; returns how many designs that were.

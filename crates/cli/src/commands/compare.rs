@@ -1,14 +1,15 @@
 //! `squama compare`.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use anyhow::{bail, ensure};
 use ranking::{ColumnDifference, Comparison, Extreme};
-use results::Results;
+use results::{Results, VerifiedFolder};
 
 use super::{DIFFERENT, DONE};
 use crate::args;
-use crate::print::{aligned, counted, digits, print};
+use crate::print::{aligned, counted, digits, print, shortfall};
 
 /// Designs that are listed before the list is cut short.
 const LISTED: usize = 8;
@@ -16,7 +17,11 @@ const LISTED: usize = 8;
 /// Says where two runs differ.
 pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
-    let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
+    let read = |path: &Path| -> anyhow::Result<Results> {
+        let folder = VerifiedFolder::open(path, arguments.partial.completeness())?;
+        Ok(Results::read_from(&folder)?)
+    };
+    let [first, second] = [&arguments.first, &arguments.second].map(|path| read(path));
     let (first, second) = (first?, second?);
     let comparison = ranking::compare(&first, &second, tolerance)?;
     let mut text = report(&comparison, &first, &second);
@@ -43,6 +48,9 @@ fn report(comparison: &Comparison<'_>, first: &Results, second: &Results) -> Str
     let [one, other] = [first, second].map(|results| results.folder().display().to_string());
     let both = counted(comparison.matched() as u64, "design");
     let mut text = format!("{one} against {other}: {both} in both\n");
+    for results in [first, second] {
+        text.push_str(&shortfall(results.verified_folder()));
+    }
     for (alone, folder) in comparison.unmatched().iter().zip([one, other]) {
         text.push_str(&unmatched(alone, &folder));
     }

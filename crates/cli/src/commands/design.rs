@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use results::columns::design_columns;
-use results::{RunFolder, SolvedDesign, write_path_tables};
+use results::{RunFolder, SolvedDesign, verify_record, write_path_tables};
 use run::Evaluator;
 use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
 
-use super::{DONE, INCOMPLETE, folder_of, settings};
+use super::{DONE, INCOMPLETE, folder_of, read, settings};
 use crate::args;
 use crate::print::{aligned, print};
 
@@ -48,7 +48,7 @@ fn choose(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
 
 fn by_number(arguments: &args::DesignArguments, number: &str) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
-    let sweep = Sweep::read(path, &settings(&arguments.definition)?)?;
+    let sweep = read(&arguments.definition)?;
     let grid = sweep.grid();
     let index = grid
         .parse_number(number)
@@ -65,6 +65,7 @@ fn by_number(arguments: &args::DesignArguments, number: &str) -> anyhow::Result<
 
 fn by_values(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
     let path = &arguments.definition.path;
+    verify_record(path)?;
     let mut settings = settings(&arguments.definition)?;
     let options = [
         ("--gap", "gap_over_t", &arguments.gap),

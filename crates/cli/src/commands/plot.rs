@@ -12,7 +12,7 @@ use sweep::{Case, DesignNumber, Sweep};
 use super::draw::{designs, substrate};
 use super::figure_file::{Written, write_svg};
 use super::results_folder::ResultsFolder;
-use super::{DONE, INCOMPLETE, folder_of, read};
+use super::{DONE, INCOMPLETE, derived, folder_of, read};
 use crate::args;
 use crate::print::print;
 
@@ -32,14 +32,15 @@ pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(results)?;
+    let results = ResultsFolder::read(results, arguments.partial.completeness())?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
-    for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
+    for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
         write_svg(&folder, figure.name, &figure.svg, arguments.png, &mut files)?;
     }
+    derived::note(results.verified(), "figures", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }

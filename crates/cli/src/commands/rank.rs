@@ -5,11 +5,11 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
-use results::Results;
+use results::{Results, VerifiedFolder};
 
-use super::DONE;
+use super::{DONE, derived};
 use crate::args;
-use crate::print::{aligned, counted, digits, print};
+use crate::print::{aligned, counted, digits, print, shortfall};
 
 /// Winners that are listed before the list is cut short.
 const LISTED: usize = 10;
@@ -18,10 +18,12 @@ const LISTED: usize = 10;
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let weights: Weights = option("--weights", &arguments.weights)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&arguments.results)?;
+    let verified = VerifiedFolder::open(&arguments.results, arguments.partial.completeness())?;
+    let results = Results::read_from(&verified)?;
     let ranking = Ranking::new(&results, grid)?;
     let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
     let files = ranking::write_ranking(folder, &ranking, weights)?;
+    derived::note(&verified, "ranking", folder, &files)?;
     let report = RankReport { results: &results, ranking: &ranking };
     let text = report.text(weights, arguments.top);
     print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
@@ -59,6 +61,7 @@ impl RankReport<'_> {
     fn title(&self, folder: &Path) -> String {
         let (ranked, all) = (self.ranking.len(), self.results.len());
         let mut text = format!("{}: {ranked} of {} ranked\n", folder.display(), designs(all));
+        text.push_str(&shortfall(self.results.verified_folder()));
         let left_out = self.ranking.left_out().iter();
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.to_string()]).collect();

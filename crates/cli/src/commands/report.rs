@@ -11,7 +11,7 @@ use skin::puncture;
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
-use super::{DONE, PROGRAM};
+use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
@@ -22,7 +22,7 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&arguments.results)?;
+    let results = ResultsFolder::read(&arguments.results, arguments.partial.completeness())?;
     let page = page(&results)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
@@ -31,6 +31,7 @@ pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
     write_html(&folder, &name, &page.html(), &mut files)?;
+    derived::note(results.verified(), "page", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }
@@ -50,7 +51,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     });
     let ranking = results.ranking()?;
     Ok(Page {
-        name: sweep.name().to_owned(),
+        name: results.title(),
         version: PROGRAM.version.to_owned(),
         folder: results.folder.display().to_string(),
         axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),

@@ -3,7 +3,7 @@
 use run::{Filter, Rerun};
 use sweep::Setting;
 
-use super::run::{exit_code, options, summary};
+use super::run::{conclude, exit_code, options, summary};
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::interrupt::Interrupt;
@@ -14,7 +14,7 @@ use crate::progress::ProgressDisplay;
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
+pub fn rerun(arguments: &args::RerunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
     let rerun = Rerun::plan(&arguments.results, &filter(arguments), &settings, &PROGRAM)?;
@@ -22,18 +22,19 @@ pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
         print(&plan(&rerun))?;
         return Ok(DONE);
     }
-    let interrupt = Interrupt::listen()?;
-    let options = options(&arguments.work, &arguments.format, &interrupt);
+    interrupt.ask_first();
+    let options = options(&arguments.work, &arguments.format, interrupt);
     let mut display = ProgressDisplay::new(arguments.work.quiet);
     let progress = |progress| display.show(progress, interrupt.stop());
     let finished = rerun.run(&options, &PROGRAM, progress);
     drop(display);
     let finished = finished?;
+    conclude(&arguments.results, &finished);
     if !arguments.work.quiet {
         let results = summary("all results", &arguments.results, options.threads, &finished);
         print(&format!("{}{results}", plan(&rerun)))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    Ok(exit_code(&finished, interrupt))
 }
 
 fn filter(arguments: &args::RerunArguments) -> Filter {

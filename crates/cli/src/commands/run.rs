@@ -5,34 +5,49 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Start};
 use sweep::{RandomSample, Subset, Sweep};
 
 use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
 use crate::args;
 use crate::interrupt::Interrupt;
-use crate::print::{aligned, counted, print};
+use crate::print::{aligned, counted, note, print};
 use crate::progress::ProgressDisplay;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::RunArguments) -> anyhow::Result<u8> {
+pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
-    let interrupt = Interrupt::listen()?;
-    let options = options(&arguments.work, &arguments.format, &interrupt);
+    interrupt.ask_first();
+    let options = options(&arguments.work, &arguments.format, interrupt);
     let mut display = ProgressDisplay::new(arguments.work.quiet);
     let progress = |progress| display.show(progress, interrupt.stop());
     let (subset, start) = (subset(arguments), start(arguments));
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     drop(display);
     let finished = finished?;
+    conclude(&folder, &finished);
     if !arguments.work.quiet {
         print(&summary(sweep.name(), &folder, options.threads, &finished))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    Ok(exit_code(&finished, interrupt))
+}
+
+/// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from
+/// earlier tables.
+pub(super) fn conclude(folder: &Path, finished: &Finished) {
+    finished.notes.iter().for_each(|text| note(text));
+    let verified = VerifiedFolder::open(folder, Completeness::Partial);
+    for made in verified.iter().flat_map(VerifiedFolder::outdated) {
+        note(&format!(
+            "{} is made from earlier tables; {} makes it again",
+            made.product, made.command
+        ));
+    }
 }
 
 fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {

@@ -3,6 +3,7 @@
 mod agreement;
 mod bad_input;
 mod clusters;
+mod contents;
 mod couplings;
 mod design;
 mod images;

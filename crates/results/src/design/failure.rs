@@ -1,5 +1,6 @@
 //! Failures as data: what has no value, why, and how far its path came.
 
+use crate::shell::shell_word;
 use serde::{Deserialize, Serialize};
 use skin::flexure::Flexure;
 use skin::puncture::Puncture;
@@ -139,7 +140,7 @@ impl FailureRow {
         let settings = self.design.result.settings.split(SEPARATOR);
         for setting in settings.filter(|text| !text.is_empty()) {
             command.push_str(" --set ");
-            command.push_str(setting);
+            command.push_str(&shell_word(setting));
         }
         command
     }

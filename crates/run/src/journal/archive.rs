@@ -5,14 +5,16 @@ use std::io::{self, BufRead, BufReader};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use results::{CsvFormat, DesignRow, RunFolder};
+use results::{Contents, CsvFormat, DesignRow, JournalExtent, RunFolder};
 use sweep::{SubsetDesigns, Sweep, reason};
 
 use super::entry::{JournalEntry, SessionStart};
 use super::error::JournalError;
 use super::header::{FORMAT, JournalHeader};
 use super::index::Index;
-use super::seal::{Line, Seal};
+use super::lines::Lines;
+use super::require_file;
+use super::seal::{BEFORE, Line, Seal};
 
 /// A journal that was read: what it is of, and where its designs stand.
 #[derive(Debug)]
@@ -30,6 +32,8 @@ pub struct Archive {
     latest: LatestSession,
     /// Bytes that are intact.
     length: u64,
+    /// Lines that are intact.
+    lines: u64,
 }
 
 /// The rate of the last session.
@@ -61,6 +65,7 @@ impl Archive {
             path: path.to_owned(),
             reason: reason(&error),
         };
+        require_file(path)?;
         let file = File::open(path).map_err(unreadable)?;
         Self::read_from(BufReader::with_capacity(1 << 16, file), path)
     }
@@ -71,20 +76,29 @@ impl Archive {
     /// # Errors
     /// If it cannot be read or is damaged.
     pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
-        let mut lines = Lines { source, path, bytes: Vec::new(), number: 0 };
-        let Some(first) = lines.next()?.filter(|bytes| bytes.ends_with(b"\n")) else {
+        let unreadable = |error: io::Error| JournalError::Unreadable {
+            path: path.to_owned(),
+            reason: reason(&error),
+        };
+        let mut lines = Lines::new(source);
+        if !lines.begin_with(BEFORE).map_err(unreadable)? {
+            let problem = "squama begins none like this".to_owned();
+            return Err(JournalError::NoHeader { path: path.to_owned(), problem });
+        }
+        let first = lines.next().map_err(unreadable)?;
+        let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else {
             return Ok(None);
         };
         let mut archive = Self::begin(first, path)?;
         let mut tail = Tail::default();
-        while let Some(bytes) = lines.next()? {
+        while let Some(bytes) = lines.next().map_err(unreadable)? {
             let length = bytes.len() as u64;
             match archive.line(bytes) {
                 Ok(line) => {
                     tail.refuse(path)?;
                     archive.add(&line, length);
                 }
-                Err(problem) => tail.note(lines.number, problem),
+                Err(problem) => tail.note(lines.number(), problem),
             }
         }
         Ok(Some(archive))
@@ -109,6 +123,7 @@ impl Archive {
             reruns: 0,
             latest: LatestSession::default(),
             length,
+            lines: 1,
         })
     }
 
@@ -144,6 +159,7 @@ impl Archive {
             }
         }
         self.length += length;
+        self.lines += 1;
     }
 
     /// The header.
@@ -167,6 +183,30 @@ impl Archive {
 
     pub(super) fn length(&self) -> u64 {
         self.length
+    }
+
+    /// What is to be said if it has fewer lines than it had when the tables in `folder` were written.
+    pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
+        let stated = Contents::stated_in(folder)?.journal.lines;
+        let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
+        Some(format!(
+            "{lost} of the {stated} lines are missing that it had when its tables were written"
+        ))
+    }
+
+    /// Refuses it if it has lost lines.
+    pub(crate) fn require_all_lines(&self, folder: &RunFolder) -> Result<(), JournalError> {
+        let path = self.path.clone();
+        self.lost_lines(folder).map_or(Ok(()), |lost| Err(JournalError::LinesLost { path, lost }))
+    }
+
+    /// How far it has come.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn extent(&self) -> Result<JournalExtent, JournalError> {
+        let extent = JournalExtent::of(&self.path, self.length, self.lines);
+        extent.map_err(|error| self.unreadable(&error))
     }
 
     /// The number of designs that are done.
@@ -230,28 +270,6 @@ fn read_header(bytes: &mut [u8], path: &Path) -> Result<JournalHeader, JournalEr
         Ok(Line::Header(header)) if header.is_sound() => Ok(header),
         Ok(_) => Err(refuse("squama writes no such line there".to_owned())),
         Err(problem) => Err(refuse(problem)),
-    }
-}
-
-/// The lines of a source, with their ends.
-struct Lines<'p, R> {
-    source: R,
-    path: &'p Path,
-    bytes: Vec<u8>,
-    /// Number of the line that was read last, from 1.
-    number: u64,
-}
-
-impl<R: BufRead> Lines<'_, R> {
-    fn next(&mut self) -> Result<Option<&mut [u8]>, JournalError> {
-        self.bytes.clear();
-        let read = self.source.read_until(b'\n', &mut self.bytes);
-        let read = read.map_err(|error| JournalError::Unreadable {
-            path: self.path.to_owned(),
-            reason: reason(&error),
-        })?;
-        self.number += 1;
-        Ok((read > 0).then_some(self.bytes.as_mut_slice()))
     }
 }
 
