@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use signal_hook::flag;
 
-/// What a shell adds to the number of a signal that ended a process.
+/// A shell adds this to the number of a signal that ended a process.
 const BASE: u8 = 128;
 
 /// Listens to the signals that ask a process to end.

@@ -50,20 +50,19 @@ mod shell;
 mod tables;
 
 pub use columns::cell::Cell;
-pub use columns::{Column, failure_columns};
+pub use columns::{Column, RERUN_COLUMNS, failure_columns, failure_detail_columns};
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
-pub use design::design_result::{
-    DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
-};
-pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
+pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
+pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
-pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
+pub use design::rerun_change::RerunChange;
+pub use design::row::{DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use digest::sha256;
 pub use folder::{
-    AtomicFile, OutputError, RunFolder, exit_without_partial_files, make_folder,
+    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,
     remove_abandoned_files, sync_folder, write_text,
 };
 pub use path_tables::write_path_tables;

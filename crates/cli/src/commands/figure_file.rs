@@ -16,7 +16,7 @@ impl Written {
         &self.0
     }
 
-    /// What was written, for people.
+    /// A line for each file that was written, for people.
     pub fn report(&self, folder: &Path) -> String {
         let line = |file: &String| format!("{}\n", folder.join(file).display());
         self.0.iter().map(line).collect()
