@@ -74,6 +74,8 @@ fn one_line(error: &clap::Error) -> anyhow::Error {
 
 fn refuse(error: &anyhow::Error) -> ExitCode {
     // With nowhere left to say it, the exit code says it.
-    let _ = writeln!(std::io::stderr(), "error: {error:#}");
+    let message = format!("{error:#}");
+    let message = sweep::shortened(&message);
+    let _ = writeln!(std::io::stderr(), "error: {}", sweep::visible(&message));
     ExitCode::from(BAD_INPUT)
 }

@@ -4,7 +4,10 @@
 //! here, so that the page cannot differ from figures and tables.
 
 use ranking::{Ranking, Weights};
+use results::shell_word;
 use serde_json::{Map, Value, json};
+
+use sweep::visible;
 
 use crate::axis::ChartAxis;
 use crate::designs::Designs;
@@ -99,10 +102,10 @@ impl Page {
     pub fn html(&self) -> String {
         let scripts: Vec<_> =
             SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>")).collect();
-        // `</` would end the script that holds the data.
-        let data = self.data().to_string().replace("</", "<\\/");
+        // In a script `</` ends it and `<!--` begins a comment; in JSON every `<` stands in a text.
+        let data = self.data().to_string().replace('<', "\\u003c");
         let parts = [
-            ("{{title}}", escaped(&self.name)),
+            ("{{title}}", escaped(&visible(&self.name))),
             ("{{version}}", escaped(&self.version)),
             ("{{style}}", STYLE.to_owned()),
             ("{{licence}}", escaped(LICENCE)),
@@ -125,8 +128,8 @@ impl Page {
         let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
         let drawing = |(design, svg): &Fact| json!({"design": design, "svg": svg});
         json!({
-            "name": self.name,
-            "folder": self.folder,
+            "name": visible(&self.name),
+            "folder": shell_word(&self.folder),
             "axes": self.axes,
             "scales": self.scales(),
             "ranking": self.ranking(),
@@ -169,7 +172,7 @@ impl Page {
         match self.designs.number(header, row) {
             _ if text.is_empty() => Value::Null,
             Some(number) if header != "design" => json!(number),
-            _ => json!(text),
+            _ => json!(visible(text)),
         }
     }
 }
@@ -207,5 +210,6 @@ fn first_place<'a>(
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&#39;")
 }

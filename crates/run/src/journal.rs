@@ -21,6 +21,7 @@ mod index;
 mod lines;
 mod seal;
 mod tail;
+mod windows;
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write as _};
@@ -94,7 +95,11 @@ impl Journal {
                 archive.header().require(&header, &path, GO_ON)?;
                 Self::at_end(archive, folder, file)
             }
-            _ if start == Start::Fresh => Self::at_end(create(&file, &path, header)?, folder, file),
+            _ if start == Start::Fresh => {
+                let journal = Self::at_end(create(&file, &path, header)?, folder, file)?;
+                // What was there is thrown away, as it was asked for.
+                Ok(Self { notes: Vec::new(), ..journal })
+            }
             _ => {
                 let cut = tail::keep(&path, 0)?;
                 let mut journal = Self::at_end(create(&file, &path, header)?, folder, file)?;

@@ -97,7 +97,7 @@ pub struct SyntaxError {
 /// # Errors
 /// If it is no TOML.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
-    let source = Document { text, name: name.into() };
+    let source = Document::new(text, name);
     match DeTable::parse(text) {
         Ok(table) => Ok(source.table(table.get_ref())),
         Err(error) => Err(SyntaxError {
@@ -117,9 +117,16 @@ pub fn one_line(message: &str) -> String {
 struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
+    /// The offsets at which lines end.
+    ends: Vec<usize>,
 }
 
-impl Document<'_> {
+impl<'a> Document<'a> {
+    fn new(text: &'a str, name: &str) -> Self {
+        let ends = text.match_indices('\n').map(|(offset, _)| offset).collect();
+        Self { text, name: name.into(), ends }
+    }
+
     /// The beginning of the line at `offset`, what cannot be printed left out.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
@@ -130,8 +137,7 @@ impl Document<'_> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
-        let before = |offset: usize| self.text.get(..offset.min(self.text.len()));
-        let line = offset.and_then(before).map(|text| text.matches('\n').count() + 1);
+        let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
 

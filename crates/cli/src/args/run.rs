@@ -1,10 +1,26 @@
 //! Arguments of `squama run`.
 
 use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::Args;
 
 use super::{Definition, Format, Work};
+
+/// A part of the designs.
+#[derive(Clone, Copy, Debug)]
+pub struct Share(pub f64);
+
+impl FromStr for Share {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
+        share.map(Self).ok_or_else(|| {
+            format!("{text} is out of range, expected a number above 0 and at most 1")
+        })
+    }
+}
 
 /// Arguments of `squama run`.
 #[derive(Debug, Args)]
@@ -51,6 +67,13 @@ pub struct RunArguments {
     /// Solve one shard: of N, the i-th, that is every N-th design from the i-th on
     #[arg(long, value_name = "i/N")]
     pub shard: Option<sweep::Shard>,
+
+    /// Solve this share of the designs again by another way, and say how far the two are apart
+    ///
+    /// Once more with steps a tenth as large, and strips as a chain of all gaps, e.g. 0.1. A relative difference above
+    /// 1e-3, or a status that is another, makes the exit code 1.
+    #[arg(long, value_name = "SHARE")]
+    pub audit: Option<Share>,
 
     #[command(flatten)]
     pub work: Work,

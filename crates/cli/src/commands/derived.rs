@@ -1,7 +1,8 @@
 //! What a command makes from the tables of a folder, noted there so that `squama status` can tell when it is out of date.
 
 use std::fs;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};
@@ -40,19 +41,20 @@ fn command() -> String {
 
 /// The path of `folder` from within the folder `results`, if it is inside of it.
 fn own_place(results: &Path, folder: &Path) -> Option<String> {
-    let here = |path: &Path| match path.as_os_str().is_empty() {
-        true => fs::canonicalize("."),
-        false => fs::canonicalize(path),
-    };
-    let (results, folder) = (here(results).ok()?, here(folder).ok()?);
+    let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
     Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
+}
+
+/// The absolute path of a folder; without a name it is the one that we are in.
+fn absolute(folder: &Path) -> io::Result<PathBuf> {
+    fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
 }
 
 /// The name of a file in the record: from within the results, or its whole path.
 fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
     let path = match inside {
         Some(place) => Path::new(place).join(name),
-        None => fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
+        None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
     };
     path.to_string_lossy().into_owned()
 }

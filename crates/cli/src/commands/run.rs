@@ -9,7 +9,7 @@ use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Start};
 use sweep::{RandomSample, Subset, Sweep};
 
-use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
+use super::{DONE, INCOMPLETE, PROGRAM, audit, folder_of, read};
 use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print};
@@ -34,7 +34,15 @@ pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Res
     if !arguments.work.quiet {
         print(&summary(sweep.name(), &folder, options.threads, &finished))?;
     }
-    Ok(exit_code(&finished, interrupt))
+    let code = exit_code(&finished, interrupt);
+    match &arguments.audit {
+        Some(share) if interrupt.exit_code().is_none() => {
+            let audit = run::Audit::of(&folder, share.0, &options)?;
+            print(&audit::report(&audit))?;
+            Ok(if audit::agrees(&audit) { code } else { INCOMPLETE })
+        }
+        _ => Ok(code),
+    }
 }
 
 /// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from

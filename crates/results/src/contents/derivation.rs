@@ -79,7 +79,9 @@ impl Derivation {
         };
         let removed: Vec<_> =
             self.files.iter().filter(is_ours).map(|(name, _)| name.clone()).collect();
-        removed.iter().for_each(|name| folder.remove(name));
+        for name in &removed {
+            folder.remove(name);
+        }
         removed
     }
 }

@@ -15,6 +15,7 @@ use super::index::Index;
 use super::lines::Lines;
 use super::require_file;
 use super::seal::{BEFORE, Line, Seal};
+use super::windows::Windows;
 
 /// A journal that was read: what it is of, and where its designs stand.
 #[derive(Debug)]
@@ -214,6 +215,11 @@ impl Archive {
         self.index.done()
     }
 
+    /// The designs that are done, as indices of the grid, in order.
+    pub(crate) fn held(&self) -> impl Iterator<Item = u64> {
+        self.index.lines_that_count().map(|(position, _)| self.designs.design(position))
+    }
+
     /// Positions of the designs that are not done.
     pub fn missing(&self) -> Vec<Range<u64>> {
         self.index.missing(self.designs.len())
@@ -243,7 +249,7 @@ impl Archive {
     pub(crate) fn entries(&self) -> Result<Entries<'_>, JournalError> {
         let file = File::open(&self.path);
         let file = file.map_err(|error| self.unreadable(&error))?;
-        Ok(Entries { archive: self, file: BufReader::with_capacity(1 << 16, file), at: 0 })
+        Ok(Entries { archive: self, lines: Windows::new(file) })
     }
 
     /// The row that an entry gives in the tables.
@@ -299,14 +305,14 @@ impl Tail {
 /// Reads entries by where they stand.
 pub(crate) struct Entries<'a> {
     archive: &'a Archive,
-    file: BufReader<File>,
-    at: u64,
+    lines: Windows,
 }
 
 impl Entries<'_> {
     /// The last entry of each design that is done, in the order of the designs.
     pub fn in_order(mut self) -> impl Iterator<Item = Result<JournalEntry, JournalError>> {
-        self.archive.index.offsets().map(move |offset| self.at(offset))
+        let offsets = self.archive.index.lines_that_count();
+        offsets.map(move |(_, offset)| self.at(offset))
     }
 
     /// Entries that replaced an earlier one, after that.
@@ -329,13 +335,8 @@ impl Entries<'_> {
     }
 
     fn at(&mut self, offset: u64) -> Result<JournalEntry, JournalError> {
-        let mut bytes = Vec::new();
-        let read = self
-            .file
-            .seek_relative(offset.cast_signed() - self.at.cast_signed())
-            .and_then(|()| self.file.read_until(b'\n', &mut bytes));
-        read.map_err(|error| self.archive.unreadable(&error))?;
-        self.at = offset + bytes.len() as u64;
+        let read = self.lines.line(offset);
+        let mut bytes = read.map_err(|error| self.archive.unreadable(&error))?;
         match self.archive.line(&mut bytes) {
             Ok(Line::Design(entry)) => Ok(*entry),
             Ok(_) => Err(self.changed("it is no design any more")),

@@ -181,6 +181,19 @@ fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     refuse(&entry.place, &key, Problem::Unknown { value: entry.value.to_string(), hint })
 }
 
+/// Whether Windows keeps the name for a device, whatever follows its first dot.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
+    let numbered = |device| {
+        let number = stem.strip_prefix(device).and_then(|rest: &str| {
+            let mut digits = rest.chars();
+            digits.next().filter(|_| digits.next().is_none())
+        });
+        number.is_some_and(|digit| "123456789¹²³".contains(digit))
+    };
+    ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
+}
+
 /// A name that is a folder on any system.
 fn read_name(value: &Value) -> Result<String, WrongValue> {
     let allowed = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
@@ -189,14 +202,15 @@ fn read_name(value: &Value) -> Result<String, WrongValue> {
             if name.chars().next().is_some_and(char::is_alphanumeric)
                 && name.chars().all(allowed)
                 && !name.ends_with([' ', '.'])
-                && name.len() <= 100 =>
+                && name.len() <= 100
+                && !is_device(name) =>
         {
             Ok(name.clone())
         }
         value => Err(WrongValue::NotAccepted {
             found: value.to_string(),
             expected:
-                "a name for a folder: letters, digits, - _ + . and spaces, a letter or digit first"
+                "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"
                     .to_owned(),
         }),
     }

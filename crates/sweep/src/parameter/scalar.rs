@@ -34,6 +34,16 @@ impl Scalar {
         }
     }
 
+    /// What equal values have in common and different ones have not.
+    pub(crate) fn identity(self) -> (u64, &'static str) {
+        match self {
+            // Zero is zero, whatever its sign.
+            Self::Number(number) => ((number + 0.0).to_bits(), "number"),
+            Self::Count(count) => (count as u64, "count"),
+            Self::Word(word) => (0, word),
+        }
+    }
+
     /// The value as it is written in a definition: words in quotes.
     pub fn to_toml(self) -> String {
         match self {
