@@ -17,8 +17,8 @@ use values::VALUES;
 
 pub use cell::Cell;
 pub use path::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
-    STEPS,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
+    PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
 
 /// A column of a table whose rows are `R`.
