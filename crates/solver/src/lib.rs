@@ -75,6 +75,7 @@ mod skyline;
 mod step;
 mod stop;
 mod system;
+mod tangent;
 mod tangent_solver;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
@@ -88,4 +89,5 @@ pub use peak::Peak;
 pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;
-pub use system::{Control, Residual, State, System, Tangent};
+pub use system::{Control, Residual, State, System};
+pub use tangent::Tangent;

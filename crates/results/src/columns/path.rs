@@ -4,7 +4,7 @@ use skin::flexure;
 use skin::puncture::{Instability, Puncture, PuncturePoint, ScaleState, Snap};
 use skin::{ContactEvent, Iteration};
 
-use super::Column;
+use super::column::Column;
 
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
