@@ -210,7 +210,7 @@ impl Together {
     }
 
     /// Component of a vector along the edge, beyond its end.
-    fn overrun(&self, v: Vec2) -> f64 {
+    pub(crate) fn overrun(&self, v: Vec2) -> f64 {
         v.dot(&self.beyond)
     }
 

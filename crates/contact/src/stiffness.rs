@@ -25,6 +25,19 @@ pub struct ContactStiffness {
 }
 
 impl CornerContact {
+    /// Whether two corners that are together stand on a ridge of the energy: where the partner's force turns the force towards the end of
+    /// the edge, the corner does so short of that end, where it could slide back along the edge as well. The contact holds the
+    /// corners together (C5), but on a ridge the energy falls to either side.
+    pub fn is_on_ridge(self, corners: &Corners) -> bool {
+        match self {
+            Self::Corner(edge) => {
+                let together = Together::new(corners, corners.together(edge));
+                together.overrun(together.normals[1]) > 0.0
+            }
+            _ => false,
+        }
+    }
+
     /// The stiffness of the contact with the values that the three `forces` have.
     pub fn stiffness(
         self,
