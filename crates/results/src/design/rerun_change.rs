@@ -1,5 +1,7 @@
 //! Values that changed when a design was solved again.
 
+use std::borrow::Cow;
+
 use sweep::DesignNumber;
 
 use crate::columns::{Cell, Column};
@@ -14,7 +16,7 @@ pub struct RerunChange {
     /// The settings before and after.
     pub settings: [String; 2],
     /// The column, empty if no value changed.
-    pub column: &'static str,
+    pub column: Cow<'static, str>,
     /// The cell before and after.
     pub values: [Cell; 2],
 }
@@ -32,7 +34,7 @@ pub static RERUN_COLUMNS: &[Column<RerunChange>] = &[
     }),
     Column::new("old_settings", "-", "settings before", |c| c.settings[0].clone().into()),
     Column::new("column", "-", "column of `designs.csv` that changed, empty if none did", |c| {
-        c.column.into()
+        Cell::Text(c.column.clone())
     }),
     Column::new("old", "as the column", "its value before", |c| c.values[0].clone()),
     Column::new("new", "as the column", "its value after", |c| c.values[1].clone()),
