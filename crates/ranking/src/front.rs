@@ -29,7 +29,9 @@ fn sifted(points: &[Criteria]) -> Vec<bool> {
         }
     }
     let mut on_front = vec![false; points.len()];
-    front.into_iter().for_each(|point| on_front[point] = true);
+    for point in front {
+        on_front[point] = true;
+    }
     on_front
 }
 

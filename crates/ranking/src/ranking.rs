@@ -339,7 +339,9 @@ pub fn write_ranking(
         )?;
         files.splice(2..2, [winners, quaternary]);
     } else {
-        [winners, quaternary].iter().for_each(|file| folder.remove(file));
+        for file in [winners, quaternary] {
+            folder.remove(file);
+        }
     }
     folder.sync();
     Ok(files)
@@ -353,7 +355,9 @@ pub fn write_ranking(
 pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
     let folder = RunFolder::new(folder);
     folder.make()?;
-    RunFolder::RANKING.iter().for_each(|file| folder.remove(file));
+    for file in RunFolder::RANKING {
+        folder.remove(file);
+    }
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
     Ok(RunFolder::PREFERENCES)
 }
