@@ -73,8 +73,8 @@ impl RankingEntry {
         let ranked = ranking.by_fitness(Weights::BALANCED);
         let entry = ranked.iter().map(|design| Self {
             row: design.row(),
-            criteria: design.criteria(),
-            rescaled: design.rescaled(),
+            criteria: std::array::from_fn(|c| design.criteria()[c]),
+            rescaled: std::array::from_fn(|c| design.rescaled()[c]),
             on_front: design.on_front(),
         });
         let mut entries: Vec<Self> = entry.collect();
