@@ -91,11 +91,11 @@
     head.replaceChildren(...["rank", "design"].map((text) => squama.element("th", { scope: "col" }, text)), squama.element("th", { scope: "col" }, "fitness ", squama.element("i", {}, "f")), ...shown().map(column));
   };
 
-  const entry = ({ row, fitness }, place) => {
+  const entry = ({ row, fitness, rank }) => {
     const cell = (name) => squama.short(squama.cell(row, name)) + (name === "slant_deg" ? "°" : "");
     const own = squama.element("td", {}, ...squama.warning(row), squama.number(row));
     return squama.element("tr", { "data-row": row, class: row === state.design ? "chosen" : null, ...squama.chooser(row) },
-      squama.element("td", {}, String(place + 1)), own, squama.element("td", {}, fitness.toFixed(4)), ...shown().map((name) => squama.element("td", {}, cell(name))));
+      squama.element("td", {}, String(rank)), own, squama.element("td", {}, fitness.toFixed(4)), ...shown().map((name) => squama.element("td", {}, cell(name))));
   };
 
   /** Names the best design whose surface does not fold, where the best of all folds. */

@@ -63,12 +63,17 @@ squama.ranking = (() => {
   const meeting = (table, requirements, also = () => true) =>
     table.rows.filter((row) => also(row) && requirements.every((one) => meets(table, one, row)));
 
-  /** Numbers from 0, the worst, to 1, the best (R2); 1 if all are the same, so that they do not count. */
-  const rescaled = (numbers) => {
+  /** The least and the largest of some numbers. */
+  const ends = (numbers) => {
     let low = Infinity, high = -Infinity;
     for (const value of numbers) [low, high] = [Math.min(low, value), Math.max(high, value)];
-    const equal = same(low, high);
-    return numbers.map((value) => (equal ? 1 : (value - low) / (high - low)));
+    return [low, high];
+  };
+
+  /** Numbers from 0, the worst, to 1, the best (R2); 1 if all are the same, so that they do not count. */
+  const rescaled = (numbers, isTie) => {
+    const [low, high] = ends(numbers);
+    return numbers.map((value) => (isTie || !(high > low) ? 1 : (value - low) / (high - low)));
   };
 
   /**
@@ -80,7 +85,9 @@ squama.ranking = (() => {
     const covered = criteria.some(({ column }) => column === "coverage") ? table.numbers("coverage") : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
     const worths = all.map((values) => Float64Array.from(ranked, (row) => values[row]));
-    const terms = worths.map(rescaled).map((values) => (scale === "paper" ? values.map(Math.log) : values));
+    // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
+    const isTie = criteria.map(({ column }) => same(...ends(ranked.map((row) => table.numbers(column)[row]))));
+    const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
     return { rows: ranked, worths, terms, scale };
   };
 
@@ -94,17 +101,35 @@ squama.ranking = (() => {
     return sums;
   };
 
-  /** Places of the designs that are ranked, the best first, of equals the first design first; `most` of them. */
+  /** Whether a score is as good as the best one, but for round-off. */
+  const isAsGood = (score, best) => score >= best - ROUND_OFF;
+
+  /** Places by their scores, the best first; those that are equal but for round-off in the order of the table. */
+  const inOrder = (places, sums) => {
+    const sorted = places.sort((a, b) => (sums[a] === sums[b] ? a - b : sums[b] - sums[a])), groups = [];
+    for (const place of sorted) {
+      if (groups.length > 0 && isAsGood(sums[place], sums[groups.at(-1).best])) groups.at(-1).places.push(place);
+      else groups.push({ best: place, places: [place] });
+    }
+    let before = 0;
+    return groups.flatMap(({ places: equals }) => {
+      const rank = before + 1;
+      before += equals.length;
+      return equals.sort((a, b) => a - b).map((place) => ({ place, rank }));
+    });
+  };
+
+  /** The designs that are ranked with their fitness and rank, the best first; `most` of them. */
   const order = (own, weights, most = Infinity) => {
     const sums = scores(own, weights);
-    const better = (a, b) => (sums[a] === sums[b] ? a - b : sums[b] - sums[a]);
     let places = own.rows.map((_, i) => i);
     if (most < places.length / 8) {
-      // What cannot be among the first is not sorted: below the worst of a first choice.
+      // What cannot be among the first is not sorted.
       const bound = Float64Array.from(sums).sort()[sums.length - most];
-      places = places.filter((i) => sums[i] >= bound);
+      places = places.filter((i) => isAsGood(sums[i], bound));
     }
-    return places.sort(better).slice(0, most).map((i) => ({ row: own.rows[i], fitness: own.scale === "paper" ? Math.exp(sums[i]) : sums[i] }));
+    const fitness = (sum) => (own.scale === "paper" ? Math.exp(sum) : sum);
+    return inOrder(places, sums).slice(0, most).map(({ place, rank }) => ({ row: own.rows[place], rank, fitness: fitness(sums[place]) }));
   };
 
   /** Whether one is at least as good as another in every criterion, and better in one (R6). */
@@ -159,5 +184,5 @@ squama.ranking = (() => {
     return { nearest, binding };
   };
 
-  return { SIGNS, SCALES, PAPER, MOST_CRITERIA, same, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
 })();

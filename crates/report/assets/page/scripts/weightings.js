@@ -17,9 +17,9 @@ squama.weightings = (() => {
     }
   }
 
-  /** The place of the best of four lists of terms, the first of equals. */
-  const best = ([a, b, c, d], [m, n, k, l]) => {
-    let place = 0, most = -Infinity;
+  /** The place of the best of four lists of terms, of those that are equal but for round-off the first. */
+  const best = ([a, b, c, d], [m, n, k, l], sums) => {
+    let most = -Infinity;
     for (let i = 0; i < a.length; i++) {
       // In this order, and without what has no weight, as the fitness is summed everywhere.
       let sum = 0;
@@ -27,14 +27,17 @@ squama.weightings = (() => {
       if (n > 0) sum += n * b[i];
       if (k > 0) sum += k * c[i];
       if (l > 0) sum += l * d[i];
-      if (sum > most) [place, most] = [i, sum];
+      sums[i] = sum;
+      if (sum > most) most = sum;
     }
-    return place;
+    const bound = most - squama.ranking.ROUND_OFF;
+    return sums.findIndex((sum) => sum >= bound);
   };
 
   /** The row that is best at each node, and the share of each row in all of them, the largest first. */
   const winners = ({ rows, terms }) => {
-    const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights)] }));
+    const sums = new Float64Array(rows.length);
+    const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights, sums)] }));
     const cells = new Map();
     for (const { row, cell } of dots) cells.set(row, (cells.get(row) ?? 0) + cell);
     const regions = [...cells].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
