@@ -42,7 +42,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
     let column = |header: &String| {
-        let column = known.iter().find(|column| column.name == header);
+        let column = known.iter().find(|column| column.name == *header);
         column.map_or_else(
             || ("-".to_owned(), String::new()),
             |column| (column.unit.to_owned(), column.meaning.to_owned()),

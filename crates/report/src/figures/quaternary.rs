@@ -48,7 +48,7 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
         winners: ranking
             .quaternary()
             .iter()
-            .map(|best| (best.weights.values(), best.row()))
+            .map(|best| (std::array::from_fn(|c| best.weights.values()[c]), best.row()))
             .collect(),
     };
     let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
