@@ -95,17 +95,14 @@ pub struct SyntaxError {
 /// The keys and values of the TOML document `text`, which stands in the file `name`.
 ///
 /// # Errors
-/// If it is no TOML.
-pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
+/// If it is no TOML: one error for each line that cannot be read.
+pub fn parse(text: &str, name: &str) -> Result<KeyValues, Vec<SyntaxError>> {
     let source = Document { text, name: name.into() };
-    match DeTable::parse(text) {
-        Ok(table) => Ok(source.table(table.get_ref())),
-        Err(error) => Err(SyntaxError {
-            place: source.place(error.span().map(|span| span.start)),
-            line: source.line(error.span().map_or(0, |span| span.start)),
-            message: one_line(error.message()),
-        }),
-    }
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let mut errors: Vec<_> = errors.iter().map(|error| source.error(error)).collect();
+    // What follows a mistake on its line is no other mistake.
+    errors.dedup_by(|next, first| next.place == first.place);
+    if errors.is_empty() { Ok(source.table(table.get_ref())) } else { Err(errors) }
 }
 
 /// The lines of `message`, trimmed and joined by commas.
@@ -120,6 +117,15 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
+    fn error(&self, error: &toml::de::Error) -> SyntaxError {
+        let offset = error.span().map(|span| span.start);
+        SyntaxError {
+            place: self.place(offset),
+            line: self.line(offset.unwrap_or_default()),
+            message: one_line(error.message()),
+        }
+    }
+
     /// The beginning of the line at `offset`, what cannot be printed left out.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
