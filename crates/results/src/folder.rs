@@ -5,9 +5,17 @@ mod atomic_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use sweep::Measure;
+
 pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
 
-use crate::columns::MEASURE_TABLES;
+/// The tables of one measure, named by the value that they are about.
+pub const MEASURE_TABLES: [(&str, Measure); 4] = [
+    ("coverage", Measure::Coverage),
+    ("critical_force", Measure::Puncture),
+    ("penetration", Measure::Puncture),
+    ("compliance", Measure::Flexure),
+];
 
 /// The folder of a run. It owns the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,6 +39,8 @@ impl RunFolder {
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
+    /// The table of the measures of one design.
+    pub const MEASURES: &'static str = "measures.csv";
     /// The tables of the puncture of one design: path, events, scales, iterations.
     pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
     /// The tables of the bending of one design: path, events, scales, iterations.

@@ -15,6 +15,7 @@
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`Results`] | the designs of a run read back |
 //!
@@ -40,20 +41,23 @@
 pub mod columns;
 mod design;
 mod folder;
+mod measure_table;
 mod path_tables;
 mod reader;
 mod tables;
 
 pub use columns::cell::Cell;
-pub use columns::{Column, failure_columns};
-pub use design::design_result::{
-    DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
-};
-pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
+pub use columns::{Column, RERUN_COLUMNS, failure_columns, failure_detail_columns};
+pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
+pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
-pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
+pub use design::rerun_change::RerunChange;
+pub use design::row::{DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
-pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};
+pub use folder::{
+    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
+};
+pub use measure_table::write_measures;
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};

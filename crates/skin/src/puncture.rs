@@ -19,7 +19,7 @@ use window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, Record};
-use crate::{Common, Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, Sample, Status};
 
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
@@ -94,7 +94,7 @@ pub fn solve(
     substrate: impl Into<RowStiffness>,
     common: &Common,
     parameters: &PunctureParameters,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -109,7 +109,7 @@ pub fn solve_sample(
     common: &Common,
     parameters: &PunctureParameters,
     sample: &Sample,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -121,7 +121,7 @@ enum Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn row(self, layout: Layout) -> Result<Arrangement, InvalidDesign> {
+    fn row(self, layout: Layout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
             Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
@@ -166,7 +166,7 @@ impl<'a> Problem<'a> {
         stiffness: RowStiffness,
         common: &Common,
         parameters: &'a PunctureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
@@ -174,7 +174,7 @@ impl<'a> Problem<'a> {
         Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
     }
 
-    fn solve(&self) -> Result<Puncture, InvalidDesign> {
+    fn solve(&self) -> Result<Puncture, OutOfRange> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
@@ -185,12 +185,12 @@ impl<'a> Problem<'a> {
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
-    fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
+    fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
         self.follow(self.part(Layout::first(&self.stiffness))?, longest)
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
-    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
+    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
@@ -225,7 +225,7 @@ impl<'a> Problem<'a> {
         from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
-    ) -> Result<bool, InvalidDesign> {
+    ) -> Result<bool, OutOfRange> {
         let layout = path.system().layout;
         let longer = layout.grown(reach, longest);
         if longer == layout {
@@ -239,13 +239,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The system of a part of an endless row.
-    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn part(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
         Ok(self.chain(layout)?.within(surroundings))
     }
 
     /// The system of a row that ends.
-    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { stiffness, law, parameters, .. } = self;
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();

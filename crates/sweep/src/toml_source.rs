@@ -100,8 +100,10 @@ pub fn parse(text: &str, name: &str) -> Result<KeyValues, Vec<SyntaxError>> {
     let source = Document { text, name: name.into() };
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut errors: Vec<_> = errors.iter().map(|error| source.error(error)).collect();
+    errors.sort_by_key(|(offset, _)| *offset);
     // What follows a mistake on its line is no other mistake.
-    errors.dedup_by(|next, first| next.place == first.place);
+    errors.dedup_by(|(_, next), (_, first)| next.place == first.place);
+    let errors: Vec<_> = errors.into_iter().map(|(_, error)| error).collect();
     if errors.is_empty() { Ok(source.table(table.get_ref())) } else { Err(errors) }
 }
 
@@ -117,13 +119,12 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
-    fn error(&self, error: &toml::de::Error) -> SyntaxError {
+    /// An error with its offset.
+    fn error(&self, error: &toml::de::Error) -> (usize, SyntaxError) {
         let offset = error.span().map(|span| span.start);
-        SyntaxError {
-            place: self.place(offset),
-            line: self.line(offset.unwrap_or_default()),
-            message: one_line(error.message()),
-        }
+        let message = one_line(error.message());
+        let line = self.line(offset.unwrap_or_default());
+        (offset.unwrap_or_default(), SyntaxError { place: self.place(offset), line, message })
     }
 
     /// The beginning of the line at `offset`, what cannot be printed left out.

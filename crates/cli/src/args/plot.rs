@@ -34,7 +34,7 @@ pub struct PlotArguments {
     pub out: Option<PathBuf>,
 }
 
-/// What `squama plot` plots besides a sweep.
+/// The subjects of `squama plot` besides a sweep.
 #[derive(Debug, Subcommand)]
 pub enum PlotWhat {
     /// Force–displacement, moment–curvature and energies of designs, solved anew

@@ -10,13 +10,13 @@ use crate::args;
 
 /// A design that is looked at.
 pub struct SelectedDesign {
-    /// Its sweep, with this design alone.
+    /// A sweep of this design alone.
     pub sweep: Sweep,
-    /// Its number in the sweep as a whole, if it is one of its designs.
+    /// The number of the design in the whole sweep, if it is one of its designs.
     pub number: Option<DesignNumber>,
     /// How many designs the sweep has as a whole.
     pub count: u64,
-    /// What the sweep solves under that number, if settings may have changed it.
+    /// The case that the sweep solves under that number, if settings may have changed it.
     pub original: Option<Case>,
 }
 

@@ -1,4 +1,4 @@
-//! What is refused: one line with file, key, value and what would be right.
+//! Refusals: one line with file, key, value and what would be right.
 
 use sweep::{Setting, Sweep};
 
@@ -119,6 +119,15 @@ fn files_that_are_no_toml() {
 }
 
 #[test]
+fn all_errors_are_told_at_once() {
+    let text = "names = 'x'\n[designs]\ngap = 0.1\nslant_deg = [0, 90]\nc1 = 1\n\
+                [contact]\nc1 = 2\nc2 = 0\n[puncture]\nscales = 'many'";
+    insta::assert_snapshot!(refused(text, &["solver.max_step=0"]), @"");
+    let text = "name = x\n[designs]\nslant_deg 30\ngap_over_t = 0.1";
+    insta::assert_snapshot!(refused(text, &[]), @"");
+}
+
+#[test]
 fn settings() {
     let messages = [
         "contact.c3=1",
@@ -134,9 +143,10 @@ fn settings() {
 
 proptest::proptest! {
     #[test]
-    fn any_text_is_a_sweep_or_refused_in_one_line(text in "(name|designs|contact|c1|scales|base|gap_over_t|from|to|step|=|\\.|\\[|\\]|\\{|\\}|'|,|\n| |-|[0-9]|e|x){0,40}") {
+    fn any_text_is_a_sweep_or_refused_in_a_line_for_each_error(text in "(name|designs|contact|c1|scales|base|gap_over_t|from|to|step|=|\\.|\\[|\\]|\\{|\\}|'|,|\n| |-|[0-9]|e|x){0,40}") {
         if let Err(error) = Sweep::parse(&text, "x.toml", &[]) {
-            proptest::prop_assert_eq!(error.to_string().lines().count(), 1);
+            let message = error.to_string();
+            proptest::prop_assert!(message.lines().all(|line| line.starts_with("x.toml")), "{}", message);
         }
     }
 }
