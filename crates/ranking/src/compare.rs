@@ -190,6 +190,11 @@ pub fn compare<'r>(
 }
 
 impl Comparison<'_> {
+    /// The largest relative difference of values that count as the same.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// Designs that both runs have.
     pub fn matched(&self) -> usize {
         self.matching.pairs.len()

@@ -11,9 +11,9 @@ use crate::journal::{
     self, Archive, Entries, Journal, JournalEntry, JournalError, SessionStart, Start,
 };
 use crate::options::{Options, Program};
-use crate::solve::work::WorkMeter;
 use crate::progress::{Finished, RunError};
 use crate::run::Run;
+use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
 /// The advice to shards that do not belong together.

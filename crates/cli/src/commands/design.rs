@@ -2,7 +2,9 @@
 
 use anyhow::ensure;
 use results::columns::design_columns;
-use results::{Cell, Column, DesignRow, RunFolder, SolvedDesign, write_measures, write_path_tables};
+use results::{
+    Cell, Column, DesignRow, RunFolder, SolvedDesign, write_measures, write_path_tables,
+};
 use run::Evaluator;
 use serde_json::{Map, Value, json};
 use sweep::PARAMETERS;

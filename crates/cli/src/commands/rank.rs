@@ -8,6 +8,7 @@ use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
 use results::Results;
 
 use super::DONE;
+use super::source::results_folder;
 use crate::args;
 use crate::print::{aligned, counted, digits, print};
 
@@ -18,9 +19,10 @@ const LISTED: usize = 10;
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let weights: Weights = option("--weights", &arguments.weights)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&arguments.results)?;
+    let source = results_folder(&arguments.results)?;
+    let results = Results::read(&source)?;
     let ranking = Ranking::new(&results, grid)?;
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
+    let folder = arguments.out.as_deref().unwrap_or(&source);
     let files = ranking::write_ranking(folder, &ranking, weights)?;
     let report = RankReport { results: &results, ranking: &ranking };
     let text = report.text(weights, arguments.top);

@@ -96,11 +96,7 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let within = axis.iter().filter(|value| value.number().is_some_and(|n| bounds.contains(&n)));
     let values: Vec<_> = within.map(|value| value.to_toml()).collect();
     let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
-    ensure!(
-        !values.is_empty(),
-        "the sweep has no such value, expected some of {}",
-        all.join(" ")
-    );
+    ensure!(!values.is_empty(), "the sweep has no such value, expected some of {}", all.join(" "));
     Ok(format!("[{}]", values.join(", ")))
 }
 

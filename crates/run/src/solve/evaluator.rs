@@ -91,7 +91,10 @@ impl Evaluator {
         }
         if self.measures(Measure::Flexure) {
             let bent = chain_fits(case);
-            if bent.and_then(|()| guarded(|| samples::flexure(case, &mut statistics, work))).is_err() {
+            if bent
+                .and_then(|()| guarded(|| samples::flexure(case, &mut statistics, work)))
+                .is_err()
+            {
                 statistics.flexure_failed = Some(case.samples.count);
             }
         }

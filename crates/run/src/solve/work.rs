@@ -114,7 +114,8 @@ mod tests {
     #[test]
     fn imperfect_designs_are_more_work() {
         let perfect = case("slant_deg = 0");
-        let uneven = case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 7\n[flexure]\ngaps = 50");
+        let uneven =
+            case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 7\n[flexure]\ngaps = 50");
         assert_eq!(work_of(&perfect, &[Measure::Coverage]), 1);
         assert_eq!(work_of(&perfect, &Measure::ALL), 3);
         assert_eq!(work_of(&uneven, &Measure::ALL), 3 + 7 * (1 + 50));
