@@ -47,8 +47,12 @@ impl RunFolder {
     /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
+    /// What a ranking goes by: requirements, criteria, weights, scale.
+    pub const PREFERENCES: &'static str = "ranking.toml";
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
+    /// The table of the measures of one design.
+    pub const MEASURES: &'static str = "measures.csv";
     /// The tables of the puncture of one design: path, events, scales, iterations.
     pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
     /// The tables of the bending of one design: path, events, scales, iterations.
@@ -157,7 +161,7 @@ impl RunFolder {
     }
 
     /// Removes the file `name`, if it is there.
-    pub(crate) fn remove(&self, name: &str) {
+    pub fn remove(&self, name: &str) {
         // Nearly always there is none.
         let _ = fs::remove_file(self.file(name));
     }

@@ -15,7 +15,9 @@
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //! | [`Contents`], [`VerifiedFolder`] | what a run states of its folder, and the folder once that is checked |
 //! | [`Derivation`] | what was made from the tables, and from which |
@@ -44,8 +46,10 @@ mod contents;
 mod design;
 mod digest;
 mod folder;
+mod measure_table;
 mod path_tables;
 mod reader;
+pub mod round_off;
 mod shell;
 mod tables;
 
@@ -65,6 +69,7 @@ pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,
     remove_abandoned_files, sync_folder, write_text,
 };
+pub use measure_table::write_measures;
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};

@@ -39,7 +39,7 @@ pub enum SecondWay {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LargestDifference {
     /// The column of `designs.csv`.
-    pub column: &'static str,
+    pub column: String,
     /// The second way.
     pub way: SecondWay,
     /// The difference, relative to the larger value.
@@ -58,7 +58,7 @@ pub struct Audit {
     /// The largest difference of each column and way, the largest first.
     pub differences: Vec<LargestDifference>,
     /// What two ways say differently in words, or what only one of them has: column, design and both texts.
-    pub contradictions: Vec<(&'static str, DesignNumber, [String; 2])>,
+    pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
 }
 
 /// A design that was solved again.
@@ -108,17 +108,17 @@ impl Audit {
 
     /// Takes the differences between two rows of one design into account.
     fn compare(&mut self, columns: &[Column<DesignRow>], rows: [&DesignRow; 2], way: SecondWay) {
-        for column in columns.iter().filter(|column| is_physical(column.name)) {
+        for column in columns.iter().filter(|column| is_physical(&column.name)) {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
                     let relative = relative(first, second);
-                    let (column, values) = (column.name, [first, second]);
+                    let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, way, relative, design, values });
                 }
                 cells if cells[0] != cells[1] => {
                     let texts = cells.map(|cell| cell.to_string());
-                    self.contradictions.push((column.name, design, texts));
+                    self.contradictions.push((column.name.to_string(), design, texts));
                 }
                 _ => {}
             }
@@ -234,7 +234,7 @@ mod tests {
         assert_eq!((found.len(), found[0].relative), (1, 0.5));
         assert_eq!(found[0].design.to_string(), "0002");
         let [(column, design, texts)] = audit.contradictions.as_slice() else { panic!("one") };
-        assert_eq!((*column, design.to_string().as_str()), ("coverage", "0004"));
+        assert_eq!((column.as_str(), design.to_string().as_str()), ("coverage", "0004"));
         assert_eq!(texts, &["0.5".to_owned(), String::new()]);
     }
 }

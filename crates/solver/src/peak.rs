@@ -169,12 +169,11 @@ fn bracket(
     ends: [Sample; 2],
     kinks: [bool; 2],
 ) -> Option<Brent> {
-    let at_an_end = bracket_at_the_larger_end(at, ends, kinks[0])?;
-    let is_hidden = at_an_end.is_none() && (kinks[0] || kinks[1]);
-    if is_hidden { hidden_bracket(at, ends) } else { at_an_end }
+    let at_an_end = bracket_at_the_larger_end(at, ends, kinks[0]);
+    at_an_end.or_else(|| kinks.contains(&true).then(|| hidden_bracket(at, ends)).flatten())
 }
 
-/// A bracket that begins or ends at the larger end, if the function rises from there; `None` if an equilibrium is not found.
+/// A bracket that begins or ends at the larger end, if the function rises from there.
 ///
 /// A force that has just begun to act may raise the function within a small part of the segment, so
 /// behind a kink the search goes on towards the start.
@@ -182,20 +181,20 @@ fn bracket_at_the_larger_end(
     at: &mut impl FnMut(f64) -> Option<Sample>,
     [start, end]: [Sample; 2],
     kink: bool,
-) -> Option<Option<Brent>> {
+) -> Option<Brent> {
     if start.value <= end.value {
         let inside = at(1.0 - NEAR)?;
-        return Some((inside.value > end.value).then(|| Brent::new([start, end], inside)));
+        return (inside.value > end.value).then(|| Brent::new([start, end], inside));
     }
     let (mut beyond, mut place) = (end, NEAR);
     for _ in 0..if kink { CLOSER } else { 1 } {
         let inside = at(place)?;
         if inside.value > start.value {
-            return Some(Some(Brent::new([start, beyond], inside)));
+            return Some(Brent::new([start, beyond], inside));
         }
         (beyond, place) = (inside, 0.1 * place);
     }
-    Some(None)
+    None
 }
 
 /// A bracket around the highest of a few places inside, if it is higher than the places beside it.

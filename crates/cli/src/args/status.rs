@@ -9,6 +9,7 @@ use clap::Args;
 #[command(after_help = "\
 Examples:
   squama status results/paper
+  squama status results/paper --json
 
 The run may be going on meanwhile. Checks every table against what the run states of it, and lists
 what was made from tables that are no longer there.
@@ -17,4 +18,8 @@ pub struct StatusArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
 }

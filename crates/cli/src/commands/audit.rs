@@ -27,11 +27,7 @@ pub fn report(audit: &Audit) -> String {
     text.push_str(&aligned(&rows));
     let texts =
         audit.contradictions.iter().take(LISTED).map(|(column, design, [first, second])| {
-            [
-                (*column).to_owned(),
-                format!("design {design}"),
-                format!("{first:?} against {second:?}"),
-            ]
+            [column.clone(), format!("design {design}"), format!("{first:?} against {second:?}")]
         });
     text.push_str(&aligned(&texts.collect::<Vec<_>>()));
     let more = audit.contradictions.len().saturating_sub(LISTED);
@@ -50,7 +46,7 @@ fn row(found: &LargestDifference) -> [String; 5] {
     let values = format!("{first} against {second}");
     [
         digits(found.relative),
-        found.column.to_owned(),
+        found.column.clone(),
         way.to_owned(),
         format!("design {}", found.design),
         values,

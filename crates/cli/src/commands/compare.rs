@@ -1,12 +1,14 @@
 //! `squama compare`.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ranking::{ColumnDifference, Comparison, Extreme};
-use results::{Results, VerifiedFolder};
+use results::Results;
+use sweep::number;
 
+use super::source::verified_folder;
 use super::{DIFFERENT, DONE};
 use crate::args;
 use crate::print::{aligned, counted, digits, print, shortfall};
@@ -17,11 +19,10 @@ const LISTED: usize = 8;
 /// Says where two runs differ.
 pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
-    let read = |path: &Path| -> anyhow::Result<Results> {
-        let folder = VerifiedFolder::open(path, arguments.partial.completeness())?;
-        Ok(Results::read_from(&folder)?)
-    };
-    let [first, second] = [&arguments.first, &arguments.second].map(|path| read(path));
+    let completeness = arguments.partial.completeness();
+    let results =
+        |path: &PathBuf| anyhow::Ok(Results::read_from(&verified_folder(path, completeness)?)?);
+    let [first, second] = [&arguments.first, &arguments.second].map(results);
     let (first, second) = (first?, second?);
     let comparison = ranking::compare(&first, &second, tolerance)?;
     let mut text = report(&comparison, &first, &second);
@@ -90,7 +91,12 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        let _ = writeln!(text, "\nno difference: {}", names.join(" "));
+        let above = if same.iter().any(|column| column.relative.is_some()) {
+            format!(" above {}", number::text(comparison.tolerance()))
+        } else {
+            String::new()
+        };
+        let _ = writeln!(text, "\nno difference{above}: {}", names.join(" "));
     }
     text
 }

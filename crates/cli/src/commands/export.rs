@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use results::VerifiedFolder;
-
+use super::source::{require_folder_of, verified_folder};
 use super::{DONE, derived};
 use crate::args;
 use crate::print::{aligned, counted, print, shortfall};
@@ -12,7 +11,8 @@ use crate::print::{aligned, counted, print, shortfall};
 pub fn export(arguments: &args::ExportArguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
-    let results = VerifiedFolder::open(&arguments.results, arguments.partial.completeness())?;
+    require_folder_of("--xlsx", &arguments.xlsx)?;
+    let results = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let exported = report::export(&results, &arguments.xlsx)?;
     let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
     let name = name.unwrap_or_default().to_string_lossy();

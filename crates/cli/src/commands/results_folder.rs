@@ -1,10 +1,10 @@
 //! A folder of results, as figures and the page need it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
 use report::{Designs, Fact};
-use results::{Completeness, InvalidResults, Results, RunFolder, VerifiedFolder};
+use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
 use sweep::toml_source::{self, KeyValue, Value};
 
@@ -37,12 +37,12 @@ impl ResultsFolder {
 
 impl ResultsFolder {
     /// Reads `run.toml` and `designs.csv`.
-    pub fn read(folder: &Path, completeness: Completeness) -> anyhow::Result<Self> {
-        let verified = VerifiedFolder::open(folder, completeness)?;
+    pub fn read(verified: &VerifiedFolder) -> anyhow::Result<Self> {
+        let folder = verified.path();
         let run = verified.text(RunFolder::RUN_INFO)?;
         let record = folder.join(RunFolder::RUN_INFO).display().to_string();
         let sweep = Sweep::parse(&run, &record, &[])?;
-        let results = Results::read_from(&verified)?;
+        let results = Results::read_from(verified)?;
         let designs = Designs::of(&results);
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }

@@ -126,7 +126,7 @@ mod tests {
             names.sort();
             names
         };
-        let strangers = [".x.partial", ".x.csv.squama-1.partial", "x.squama-1-2.partial"];
+        let strangers = [".x.csv.squama-1.partial", ".x.partial", "x.squama-1-2.partial"];
         for name in strangers.iter().chain(&[".x.csv.squama-1-2.partial"]) {
             fs::write(folder.path().join(name), "x").expect("writable");
         }

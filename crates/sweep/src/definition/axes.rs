@@ -33,10 +33,11 @@ fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Prob
         let expected = format!("a list of at least one value, each {}", parameter.expected());
         return Err(WrongValue::NotAccepted { found: "[]".to_owned(), expected }.into());
     }
-    let (mut values, mut known) = (Vec::with_capacity(items.len()), HashSet::new());
+    let mut values = Vec::with_capacity(items.len());
+    let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         let value = parameter.read(item)?;
-        if !known.insert(value.identity()) {
+        if !seen.insert(value.key()) {
             return Err(Problem::Twice { value: item.to_string() });
         }
         values.push(value);

@@ -34,12 +34,12 @@ impl Scalar {
         }
     }
 
-    /// What equal values have in common and different ones have not.
-    pub(crate) fn identity(self) -> (u64, &'static str) {
+    /// A key that two values of one parameter share if they are equal. A number is never `NaN`.
+    pub(crate) fn key(self) -> (u64, &'static str) {
         match self {
-            // Zero is zero, whatever its sign.
-            Self::Number(number) => ((number + 0.0).to_bits(), "number"),
-            Self::Count(count) => (count as u64, "count"),
+            // Zero and minus zero are equal.
+            Self::Number(number) => ((number + 0.0).to_bits(), ""),
+            Self::Count(count) => (count as u64, ""),
             Self::Word(word) => (0, word),
         }
     }
