@@ -41,7 +41,7 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     write_rows(folder, path, Plain, PATH, &puncture.path)?;
-    write_rows(folder, events, Plain, EVENTS, &puncture.events)?;
+    write_rows(folder, events, Plain, EVENTS, &puncture.all_events())?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
     Ok(RunFolder::PUNCTURE)

@@ -1,5 +1,8 @@
 //! Puncture of a row of scales on an elastic half-space.
 
+mod bars;
+mod event;
+mod fold;
 mod measures;
 mod point;
 mod snapshot;
@@ -12,7 +15,7 @@ use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use point::scales;
 use solver::{Path, Settings, Stop};
-use substrate::RowStiffness;
+use substrate::{RowStiffness, SubstrateLaw};
 use system::{Chain, Layout};
 use window::{Reach, Surroundings};
 
@@ -21,6 +24,8 @@ use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, Record};
 use crate::{Common, Design, InvalidDesign, Sample, Status};
 
+pub use event::PunctureEvent;
+pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
@@ -51,6 +56,8 @@ pub struct PunctureParameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
+    /// How the substrate answers where the surface between two bases is stretched.
+    pub substrate_law: SubstrateLaw,
 }
 
 impl Default for PunctureParameters {
@@ -62,6 +69,7 @@ impl Default for PunctureParameters {
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
+            substrate_law: SubstrateLaw::Linear,
         }
     }
 }
@@ -77,6 +85,8 @@ pub struct Puncture {
     pub path: Vec<PuncturePoint>,
     /// Every contact event, in order.
     pub events: Vec<ContactEvent<PuncturePoint>>,
+    /// Every gap in which the surface folds over or unfolds, in order.
+    pub folds: Vec<Fold>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -186,14 +196,17 @@ impl<'a> Problem<'a> {
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        self.follow(self.part(Layout::first(&self.stiffness))?, longest)
+        self.follow(
+            self.part(Layout::first(&self.stiffness, self.parameters.substrate_law))?,
+            longest,
+        )
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let mut record = Record::new(&path);
+        let (mut record, mut folds) = (Record::new(&path), Vec::new());
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -201,6 +214,7 @@ impl<'a> Problem<'a> {
             let reach = path.system().reach(&point.state);
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
+                folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
@@ -214,7 +228,7 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, &mut path, status))
+        Ok(self.puncture(record, folds, &mut path, status))
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -250,18 +264,26 @@ impl<'a> Problem<'a> {
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();
         let length = self.design.length;
-        Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
+        let position = parameters.load_position;
+        let chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
+        Ok(chain.with_law(parameters.substrate_law))
     }
 
-    fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
+    fn puncture(
+        &self,
+        record: Record<Chain>,
+        folds: Vec<Fold>,
+        path: &mut Path<Chain>,
+        status: Status,
+    ) -> Puncture {
         let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let measures = PunctureMeasures::new(&record, path, modulus);
+        let measures = PunctureMeasures::new(&record, &folds, path, modulus);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, events, scales, history }
+        Puncture { status, measures, path, events, folds, scales, history }
     }
 }

@@ -1,7 +1,7 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{PuncturePoint, ScaleState};
+use skin::puncture::{PunctureEvent, PuncturePoint, ScaleState};
 use skin::{ContactEvent, Iteration};
 
 use super::Column;
@@ -14,22 +14,38 @@ pub static PATH: &[Column<PuncturePoint>] = &[
     Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |p| p.force.into()),
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |p| p.tilt_deg.into()),
     Column::new("contacts", "-", "closed contacts", |p| p.contacts.into()),
+    Column::new(
+        "gap_stretch_min",
+        "-",
+        "width of the tightest gap between bases over that at rest",
+        |p| p.gap_stretch.map(|stretch| stretch.min).into(),
+    ),
+    Column::new(
+        "gap_stretch_max",
+        "-",
+        "width of the widest gap between bases over that at rest",
+        |p| p.gap_stretch.map(|stretch| stretch.max).into(),
+    ),
 ];
 
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<ContactEvent<PuncturePoint>>] = &[
+pub static EVENTS: &[Column<PunctureEvent>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
-        e.point.displacement.into()
+        e.point().displacement.into()
     }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point.force.into()),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point().force.into()),
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |e| {
-        e.point.tilt_deg.into()
+        e.point().tilt_deg.into()
     }),
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
-        e.left_scale.into()
+        e.left_scale().into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
-    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
+    Column::new("kind", "-", "which corner meets which edge, or the gap between two bases", |e| {
+        e.kind().into()
+    }),
+    Column::new("change", "-", "what happens to the contact, or to the surface in the gap", |e| {
+        e.change().into()
+    }),
 ];
 
 /// The columns of `scales.csv`.

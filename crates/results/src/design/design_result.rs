@@ -182,7 +182,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 15] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -193,6 +193,12 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
         measures.initial_stiffness,
         measures.max_stiffness,
         measures.secant_stiffness,
+        measures.gap_stretch_min,
+        measures.gap_stretch_max,
+        measures.fold_force,
+        measures.fold_displacement,
+        measures.fold_tilt_deg,
+        measures.sound_force,
     ]
 }
 
@@ -221,8 +227,9 @@ mod tests {
             scales: 41,
             ..PunctureMeasures::default()
         };
-        let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
-        Puncture { status, measures, path, events, scales, history }
+        let (path, events, folds) = (vec![], vec![], vec![]);
+        let (scales, history) = (vec![], vec![]);
+        Puncture { status, measures, path, events, folds, scales, history }
     }
 
     #[test]

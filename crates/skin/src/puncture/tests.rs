@@ -1,5 +1,7 @@
 //! What only the inside of the model shows: its tangent, its energy balance, the limit of `Auto`.
 
+mod bars;
+
 use std::collections::HashSet;
 
 use approx::assert_relative_eq;
