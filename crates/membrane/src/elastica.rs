@@ -86,7 +86,7 @@ impl Elastica {
         Ok(Self { section, span, rule: Arc::new(Lobatto::new(order)) })
     }
 
-    /// The same membrane over another span.
+    /// A membrane of this section and order over another span.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
@@ -115,7 +115,7 @@ impl Elastica {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// What the entries of [`Self::gradient`] are to be compared with, in the order of the state.
+    /// The sizes that the entries of [`Self::gradient`] are to be compared with, in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
@@ -236,7 +236,7 @@ impl Elastica {
         std::iter::once(start).chain(steps).collect()
     }
 
-    /// The same state seen by a membrane of another order, its direction interpolated.
+    /// The state `z` as a membrane of another order sees it, its direction interpolated.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.

@@ -4,4 +4,5 @@ pub mod design_result;
 pub mod failure;
 pub mod outcome;
 pub mod rerun_change;
+pub mod row;
 pub mod sample_statistics;

@@ -7,7 +7,7 @@ use crate::columns::{
     BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
     STEPS,
 };
-use crate::design::design_result::SolvedDesign;
+use crate::design::row::SolvedDesign;
 use crate::folder::{OutputError, RunFolder};
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;

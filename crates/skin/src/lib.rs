@@ -25,7 +25,6 @@
 //! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
 //! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a contact of a state |
-//! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
 //! ```
 //! use skin::puncture::{self, PunctureParameters};
@@ -51,7 +50,6 @@ mod crossing;
 mod design;
 pub mod flexure;
 mod imperfection;
-mod invalid;
 pub mod puncture;
 mod record;
 mod status;
@@ -60,6 +58,5 @@ pub use common::Common;
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};
-pub use invalid::InvalidDesign;
 pub use record::{ContactEvent, Iteration};
 pub use status::Status;

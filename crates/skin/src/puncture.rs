@@ -22,7 +22,7 @@ use window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, Record};
-use crate::{Common, Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, Sample, Status};
 
 pub use event::PunctureEvent;
 pub use fold::{Fold, GapStretch};
@@ -104,7 +104,7 @@ pub fn solve(
     substrate: impl Into<RowStiffness>,
     common: &Common,
     parameters: &PunctureParameters,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -119,7 +119,7 @@ pub fn solve_sample(
     common: &Common,
     parameters: &PunctureParameters,
     sample: &Sample,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -131,7 +131,7 @@ enum Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn row(self, layout: Layout) -> Result<Arrangement, InvalidDesign> {
+    fn row(self, layout: Layout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
             Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
@@ -176,7 +176,7 @@ impl<'a> Problem<'a> {
         stiffness: RowStiffness,
         common: &Common,
         parameters: &'a PunctureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         parameters.check()?;
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
@@ -184,7 +184,7 @@ impl<'a> Problem<'a> {
         Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
     }
 
-    fn solve(&self) -> Result<Puncture, InvalidDesign> {
+    fn solve(&self) -> Result<Puncture, OutOfRange> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
@@ -195,15 +195,13 @@ impl<'a> Problem<'a> {
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
-    fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        self.follow(
-            self.part(Layout::first(&self.stiffness, self.parameters.substrate_law))?,
-            longest,
-        )
+    fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
+        let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
+        self.follow(self.part(first)?, longest)
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
-    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
+    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let (mut record, mut folds) = (Record::new(&path), Vec::new());
@@ -239,7 +237,7 @@ impl<'a> Problem<'a> {
         from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
-    ) -> Result<bool, InvalidDesign> {
+    ) -> Result<bool, OutOfRange> {
         let layout = path.system().layout;
         let longer = layout.grown(reach, longest);
         if longer == layout {
@@ -253,13 +251,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The system of a part of an endless row.
-    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn part(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
         Ok(self.chain(layout)?.within(surroundings))
     }
 
     /// The system of a row that ends.
-    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { stiffness, law, parameters, .. } = self;
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();

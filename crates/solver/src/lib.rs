@@ -73,6 +73,7 @@ mod rate_problem;
 mod step;
 mod stop;
 mod system;
+mod tangent;
 mod tangent_solver;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
@@ -85,4 +86,5 @@ pub use path::{Path, Point};
 pub use peak::Peak;
 pub use step::Settings;
 pub use stop::Stop;
-pub use system::{Control, Residual, State, System, Tangent};
+pub use system::{Control, Residual, State, System};
+pub use tangent::Tangent;

@@ -29,13 +29,13 @@ pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
 
 /// The design that is asked for.
 struct Chosen {
-    /// Its sweep, with this design alone.
+    /// A sweep of this design alone.
     sweep: Sweep,
-    /// Its number in the sweep as a whole, if it is one of its designs.
+    /// The number of the design in the whole sweep, if it is one of its designs.
     number: Option<DesignNumber>,
     /// How many designs the sweep has as a whole.
     count: u64,
-    /// What the sweep solves under that number, if settings may have changed it.
+    /// The case that the sweep solves under that number, if settings may have changed it.
     original: Option<Case>,
 }
 
@@ -150,7 +150,7 @@ impl Chosen {
         }
     }
 
-    /// What is not as the sweep has it.
+    /// The parameters that are not as the sweep has them.
     fn changes(&self) -> String {
         let Some(original) = self.original else {
             return String::new();

@@ -3,7 +3,7 @@
 use crate::table::{cell, columns};
 use crate::{FEW, Place};
 
-/// What the course of a design is written to.
+/// The files of the path of a design.
 const COURSE: &str = "design.toml events.csv flexure_events.csv flexure_path.csv \
                       flexure_scales.csv flexure_steps.csv path.csv scales.csv steps.csv";
 

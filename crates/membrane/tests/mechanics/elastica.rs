@@ -16,7 +16,7 @@ fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
     Elastica::new(Section::new(1.0, THICKNESS)?, span, order)
 }
 
-/// What is known of the right scale.
+/// The boundary condition of the right scale.
 #[derive(Clone, Copy)]
 enum Right {
     /// Displacement, seen from the left end, and rotation of the right end of the membrane.

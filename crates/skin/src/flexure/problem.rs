@@ -1,6 +1,7 @@
 //! The problem of bending a strip, and its solution with a resolution that suffices.
 
 use contact::ContactLaw;
+use geometry::OutOfRange;
 use membrane::{Section, Span};
 use solver::{Path, Stop};
 
@@ -11,7 +12,7 @@ use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gap
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::Record;
-use crate::{Common, Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, Sample, Status};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
 const TOLERANCE: f64 = 1e-4;
@@ -36,7 +37,7 @@ impl<'a> FlexureProblem<'a> {
         design: &Design,
         common: &'a Common,
         parameters: &'a FlexureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let row = design.row()?;
         let (gaps, solved) = match parameters.method {
             Method::UnitCell => (gaps(&row, parameters), 1),
@@ -54,7 +55,7 @@ impl<'a> FlexureProblem<'a> {
         common: &'a Common,
         parameters: &'a FlexureParameters,
         sample: &Sample,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let gaps = whole_gaps(&design.row()?, parameters);
         let row = Arrangement::Uneven(sample.row(0, gaps)?);
         Self::new(design, common, parameters, row, gaps as f64, gaps)
@@ -67,7 +68,7 @@ impl<'a> FlexureProblem<'a> {
         row: Arrangement,
         gaps: f64,
         solved: usize,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let modulus = parameters.contact_modulus_over_membrane;
         Ok(Self {
             common,
@@ -82,7 +83,7 @@ impl<'a> FlexureProblem<'a> {
     }
 
     /// The strip with this resolution.
-    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, InvalidDesign> {
+    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, OutOfRange> {
         let unlike = match &self.row {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,
@@ -100,16 +101,16 @@ impl<'a> FlexureProblem<'a> {
     }
 
     /// Bends the strip, with finer and finer resolution until it suffices.
-    pub(crate) fn solve(&self) -> Result<Flexure, InvalidDesign> {
+    pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
         Ok(self.resolved()?.0)
     }
 
     /// The strip with the resolution that suffices.
-    pub(crate) fn resolved_strip(&self) -> Result<Strip, InvalidDesign> {
+    pub(crate) fn resolved_strip(&self) -> Result<Strip, OutOfRange> {
         self.strip(self.resolved()?.1)
     }
 
-    fn resolved(&self) -> Result<(Flexure, Resolution), InvalidDesign> {
+    fn resolved(&self) -> Result<(Flexure, Resolution), OutOfRange> {
         let mut resolution = self.parameters.elements_per_gap.coarsest();
         loop {
             let flexure = self.bend(resolution)?;
@@ -121,7 +122,7 @@ impl<'a> FlexureProblem<'a> {
         }
     }
 
-    fn bend(&self, resolution: Resolution) -> Result<Flexure, InvalidDesign> {
+    fn bend(&self, resolution: Resolution) -> Result<Flexure, OutOfRange> {
         let strip = self.strip(resolution)?;
         let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
@@ -158,7 +159,7 @@ impl<'a> FlexureProblem<'a> {
         resolution: Resolution,
         path: &Path<Strip>,
         record: &Record<Strip>,
-    ) -> Result<Option<f64>, InvalidDesign> {
+    ) -> Result<Option<f64>, OutOfRange> {
         let Some(finer) = resolution.finer() else { return Ok(None) };
         if record.first_contact().is_none() {
             // Arcs are exact in every resolution.

@@ -247,7 +247,7 @@ impl Strip {
         seen
     }
 
-    /// What the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
+    /// The parts that the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
     /// the left one.
     fn parts(&self, active: &[bool], gap: usize) -> impl Iterator<Item = Part> + Clone + use<> {
         let start = self.layout.membrane(gap) + self.vanishing(active, gap);

@@ -67,6 +67,15 @@ impl Layout {
         }
     }
 
+    /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
+    fn units(self, direct: [f64; 3]) -> Vec<f64> {
+        let mut units = vec![1.0; self.size()];
+        for scale in 0..self.scales() {
+            units[self.scale(scale)..][..3].copy_from_slice(&direct);
+        }
+        units
+    }
+
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
@@ -92,7 +101,7 @@ pub(crate) struct Chain {
     pub(super) neighbours: Vec<Neighbour>,
     /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
     pub(super) bars: Option<f64>,
-    /// What lies beyond the ends of a part of an endless row; forces as above.
+    /// The row beyond the ends, if this one is a part of an endless row; forces as above.
     surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
@@ -123,10 +132,6 @@ impl Chain {
         });
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
-        let mut units = vec![1.0; layout.size()];
-        for i in 0..layout.scales() {
-            units[layout.scale(i)..layout.scale(i) + 3].copy_from_slice(&direct);
-        }
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -143,11 +148,11 @@ impl Chain {
             // The tilt is clockwise: it decreases the rotation.
             blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
-            units,
+            units: layout.units(direct),
         }
     }
 
-    /// The same row as a part of an endless one.
+    /// This row as a part of an endless one.
     pub(crate) fn within(self, surroundings: Surroundings) -> Self {
         let a = self.half_base;
         Self { surroundings: Some(surroundings.scaled([a, a, a.powi(3)])), ..self }

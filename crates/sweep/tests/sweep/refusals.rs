@@ -1,4 +1,4 @@
-//! What is refused: one line with file, key, value and what would be right.
+//! Refusals: one line with file, key, value and what would be right.
 
 use sweep::{Setting, Sweep};
 
