@@ -27,6 +27,14 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion { name: "flexural compliance", column: "compliance", inverse: false },
 ];
 
+/// The criteria of a ranking by what the model can answer for: the critical force counts up to the first fold of the surface.
+pub static SOUND_CRITERIA: [Criterion; 4] = [
+    Criterion { name: "coverage", column: "coverage", inverse: false },
+    Criterion { name: "sound force", column: "sound_force", inverse: false },
+    Criterion { name: "penetration resistance", column: "penetration", inverse: true },
+    Criterion { name: "flexural compliance", column: "compliance", inverse: false },
+];
+
 /// Weights of the criteria: none negative, their sum 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weights([f64; 4]);

@@ -5,7 +5,7 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`CRITERIA`], [`Weights`] | what is good, and how much each counts |
+//! | [`CRITERIA`], [`SOUND_CRITERIA`], [`Weights`] | what is good, and how much each counts |
 //! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
@@ -36,7 +36,7 @@ pub use compare::{
     ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
     comparison_columns, difference_columns, rank_correlation, write_comparison,
 };
-pub use criteria::{CRITERIA, Criterion, InvalidWeights, Weights};
+pub use criteria::{CRITERIA, Criterion, InvalidWeights, SOUND_CRITERIA, Weights};
 pub use front::pareto_front;
 pub use ranking::{
     InvalidRanking, LeftOut, RankedDesign, Ranking, pareto_columns, quaternary_columns,

@@ -8,7 +8,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
 
-use crate::criteria::{CRITERIA, Weights};
+use crate::criteria::{CRITERIA, Criterion, SOUND_CRITERIA, Weights};
 use crate::front::{Criteria, pareto_front};
 use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
 pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
@@ -18,6 +18,7 @@ pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_co
 pub struct Ranking<'r> {
     results: &'r Results,
     grid: TetrahedralGrid,
+    criteria: &'static [Criterion; 4],
     candidates: Vec<Contender>,
     /// The candidate that is best at each node of the grid.
     winners: Vec<usize>,
@@ -48,18 +49,18 @@ pub(crate) struct Contender {
 pub enum LeftOut {
     /// The design leaves the substrate exposed.
     Exposed,
-    /// A criterion (its place among [`CRITERIA`]) has no value.
-    Missing(usize),
+    /// A criterion (its place among the criteria, and its column) has no value.
+    Missing(usize, &'static str),
     /// A criterion that is an inverse cannot be formed.
-    NotPositive(usize),
+    NotPositive(usize, &'static str),
 }
 
 impl std::fmt::Display for LeftOut {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Exposed => f.write_str("coverage is 0"),
-            Self::Missing(c) => write!(f, "no {}", CRITERIA[*c].column),
-            Self::NotPositive(c) => write!(f, "{} is not above 0", CRITERIA[*c].column),
+            Self::Missing(_, column) => write!(f, "no {column}"),
+            Self::NotPositive(_, column) => write!(f, "{column} is not above 0"),
         }
     }
 }
@@ -71,17 +72,15 @@ pub enum InvalidRanking {
     #[error(transparent)]
     Results(#[from] InvalidResults),
     /// Every design is left out.
-    #[error("{file}: no design can be ranked ({reasons}), expected one with all of {}", columns())]
+    #[error("{file}: no design can be ranked ({reasons}), expected one with all of {columns}")]
     Nothing {
         /// The table.
         file: String,
         /// The number of designs that are left out for each reason.
         reasons: String,
+        /// The columns that a design needs.
+        columns: String,
     },
-}
-
-fn columns() -> String {
-    CRITERIA.each_ref().map(|criterion| criterion.column).join(", ")
 }
 
 /// A design at some weights: a row of the tables.
@@ -141,11 +140,28 @@ impl<'r> Ranking<'r> {
     /// # Errors
     /// If a column is missing, a cell is no number, or no design remains.
     pub fn new(results: &'r Results, grid: TetrahedralGrid) -> Result<Self, InvalidRanking> {
-        let (rows, left_out) = sort_out(results)?;
+        Self::by(results, grid, &CRITERIA)
+    }
+
+    /// The ranking by what the model can answer for: with the sound force in the place of the critical force.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn sound(results: &'r Results, grid: TetrahedralGrid) -> Result<Self, InvalidRanking> {
+        Self::by(results, grid, &SOUND_CRITERIA)
+    }
+
+    fn by(
+        results: &'r Results,
+        grid: TetrahedralGrid,
+        criteria: &'static [Criterion; 4],
+    ) -> Result<Self, InvalidRanking> {
+        let (rows, left_out) = sort_out(results, criteria)?;
         if rows.is_empty() {
             let reasons: Vec<_> = left_out.iter().map(|(why, n)| format!("{n}: {why}")).collect();
             let reasons = reasons.join("; ");
-            return Err(InvalidRanking::Nothing { file: results.file(), reasons });
+            let columns = criteria.each_ref().map(|criterion| criterion.column).join(", ");
+            return Err(InvalidRanking::Nothing { file: results.file(), reasons, columns });
         }
         let mut candidates = candidates(&rows);
         let nodes: Vec<Steps> = grid.nodes().collect();
@@ -155,13 +171,18 @@ impl<'r> Ranking<'r> {
             candidates[winner].nodes += 1;
             candidates[winner].won += TetrahedralGrid::cell(steps);
         }
-        Ok(Self { results, grid, candidates, winners, left_out })
+        Ok(Self { results, grid, criteria, candidates, winners, left_out })
     }
 
     /// The number of designs that are ranked.
     #[expect(clippy::len_without_is_empty, reason = "a ranking is never empty")]
     pub fn len(&self) -> usize {
         self.candidates.len()
+    }
+
+    /// The criteria in the order of their weights.
+    pub fn criteria(&self) -> &'static [Criterion; 4] {
+        self.criteria
     }
 
     /// The grid of weights.
@@ -243,9 +264,12 @@ struct Eligible {
 /// The rows that can be ranked, and why the others cannot.
 type SortedOut = (Vec<Eligible>, BTreeMap<LeftOut, usize>);
 
-fn sort_out(results: &Results) -> Result<SortedOut, InvalidResults> {
+fn sort_out(
+    results: &Results,
+    criteria: &'static [Criterion; 4],
+) -> Result<SortedOut, InvalidResults> {
     let mut columns = [0; 4];
-    for (column, criterion) in columns.iter_mut().zip(&CRITERIA) {
+    for (column, criterion) in columns.iter_mut().zip(criteria) {
         *column = results.column(criterion.column)?;
     }
     let (mut rows, mut left_out) = (Vec::new(), BTreeMap::new());
@@ -254,7 +278,7 @@ fn sort_out(results: &Results) -> Result<SortedOut, InvalidResults> {
         for (value, column) in values.iter_mut().zip(columns) {
             *value = results.number(row, column)?;
         }
-        match eligible(row, values) {
+        match eligible(row, values, criteria) {
             Ok(eligible) => rows.push(eligible),
             Err(why) => *left_out.entry(why).or_insert(0) += 1,
         }
@@ -263,16 +287,20 @@ fn sort_out(results: &Results) -> Result<SortedOut, InvalidResults> {
 }
 
 /// A row that has every value, with its criteria (R1).
-fn eligible(row: usize, found: [Option<f64>; 4]) -> Result<Eligible, LeftOut> {
+fn eligible(
+    row: usize,
+    found: [Option<f64>; 4],
+    all: &'static [Criterion; 4],
+) -> Result<Eligible, LeftOut> {
     if found[0].is_some_and(|coverage| coverage <= 0.0) {
         return Err(LeftOut::Exposed);
     }
     let (mut values, mut criteria) = ([0.0; 4], [0.0; 4]);
-    for (c, criterion) in CRITERIA.iter().enumerate() {
-        values[c] = found[c].ok_or(LeftOut::Missing(c))?;
+    for (c, criterion) in all.iter().enumerate() {
+        values[c] = found[c].ok_or(LeftOut::Missing(c, criterion.column))?;
         criteria[c] = if criterion.inverse { values[c].recip() } else { values[c] };
         if criterion.inverse && !(values[c] > 0.0 && criteria[c].is_finite()) {
-            return Err(LeftOut::NotPositive(c));
+            return Err(LeftOut::NotPositive(c, criterion.column));
         }
     }
     Ok(Eligible { row, values, criteria })
@@ -325,12 +353,19 @@ pub fn write_ranking(
     let folder = RunFolder::new(folder);
     folder.make()?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
+    let criteria = ranking.criteria;
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
     let format = ranking.results.format();
     let rows = ranking.by_fitness(weights);
-    write_rows(&folder, by_fitness, format, &ranking_columns(&parameters), rows)?;
-    write_rows(&folder, pareto, format, &pareto_columns(&parameters), ranking.front())?;
-    write_rows(&folder, winners, format, &winner_columns(&parameters), ranking.winners())?;
+    write_rows(&folder, by_fitness, format, &ranking_columns(&parameters, criteria), rows)?;
+    write_rows(&folder, pareto, format, &pareto_columns(&parameters, criteria), ranking.front())?;
+    write_rows(
+        &folder,
+        winners,
+        format,
+        &winner_columns(&parameters, criteria),
+        ranking.winners(),
+    )?;
     let rows = ranking.quaternary();
     write_rows(&folder, quaternary, format, &quaternary_columns(&parameters), rows)?;
     folder.sync();

@@ -34,6 +34,12 @@ pub struct RankArguments {
     )]
     pub weights: String,
 
+    /// Count the force up to the first fold of the substrate's surface instead of the critical force
+    ///
+    /// Beyond a fold two bases have passed each other, and the model cannot answer for the force.
+    #[arg(long)]
+    pub sound: bool,
+
     /// Designs that are printed
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub top: usize,

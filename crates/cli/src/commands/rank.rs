@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Context as _;
-use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
+use ranking::{RankedDesign, Ranking, TetrahedralGrid, Weights};
 use results::Results;
 
 use super::DONE;
@@ -19,7 +19,8 @@ pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let weights: Weights = option("--weights", &arguments.weights)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let results = Results::read(&arguments.results)?;
-    let ranking = Ranking::new(&results, grid)?;
+    let rank = if arguments.sound { Ranking::sound } else { Ranking::new };
+    let ranking = rank(&results, grid)?;
     let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
     let files = ranking::write_ranking(folder, &ranking, weights)?;
     let report = RankReport { results: &results, ranking: &ranking };
@@ -48,6 +49,7 @@ impl RankReport<'_> {
         let best: Vec<_> = best.iter().take(top).collect();
         let mut text = self.title(folder);
         let _ = write!(text, "\nBest by {weights}\n{}", self.table(&best, "fitness", fitness));
+        text.push_str(&self.unfolded(weights));
         let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         let _ = write!(text, "\n{}", self.winners());
         let front = counted(self.ranking.front().len() as u64, "design");
@@ -64,15 +66,31 @@ impl RankReport<'_> {
             left_out.map(|(why, count)| [format!("{count} left out"), why.to_string()]).collect();
         text.push_str(&aligned(&rows));
         for criterion in self.ranking.ties() {
-            let name = CRITERIA[criterion].name;
+            let name = self.ranking.criteria()[criterion].name;
             let _ = writeln!(text, "  {name} is the same for all of them and does not count");
         }
         text
     }
 
+    /// The best of those whose surface has not folded over, if that of the winner has.
+    fn unfolded(&self, weights: Weights) -> String {
+        // Tables of an earlier version do not tell.
+        let Ok(fold) = self.results.column("fold_force") else { return String::new() };
+        let by_fitness = self.ranking.by_fitness(weights);
+        let is_open = |design: &&RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
+        if by_fitness.first().is_none_or(|winner| is_open(&winner)) {
+            return String::new();
+        }
+        let best: Vec<_> = by_fitness.iter().filter(is_open).take(1).collect();
+        let table = self.table(&best, "fitness", fitness);
+        format!(
+            "\nThe surface of the substrate folds over under the winner. Best of the others\n{table}"
+        )
+    }
+
     /// The best design by each criterion.
     fn corners(&self) -> String {
-        let corners = CRITERIA.iter().zip(Weights::alone());
+        let corners = self.ranking.criteria().iter().zip(Weights::alone());
         let mut rows = vec![self.header("criterion")];
         rows.extend(corners.map(|(criterion, weights)| {
             self.row(&self.ranking.winner(weights), criterion.name.to_owned())
@@ -108,7 +126,7 @@ impl RankReport<'_> {
     fn header(&self, first: &str) -> Vec<String> {
         let mut header = vec![first, "design"];
         header.extend(self.results.parameters().map(|parameter| parameter.key));
-        header.extend(CRITERIA.iter().map(|criterion| criterion.column));
+        header.extend(self.ranking.criteria().iter().map(|criterion| criterion.column));
         header.into_iter().map(str::to_owned).collect()
     }
 

@@ -5,12 +5,15 @@ use results::columns::{Cell, explain_value, number};
 use sweep::Parameter;
 
 use super::RankedDesign;
-use crate::criteria::{CRITERIA, Criterion};
+use crate::criteria::{Criterion, SOUND_CRITERIA};
 
 type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
 
-/// The columns of `ranking.csv` for designs with these parameters.
-pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+/// The columns of `ranking.csv` for designs with these parameters, ranked by these criteria.
+pub fn ranking_columns<'a>(
+    parameters: &[&'static Parameter],
+    by: &'static [Criterion; 4],
+) -> RankedColumns<'a> {
     let rank =
         Column::new("rank", "-", "place by fitness, 1 is the best", |s: &RankedDesign<'a>| {
             s.rank.into()
@@ -18,8 +21,8 @@ pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'
     let mut columns = vec![rank];
     columns.extend(design(parameters));
     columns.push(fitness("fitness by the weights of the ranking, from 0 to 1"));
-    columns.extend(criteria());
-    columns.extend(rescaled());
+    columns.extend(criteria(by));
+    columns.extend(rescaled(by));
     columns.push(Column::new(
         "pareto",
         "-",
@@ -30,22 +33,28 @@ pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'
 }
 
 /// The columns of `pareto.csv`.
-pub fn pareto_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+pub fn pareto_columns<'a>(
+    parameters: &[&'static Parameter],
+    by: &'static [Criterion; 4],
+) -> RankedColumns<'a> {
     let mut columns = design(parameters);
-    columns.extend(criteria());
+    columns.extend(criteria(by));
     columns.push(share("part of all weights for which it is the best design"));
     columns
 }
 
 /// The columns of `winners.csv`.
-pub fn winner_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+pub fn winner_columns<'a>(
+    parameters: &[&'static Parameter],
+    by: &'static [Criterion; 4],
+) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.push(share("part of all weights for which it is the best design"));
     columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
         Cell::Count(i64::try_from(s.candidate.nodes).unwrap_or(i64::MAX))
     }));
-    columns.extend(criteria());
-    columns.extend(rescaled());
+    columns.extend(criteria(by));
+    columns.extend(rescaled(by));
     columns
 }
 
@@ -90,17 +99,22 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
 }
 
 /// The values that the criteria are made from, as in `designs.csv`.
-fn criteria<'a>() -> RankedColumns<'a> {
+fn criteria<'a>(by: &'static [Criterion; 4]) -> RankedColumns<'a> {
     let cells: [fn(&RankedDesign<'a>) -> Cell; 4] =
         [|s| s.measured(0), |s| s.measured(1), |s| s.measured(2), |s| s.measured(3)];
     let column = |(criterion, cell): (&'static Criterion, fn(&RankedDesign<'a>) -> Cell)| {
         let (unit, meaning) = explain_value(criterion.column).unwrap_or(("-", ""));
         Column::new(criterion.column, unit, meaning, cell)
     };
-    CRITERIA.iter().zip(cells).map(column).collect()
+    by.iter().zip(cells).map(column).collect()
 }
 
-fn rescaled<'a>() -> RankedColumns<'a> {
+fn rescaled<'a>(by: &'static [Criterion; 4]) -> RankedColumns<'a> {
+    let [force, meaning] = if by == &SOUND_CRITERIA {
+        ["sound_force_rescaled", "sound force, likewise"]
+    } else {
+        ["critical_force_rescaled", "critical force, likewise"]
+    };
     vec![
         Column::new(
             "coverage_rescaled",
@@ -108,9 +122,7 @@ fn rescaled<'a>() -> RankedColumns<'a> {
             "coverage from 0, the least of all ranked designs, to 1, the most",
             |s| s.rescaled()[0].into(),
         ),
-        Column::new("critical_force_rescaled", "-", "critical force, likewise", |s| {
-            s.rescaled()[1].into()
-        }),
+        Column::new(force, "-", meaning, |s| s.rescaled()[1].into()),
         Column::new(
             "penetration_resistance_rescaled",
             "-",

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use ranking::{
-    comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
-    winner_columns,
+    CRITERIA, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    ranking_columns, winner_columns,
 };
 use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
@@ -67,9 +67,9 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
         ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
         ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
-        ("`ranking.csv`", columns(&ranking_columns(geometry))),
-        ("`pareto.csv`", columns(&pareto_columns(geometry))),
-        ("`winners.csv`", columns(&winner_columns(geometry))),
+        ("`ranking.csv`", columns(&ranking_columns(geometry, &CRITERIA))),
+        ("`pareto.csv`", columns(&pareto_columns(geometry, &CRITERIA))),
+        ("`winners.csv`", columns(&winner_columns(geometry, &CRITERIA))),
         ("`quaternary.csv`", columns(&quaternary_columns(geometry))),
         ("`compare.csv`", columns(comparison_columns())),
         ("`differences.csv`", columns(&difference_columns(geometry))),

@@ -14,7 +14,10 @@ pub struct Summary {
     pub failed: u64,
     /// The number of designs of each status, by its text, for each measure that has a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
+    /// Designs on whose path the surface of the substrate folds over.
+    pub folded: u64,
     best: [Option<Best>; 4],
+    sound: Option<Best>,
 }
 
 /// A value and the first design that has it.
@@ -55,6 +58,13 @@ static CONTESTS: [Contest; 4] = [
     },
 ];
 
+/// What is told besides if designs have folded.
+static SOUND: Contest = Contest {
+    what: "largest sound force",
+    is_better: f64::gt,
+    value: |r| r.puncture?.measures.sound_force,
+};
+
 impl Summary {
     /// Counts a design. Designs must come in their order, because of equal ones the first is the best.
     pub(crate) fn add(&mut self, row: &DesignRow) {
@@ -69,15 +79,19 @@ impl Summary {
         for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
             contest.enter(row, best);
         }
+        let folds = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
+        self.folded += u64::from(folds.is_some());
+        SOUND.enter(row, &mut self.sound);
     }
 
     fn count(&mut self, measure: Measure, outcome: Outcome) {
         *self.statuses.entry(measure).or_default().entry(outcome.text()).or_default() += 1;
     }
 
-    /// The best values, those that exist.
+    /// The best values, those that exist; where designs have folded, the largest force that the model can answer for too.
     pub fn best(&self) -> impl Iterator<Item = &Best> {
-        self.best.iter().flatten()
+        let sound = self.sound.as_ref().filter(|_| self.folded > 0);
+        self.best.iter().flatten().chain(sound)
     }
 }
 
@@ -107,15 +121,21 @@ mod tests {
             let mut puncture = PunctureResult::without_path(outcome);
             puncture.measures.penetration = penetration;
             puncture.measures.critical_force = penetration.map(|_| 2.0);
+            puncture.measures.sound_force = penetration;
+            puncture.measures.fold_force = penetration.filter(|_| index == 2);
             let result = DesignResult { puncture: Some(puncture), ..DesignResult::default() };
             let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
             summary.add(&DesignRow { number, case, result });
         }
-        assert_eq!(summary.designs, 3);
+        assert_eq!((summary.designs, summary.folded), (3, 1));
         let counts = &summary.statuses[&Measure::Puncture];
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
         let best: Vec<_> = summary.best().map(|b| (b.what, b.design.to_string())).collect();
-        let expected = [("largest critical force", "0001"), ("least penetration", "0003")];
+        let expected = [
+            ("largest critical force", "0001"),
+            ("least penetration", "0003"),
+            ("largest sound force", "0001"),
+        ];
         assert_eq!(best, expected.map(|(what, design)| (what, design.to_owned())));
     }
 }
