@@ -19,7 +19,7 @@
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
+//! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
@@ -87,4 +87,4 @@ pub use peak::Peak;
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};
-pub use tangent::Tangent;
+pub use tangent::{NoTangent, Tangent};

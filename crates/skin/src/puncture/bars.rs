@@ -12,7 +12,7 @@ use super::system::Chain;
 /// ```
 ///
 /// Its force along the row acts at the corners of the bases, so it turns them too: `∂s/∂φ = a sin φ`.
-struct Bar {
+pub(super) struct Bar {
     half_base: f64,
     /// Force that the bar adds to that of the spring.
     excess: f64,
@@ -63,40 +63,16 @@ impl Chain {
         Strip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }
     }
 
-    /// Shows the bars, from the left, each with its left scale; none where the substrate is linear.
-    fn for_bars(&self, z: &[f64], mut show: impl FnMut(usize, &Bar)) {
+    /// Shows the bars, from the left, each with the first unknowns of its two scales; none where the substrate is linear.
+    pub(super) fn for_bars(&self, z: &[f64], mut show: impl FnMut([usize; 2], &Bar)) {
         let Some(spring) = self.bars else { return };
         let mut left = end(self.displacement(z, 0));
         for scale in 1..self.layout.scales() {
             let right = end(self.displacement(z, scale));
-            show(scale - 1, &Bar::new(&self.strip(scale - 1), spring, [left, right]));
+            let places = [scale - 1, scale].map(|i| self.layout.scale(i));
+            show(places, &Bar::new(&self.strip(scale - 1), spring, [left, right]));
             left = right;
         }
-    }
-
-    pub(super) fn add_bar_forces(&self, z: &[f64], residual: &mut Residual) {
-        self.for_bars(z, |scale, bar| bar.add_force(self.places(scale), residual));
-    }
-
-    pub(super) fn add_bar_stiffness(&self, z: &[f64], matrix: &mut impl Tangent) {
-        self.for_bars(z, |scale, bar| bar.add_stiffness(self.places(scale), matrix));
-    }
-
-    pub(super) fn linearise_bars(
-        &self,
-        z: &[f64],
-        residual: &mut Residual,
-        matrix: &mut impl Tangent,
-    ) {
-        self.for_bars(z, |scale, bar| {
-            bar.add_force(self.places(scale), residual);
-            bar.add_stiffness(self.places(scale), matrix);
-        });
-    }
-
-    /// First unknowns of a scale and of the next one.
-    fn places(&self, scale: usize) -> [usize; 2] {
-        [scale, scale + 1].map(|i| self.layout.scale(i))
     }
 
     /// Energy of the bars above that of the springs which they replace.
@@ -146,6 +122,17 @@ impl Bar {
             stiffness: spring * slope,
             turns: [left.1, right.1],
         }
+    }
+
+    /// Adds the forces of the bar and their tangent; `places` are the first unknowns of its two scales.
+    pub(super) fn linearise(
+        &self,
+        places: [usize; 2],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        self.add_force(places, residual);
+        self.add_stiffness(places, matrix);
     }
 
     fn add_force(&self, [left, right]: [usize; 2], residual: &mut Residual) {

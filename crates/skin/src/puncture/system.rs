@@ -2,7 +2,7 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{Blocks, Change, Control, Residual, System, Tangent};
+use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
 use substrate::{FarField, Neighbour, RowStiffness};
 
 use super::window::{Reach, Surroundings};
@@ -272,18 +272,6 @@ impl Chain {
         });
         springs.sum::<f64>() + self.bar_energy(&state.z)
     }
-
-    fn add_springs(&self, z: &[f64], residual: &mut Residual) {
-        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
-    }
-
-    fn add_load(&self, z: &[f64], residual: &mut Residual) {
-        let at = self.layout.scale(self.layout.left);
-        let load = z[self.layout.load()];
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        residual.add(at + 1, load);
-        residual.add(at + 2, load * arm.x);
-    }
 }
 
 impl System for Chain {
@@ -319,23 +307,11 @@ impl System for Chain {
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        residual.clear(&self.units);
-        self.add_springs(&state.z, residual);
-        self.add_bar_forces(&state.z, residual);
-        self.add_load(&state.z, residual);
-        self.contacts.add_residual(state, residual);
+        self.linearise(state, residual, &mut NoTangent);
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        let z = &state.z;
-        self.for_springs(|row, column, value| matrix.add(row, column, value));
-        self.add_bar_stiffness(z, matrix);
-        let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        matrix.add(at + 1, self.layout.load(), 1.0);
-        matrix.add(at + 2, self.layout.load(), arm.x);
-        matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
-        self.contacts.add_tangent(state, matrix);
+        self.linearise(state, &mut Residual::new(self.size()), matrix);
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
@@ -345,7 +321,7 @@ impl System for Chain {
             residual.add(row, value * z[column]);
             matrix.add(row, column, value);
         });
-        self.linearise_bars(z, residual, matrix);
+        self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         let at = self.layout.scale(self.layout.left);
         let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
         residual.add(at + 1, z[load]);

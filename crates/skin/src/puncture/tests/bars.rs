@@ -40,26 +40,6 @@ fn the_tangent_agrees_with_finite_differences() {
 }
 
 #[test]
-fn linearising_is_the_forces_and_their_tangent() {
-    for_segments(bar_path(&LIVELY, Law::PRINTED, Coupling::Nearest), |path, _, to| {
-        let (chain, size) = (path.system(), path.system().size());
-        let matrix = || BandMatrix::new(size, chain.half_bandwidth());
-        let (mut together, mut alone) = (matrix(), matrix());
-        let [mut forces, mut again] = [0, 1].map(|_| solver::Residual::new(size));
-        chain.linearise(&to.state, &mut forces, &mut together);
-        chain.residual(&to.state, &mut again);
-        chain.tangent(&to.state, &mut alone);
-        for row in 0..size {
-            assert_relative_eq!(forces.value[row], again.value[row], epsilon = 1e-13);
-            for column in together.columns(row) {
-                let (a, b) = (together.get(row, column), alone.get(row, column));
-                assert_relative_eq!(a, b, epsilon = 1e-13, max_relative = 1e-13);
-            }
-        }
-    });
-}
-
-#[test]
 fn the_work_of_the_load_is_stored() {
     for (design, coupling) in CASES {
         for constants in [Law::PRINTED, Law::EXCHANGED] {
