@@ -16,6 +16,7 @@
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //!
 //! ```
@@ -42,6 +43,7 @@ mod design;
 mod folder;
 mod path_tables;
 mod reader;
+pub mod round_off;
 mod tables;
 
 pub use columns::cell::Cell;

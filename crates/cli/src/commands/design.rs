@@ -136,7 +136,7 @@ impl Chosen {
                 text if text.is_empty() => "none".to_owned(),
                 text => text,
             };
-            [column.name.to_owned(), value, unit(column.unit), column.meaning.to_owned()]
+            [column.name.to_string(), value, unit(column.unit), column.meaning.to_owned()]
         });
         let rows: Vec<_> = rows.collect();
         format!("{}\n{}\n{}", self.title(), self.changes(), aligned(&rows))

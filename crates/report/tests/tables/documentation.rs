@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use ranking::{
-    CRITERIA, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns,
 };
 use results::columns::{
@@ -47,6 +47,7 @@ fn the_guide_to_the_results_explains_every_column() {
     for outcome in Outcome::ALL {
         let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
     }
+    let paper = Preferences::paper();
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
     let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
@@ -67,10 +68,10 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
         ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
         ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
-        ("`ranking.csv`", columns(&ranking_columns(geometry, &CRITERIA))),
-        ("`pareto.csv`", columns(&pareto_columns(geometry, &CRITERIA))),
-        ("`winners.csv`", columns(&winner_columns(geometry, &CRITERIA))),
-        ("`quaternary.csv`", columns(&quaternary_columns(geometry))),
+        ("`ranking.csv`", columns(&ranking_columns(geometry, &paper))),
+        ("`pareto.csv`", columns(&pareto_columns(geometry, &paper))),
+        ("`winners.csv`", columns(&winner_columns(geometry, &paper))),
+        ("`quaternary.csv`", columns(&quaternary_columns(geometry, &paper))),
         ("`compare.csv`", columns(comparison_columns())),
         ("`differences.csv`", columns(&difference_columns(geometry))),
     ];

@@ -139,7 +139,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 15] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -150,6 +150,10 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 15] 
         measures.initial_stiffness,
         measures.max_stiffness,
         measures.secant_stiffness,
+        measures.peak_displacement,
+        measures.peak_tilt_deg,
+        measures.load_stability_force,
+        measures.depth_stability_force,
         measures.gap_stretch_min,
         measures.gap_stretch_max,
         measures.fold_force,
@@ -184,9 +188,9 @@ mod tests {
             scales: 41,
             ..PunctureMeasures::default()
         };
-        let (path, events, folds) = (vec![], vec![], vec![]);
-        let (scales, history) = (vec![], vec![]);
-        Puncture { status, measures, path, events, folds, scales, history }
+        let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
+        let (instability, snaps, folds) = (vec![], vec![], vec![]);
+        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
     }
 
     #[test]

@@ -75,6 +75,11 @@ impl Chain {
         }
     }
 
+    /// Every entry of the stiffness that the bars add to that of the springs: row and column of the tangent, and value.
+    pub(super) fn for_bar_stiffness(&self, z: &[f64], mut entry: impl FnMut(usize, usize, f64)) {
+        self.for_bars(z, |places, bar| bar.add_stiffness(places, &mut Entries(&mut entry)));
+    }
+
     /// Energy of the bars above that of the springs which they replace.
     pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
@@ -105,6 +110,17 @@ impl Chain {
             excess([near, next]).max(excess([next, near])) / self.direct[0]
         };
         widths.iter().enumerate().map(excess).fold(0.0, f64::max)
+    }
+}
+
+/// A function that is shown every entry of a matrix.
+struct Entries<F>(F);
+
+impl<F: FnMut(usize, usize, f64)> Tangent for Entries<F> {
+    fn clear_row(&mut self, _row: usize) {}
+
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        (self.0)(row, column, value);
     }
 }
 

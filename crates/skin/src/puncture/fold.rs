@@ -32,7 +32,7 @@ pub struct Fold {
     /// Whether the surface folds over there; else it unfolds.
     pub folds: bool,
     /// Contact events before it.
-    pub contact_events: usize,
+    pub events_before: usize,
 }
 
 impl Fold {
@@ -58,12 +58,12 @@ struct Sample {
     stretch: f64,
 }
 
-/// The folds on the segment between two neighbouring points of a path, in order; `contact_events` were before it.
+/// The folds on the segment between two neighbouring points of a path, in order; `events_before` contact events were before it.
 pub(super) fn folds(
     path: &mut Path<Chain>,
     from: &SkinPoint,
     to: &SkinPoint,
-    contact_events: usize,
+    events_before: usize,
 ) -> Vec<Fold> {
     let crossings = crossings(path, from, to);
     let mut places: Vec<_> = crossings
@@ -73,7 +73,7 @@ pub(super) fn folds(
             let chain = path.system();
             let (left_scale, folds) = (chain.layout.number(crossing.pair), crossing.folds);
             let point = chain.path_point(&point);
-            (place, Fold { point, left_scale, folds, contact_events })
+            (place, Fold { point, left_scale, folds, events_before })
         })
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
