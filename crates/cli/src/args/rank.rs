@@ -57,6 +57,12 @@ pub struct RankArguments {
     #[arg(long, value_name = "SCALE", default_value = "paper")]
     pub scale: String,
 
+    /// Count the force up to the first fold of the substrate's surface instead of the critical force
+    ///
+    /// Beyond a fold two bases have passed each other, and the model cannot answer for the force.
+    #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
+    pub sound: bool,
+
     /// Designs that are printed
     #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10)]
     pub top: usize,

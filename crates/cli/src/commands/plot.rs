@@ -96,6 +96,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
+        puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }

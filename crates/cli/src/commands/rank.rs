@@ -86,9 +86,19 @@ fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
             let read = |text: &str| option::<Criterion>("--criteria", text);
             criteria.split(',').map(read).collect()
         }
+        None if own.is_empty() && arguments.sound => Ok(sound_criteria()),
         None if own.is_empty() => Ok(CRITERIA.to_vec()),
         None => Ok(own),
     }
+}
+
+/// The criteria of the paper with the force that the model can answer for.
+fn sound_criteria() -> Vec<Criterion> {
+    let sound = |criterion: &Criterion| match criterion.column.as_ref() {
+        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        _ => criterion.clone(),
+    };
+    CRITERIA.iter().map(sound).collect()
 }
 
 /// The value of an option.

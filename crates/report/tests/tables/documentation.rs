@@ -101,6 +101,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 #[test]
 fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
     assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
     assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
