@@ -3,6 +3,7 @@
 mod audit;
 mod change;
 mod closed;
+mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;

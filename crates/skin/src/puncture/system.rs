@@ -67,6 +67,11 @@ impl Layout {
         }
     }
 
+    /// The scale that an unknown belongs to; of a contact force the left one of its pair.
+    pub(crate) fn scale_of(self, unknown: usize) -> usize {
+        (unknown - usize::from(unknown > self.load())) / BLOCK
+    }
+
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
     fn units(self, direct: [f64; 3]) -> Vec<f64> {
         let mut units = vec![1.0; self.size()];
@@ -189,10 +194,20 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
+    /// From the node of the punctured scale to the loaded point, deformed.
+    pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
+        self.contacts.pose(z, self.layout.left).turn(self.load_arm)
+    }
+
+    /// Scales on each side that a scale is coupled with, by the substrate or by contact.
+    pub(crate) fn coupled_scales(&self) -> usize {
+        self.neighbours.len().max(1)
+    }
+
     /// Derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
@@ -221,7 +236,7 @@ impl Chain {
     }
 
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
-    fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
+    pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             for k in 0..3 {
@@ -274,7 +289,7 @@ impl System for Chain {
 
     fn half_bandwidth(&self) -> usize {
         // From x of a scale to φ of the last that it is coupled with, with the load between them.
-        BLOCK * self.neighbours.len().max(1) + 3
+        BLOCK * self.coupled_scales() + 3
     }
 
     fn blocks(&self) -> Option<&Blocks> {
@@ -283,6 +298,10 @@ impl System for Chain {
 
     fn load(&self) -> usize {
         self.layout.load()
+    }
+
+    fn load_only_pushes(&self) -> bool {
+        true
     }
 
     fn controls(&self) -> &[Control] {
@@ -313,7 +332,7 @@ impl System for Chain {
             matrix.add(row, column, value);
         });
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         residual.add(at + 1, z[load]);
         residual.add(at + 2, z[load] * arm.x);
         matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
