@@ -20,10 +20,10 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
-use faer::{ColRef, Mat, MatMut, Par, Spec};
+use faer::{ColRef, Mat, Par, Spec};
 
 use crate::Footprint;
-use crate::half_space::{CornerLine, Influences};
+use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
 
 /// A row of rectangles that double precision cannot tell apart.
@@ -228,45 +228,39 @@ impl Mesh {
     }
 }
 
-/// The matrices `G` of (S5) for the three loads, row by row.
+/// The matrices `G` of (S5) for the three loads.
 struct Equations {
-    shear: Vec<f64>,
-    normal: Vec<f64>,
-    rotation: Vec<f64>,
+    shear: Mat<f64>,
+    normal: Mat<f64>,
+    rotation: Mat<f64>,
 }
 
 impl Equations {
     fn assemble(mesh: &Mesh, poisson_ratio: f64) -> Self {
         let n = mesh.unknowns();
-        let zeros = || vec![0.0; n * n];
-        let mut equations = Self { shear: zeros(), normal: zeros(), rotation: zeros() };
+        let mut equations =
+            Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
-        let mut sides = [Influences::default(), Influences::default()];
         for (k, &z) in mesh.depth.points().iter().enumerate() {
             let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
             for (i, &x) in fields.iter().enumerate() {
                 columns.both_sides(mesh, x, &mut sides);
-                equations.fill_row(i * depth + k, n, &sides, poisson_ratio);
+                equations.fill_row(i * depth + k, &sides, poisson_ratio);
             }
         }
         equations
     }
 
     /// Sources on the right act with their mirror images on the left, even or odd in `x`.
-    fn fill_row(&mut self, row: usize, n: usize, sides: &[Influences; 2], poisson_ratio: f64) {
-        let Self { shear, normal, rotation } = self;
-        let [shear, normal, rotation] = [shear, normal, rotation].map(|g| &mut g[n * row..][..n]);
-        let entries = shear.iter_mut().zip(normal).zip(rotation);
-        let [right, left] = sides;
-        for (((shear, normal), rotation), (right, left)) in
-            entries.zip(right.iter().zip(left.iter()))
-        {
+    fn fill_row(&mut self, row: usize, [right, left]: &[Vec<Influence>; 2], poisson_ratio: f64) {
+        for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
             // The edges of a mirror image descend, which turns its sign.
             let even = right - left;
-            *shear = even.tangential(poisson_ratio);
-            *normal = even.normal();
-            *rotation = (right + left).normal();
+            self.shear[(row, column)] = even.tangential(poisson_ratio);
+            self.normal[(row, column)] = even.normal();
+            self.rotation[(row, column)] = (right + left).normal();
         }
     }
 }
@@ -274,19 +268,19 @@ impl Equations {
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
 struct CellColumns {
     line: CornerLine,
-    last: Influences,
-    next: Influences,
+    last: Vec<Influence>,
+    next: Vec<Influence>,
 }
 
 impl CellColumns {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
     fn new(line: CornerLine) -> Self {
-        let none = Influences::none(line.len());
-        Self { line, last: none.clone(), next: none }
+        let blank = vec![Influence::default(); line.len()];
+        Self { line, last: blank.clone(), next: blank }
     }
 
     /// The influence at `x` of the cells on the right and of their mirror images on the left.
-    fn both_sides(&mut self, mesh: &Mesh, x: f64, [right, left]: &mut [Influences; 2]) {
+    fn both_sides(&mut self, mesh: &Mesh, x: f64, [right, left]: &mut [Vec<Influence>; 2]) {
         right.clear();
         left.clear();
         for axis in mesh.across() {
@@ -297,39 +291,41 @@ impl CellColumns {
 
     /// Appends, column by column, the influence of the cells between the `offsets`; negative where
     /// they descend.
-    fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Influences) {
+    fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
+        let half = self.line.len() / 2;
         for (column, offset) in offsets.enumerate() {
             std::mem::swap(&mut self.last, &mut self.next);
             self.line.evaluate(offset, &mut self.next);
-            if column > 0 {
-                into.extend_column(&self.last, &self.next);
+            if column == 0 {
+                continue;
             }
+            let strip = |j: usize| self.next[j] - self.last[j];
+            into.extend((0..half).map(|k| {
+                let cell = strip(half + k + 1) - strip(half + k);
+                let image = strip(half - k) - strip(half - k - 1);
+                cell + image
+            }));
         }
     }
 }
 
-/// Solves a dense system whose `matrix` is given row by row, by LU factors with pivoting, on the calling thread alone: the
-/// same bits every time.
-fn solve_in_place(mut matrix: Vec<f64>, mut right: Mat<f64>) -> Mat<f64> {
-    let n = right.nrows();
-    // Row by row it is its transpose column by column.
-    let mut transpose = MatMut::from_column_major_slice_mut(&mut matrix, n, n);
+/// Solves a dense system by LU factors with partial pivoting, on the calling thread alone: the same bits every time.
+fn solve_in_place(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Mat<f64> {
+    let n = matrix.nrows();
     let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-    let scratch = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default());
-    let columns = right.ncols();
-    let scratch =
-        scratch.or(solve::solve_transpose_in_place_scratch::<usize, f64>(n, columns, Par::Seq));
+    let scratch = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default())
+        .or(solve::solve_in_place_scratch::<usize, f64>(n, right.ncols(), Par::Seq));
     let mut memory = MemBuffer::new(scratch);
     let stack = MemStack::new(&mut memory);
     let (_, order) = factor::lu_in_place(
-        transpose.as_mut(),
+        matrix.as_mut(),
         &mut order,
         &mut inverse,
         Par::Seq,
         stack,
         Spec::default(),
     );
-    let factors = transpose.as_ref();
-    solve::solve_transpose_in_place(factors, factors, order, right.as_mut(), Par::Seq, stack);
+    let factors = matrix.as_ref();
+    solve::solve_in_place(factors, factors, order, right.as_mut(), Par::Seq, stack);
     right
 }

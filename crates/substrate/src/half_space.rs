@@ -60,49 +60,6 @@ impl Sub for Influence {
     }
 }
 
-/// Influences in a row, their parts apart: so the compiler takes several at a time.
-#[derive(Clone, Debug, Default)]
-pub struct Influences {
-    across: Vec<f64>,
-    along: Vec<f64>,
-}
-
-impl Influences {
-    /// Returns so many influences of nothing.
-    pub fn none(count: usize) -> Self {
-        Self { across: vec![0.0; count], along: vec![0.0; count] }
-    }
-
-    /// Forgets all influences.
-    pub fn clear(&mut self) {
-        self.across.clear();
-        self.along.clear();
-    }
-
-    /// Returns the influences, in order.
-    pub fn iter(&self) -> impl Iterator<Item = Influence> + '_ {
-        self.across.iter().zip(&self.along).map(|(&across, &along)| Influence { across, along })
-    }
-
-    /// Appends the influence of the cells of a column, each with its mirror image in `z`, between two lines of the corners of
-    /// both, an odd number each.
-    pub fn extend_column(&mut self, last: &Self, next: &Self) {
-        extend_column(&mut self.across, &last.across, &next.across);
-        extend_column(&mut self.along, &last.along, &next.along);
-    }
-}
-
-/// Appends what [`Influences::extend_column`] does, of one part.
-fn extend_column(into: &mut Vec<f64>, last: &[f64], next: &[f64]) {
-    let half = last.len() / 2;
-    let strip = |i: usize| next[i] - last[i];
-    let mut inner = 0.0;
-    into.extend((1..=half).map(|k| {
-        let outer = strip(half + k) - strip(half - k);
-        outer - std::mem::replace(&mut inner, outer)
-    }));
-}
-
 /// Returns the corner functions (S3) at the offset `(x, z)`; both vanish with their factor.
 pub fn corner(x: f64, z: f64) -> Influence {
     let half = |s: f64, t: f64| {
@@ -150,7 +107,7 @@ impl CornerLine {
     /// Returns the corner functions along the line at the offset `x`, into `corners`.
     ///
     /// The field point must not be a corner (a collocation point never is).
-    pub fn evaluate(&mut self, x: f64, corners: &mut Influences) {
+    pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
         let (across, along) = self.logarithms.split_at_mut(self.z.len());
         for ((across, along), z) in across.iter_mut().zip(&mut *along).zip(&self.z) {
             let r = (x * x + z * z).sqrt();
@@ -160,12 +117,10 @@ impl CornerLine {
         take_logarithms(&mut self.logarithms);
         let (across, along) = self.logarithms.split_at(self.z.len());
         let ln_x = ln_or_zero(x);
-        for ((corner, across), z) in corners.across.iter_mut().zip(across).zip(&self.z) {
-            *corner = x * (across - ln_x).copysign(*z);
-        }
-        let z = self.z.iter().zip(&self.ln);
-        for ((corner, along), (z, ln_z)) in corners.along.iter_mut().zip(along).zip(z) {
-            *corner = z * (along - ln_z).copysign(x);
+        let logarithms = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
+        for (corner, ((across, along), (z, ln_z))) in corners.iter_mut().zip(logarithms) {
+            corner.across = x * (across - ln_x).copysign(*z);
+            corner.along = z * (along - ln_z).copysign(x);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use substrate::half_space::{CornerLine, Influence, Influences, cell, corner};
+use substrate::half_space::{CornerLine, Influence, cell, corner};
 
 /// Simpson's rule on `2 half` intervals.
 fn simpson(ends: [f64; 2], half: u32, f: impl Fn(f64) -> f64) -> f64 {
@@ -81,9 +81,9 @@ fn a_line_of_corners_is_its_corners() {
     for field in [0.0, 0.2, -0.5] {
         let mut line = CornerLine::new(depths, field);
         for x in [-5.0, -1e-7, 0.3, 2.0] {
-            let mut corners = Influences::none(line.len());
+            let mut corners = vec![Influence::default(); line.len()];
             line.evaluate(x, &mut corners);
-            for (found, depth) in corners.iter().zip(depths) {
+            for (found, depth) in corners.into_iter().zip(depths) {
                 let exact = corner(x, depth - field);
                 assert!((found.across - exact.across).abs() < 1e-13, "{found:?}, {exact:?}");
                 assert!((found.along - exact.along).abs() < 1e-13, "{found:?}, {exact:?}");
