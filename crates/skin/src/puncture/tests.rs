@@ -372,7 +372,8 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let part = |rows: &[usize], columns: &[usize]| {
         DMatrix::from_fn(rows.len(), columns.len(), |i, j| entry(rows[i], columns[j]))
     };
-    let compliance = part(&forces, &forces) + 1e-9 * DMatrix::<f64>::identity(forces.len(), forces.len());
+    let compliance =
+        part(&forces, &forces) + 1e-9 * DMatrix::<f64>::identity(forces.len(), forces.len());
     let by_forces = compliance.try_inverse().unwrap() * part(&forces, &coordinates);
     part(&coordinates, &coordinates) - part(&coordinates, &forces) * by_forces
 }
