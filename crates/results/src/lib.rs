@@ -15,7 +15,9 @@
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //!
 //! ```
@@ -40,8 +42,10 @@
 pub mod columns;
 mod design;
 mod folder;
+mod measure_table;
 mod path_tables;
 mod reader;
+pub mod round_off;
 mod tables;
 
 pub use columns::cell::Cell;
@@ -55,6 +59,7 @@ pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
 };
+pub use measure_table::write_measures;
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};

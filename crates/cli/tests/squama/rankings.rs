@@ -29,7 +29,10 @@ fn put(place: &Place, folder: &str, table: &str) {
 fn the_best_designs_are_printed() {
     let place = place();
     insta::assert_snapshot!(place.prints("rank a --top 3 --resolution 10"));
-    assert_eq!(place.list("a"), "designs.csv pareto.csv quaternary.csv ranking.csv winners.csv");
+    assert_eq!(
+        place.list("a"),
+        "designs.csv pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv"
+    );
     insta::assert_snapshot!(place.read("a/ranking.csv"));
     insta::assert_snapshot!(place.read("a/winners.csv"));
 }
@@ -39,7 +42,7 @@ fn the_tables_may_go_elsewhere() {
     let place = place();
     place.prints("rank a --weights 0.4,0.3,0.2,0.1 --out b");
     assert_eq!(place.list("a"), "designs.csv");
-    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv winners.csv");
+    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv");
 }
 
 #[test]
@@ -69,10 +72,16 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
 fn wrong_weights_and_results_are_refused() {
     let place = place();
     let messages = [
-        "rank a --weights 0.5,0.6,0,0",
+        "rank a --weights 0,0,0,0",
         "rank a --weights -0.5,0.5,0.5,0.5",
         "rank a --weights 1,0,0",
         "rank a --weights a,b,c,d",
+        "rank a --criteria slant_deg",
+        "rank a --criteria max:critical_forc",
+        "rank a --criteria coverage --maximize coverage",
+        "rank a --require coverage=1",
+        "rank a --require puncture_status>=1",
+        "rank a --scale cubic",
         "rank a --resolution 0",
         "rank a --out a/designs.csv",
         "rank b",
@@ -83,6 +92,28 @@ fn wrong_weights_and_results_are_refused() {
     let messages = messages.map(|arguments| place.refused(arguments));
     insta::assert_snapshot!(messages.concat());
     assert_eq!(place.list("a"), "designs.csv", "nothing is written");
+}
+
+#[test]
+fn the_design_that_meets_all_requirements_is_found() {
+    let place = place();
+    insta::assert_snapshot!(
+        place.prints("rank a --require coverage>=0.3 --require penetration<=0.2 --minimize length_over_t --maximize critical_force")
+    );
+    insta::assert_snapshot!(place.read("a/ranking.toml"));
+    let text = place.prints("rank a --require coverage>=0.3 --minimize penetration --scale log");
+    assert!(text.contains("\nBest by penetration resistance, log scale\n"), "{text}");
+    assert_eq!(place.list("a"), "designs.csv pareto.csv ranking.csv ranking.toml");
+}
+
+#[test]
+fn where_none_meets_the_requirements_the_nearest_one_is_told() {
+    let place = place();
+    place.prints("rank a");
+    let arguments = "rank a --require coverage>=0.8 --require critical_force>3";
+    let output = place.squama(arguments).assert().code(1).get_output().stdout.clone();
+    insta::assert_snapshot!(String::from_utf8(output).expect("text"));
+    assert_eq!(place.list("a"), "designs.csv ranking.toml", "the ranking before is gone");
 }
 
 #[test]
