@@ -55,9 +55,15 @@ impl ChartAxis {
 
     /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
-        let air = 0.05 * if high > low { high - low } else { 1.0 };
+        let size = low.abs().max(high.abs());
+        // Values that are equal but for round-off have an axis too.
+        let air = match high - low {
+            span if span > 1e-9 * size => 0.05 * span,
+            _ if size > 0.0 => 0.05 * size,
+            _ => 0.05,
+        };
         let below = if low == 0.0 { low } else { low - air };
-        let above = if high == 0.0 { high } else { high + air };
+        let above = if high == 0.0 && low < 0.0 { high } else { high + air };
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
@@ -136,9 +142,12 @@ impl ChartAxis {
 /// Formats a tick of a linear axis: in full where that is short, otherwise with the power of ten of the larger end.
 fn linear_label(value: f64, step: f64, ends: f64) -> String {
     let decade = ends.log10().floor();
-    if value == 0.0 || (-3.0..5.0).contains(&decade) {
+    if (-3.0..5.0).contains(&decade) {
         let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
         return minus(&format!("{value:.decimals$}"));
+    }
+    if value == 0.0 {
+        return "0".to_owned();
     }
     let decimals = (decade - (step.log10() + 1e-9).floor()).max(0.0) as usize;
     minus(&format!("{:.decimals$}·10^{{{decade}}}", value / 10f64.powf(decade)))
@@ -182,6 +191,17 @@ mod tests {
         assert_eq!(labels(&ChartAxis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
         let small = ChartAxis::fit("", [0.0, 6e-5].into_iter());
         assert_eq!(labels(&small), "0 2·10^{−5} 4·10^{−5} 6·10^{−5}");
+    }
+
+    #[test]
+    fn equal_values_have_an_axis_with_ticks() {
+        for value in [0.0, 1.0, -2.0, 1e-7, 3e12] {
+            for other in [value, value * (1.0 + 1e-15)] {
+                let axis = ChartAxis::fit("", [value, other].into_iter());
+                assert!(axis.place(value).is_some(), "{value}");
+                assert!((1..12).contains(&axis.ticks(5).len()), "{value}: {:?}", axis.ticks(5));
+            }
+        }
     }
 
     #[test]
