@@ -31,7 +31,7 @@ impl Sweep {
     /// The sweep that the file at `path` defines once `settings` are put in its place.
     ///
     /// # Errors
-    /// If the file cannot be read or does not define a sweep.
+    /// If the file cannot be read or does not define a sweep; all that is wrong with it is told at once.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         let file = path.display().to_string();
         match std::fs::read_to_string(path) {
@@ -45,13 +45,20 @@ impl Sweep {
     /// # Errors
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let mut table = definition_of(toml_source::parse(text, name)?);
+        let mut table = match toml_source::parse(text, name) {
+            Ok(table) => definition_of(table),
+            Err(errors) => {
+                let errors = errors.into_iter().map(InvalidDefinition::Syntax).collect();
+                InvalidDefinition::of(errors)?;
+                KeyValues::new()
+            }
+        };
         for setting in settings {
             setting.apply(&mut table);
         }
         let mut reader = Reader::default();
         for entry in &table {
-            reader.entry(entry)?;
+            reader.entry(entry);
         }
         reader.finish(&Place::File { name: name.into(), line: None })
     }

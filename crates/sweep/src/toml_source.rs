@@ -95,17 +95,16 @@ pub struct SyntaxError {
 /// The keys and values of the TOML document `text`, which stands in the file `name`.
 ///
 /// # Errors
-/// If it is no TOML.
-pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
+/// If it is no TOML: one error for each line that cannot be read.
+pub fn parse(text: &str, name: &str) -> Result<KeyValues, Vec<SyntaxError>> {
     let source = Document { text, name: name.into() };
-    match DeTable::parse(text) {
-        Ok(table) => Ok(source.table(table.get_ref())),
-        Err(error) => Err(SyntaxError {
-            place: source.place(error.span().map(|span| span.start)),
-            line: source.line(error.span().map_or(0, |span| span.start)),
-            message: one_line(error.message()),
-        }),
-    }
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let mut errors: Vec<_> = errors.iter().map(|error| source.error(error)).collect();
+    errors.sort_by_key(|(offset, _)| *offset);
+    // What follows a mistake on its line is no other mistake.
+    errors.dedup_by(|(_, next), (_, first)| next.place == first.place);
+    let errors: Vec<_> = errors.into_iter().map(|(_, error)| error).collect();
+    if errors.is_empty() { Ok(source.table(table.get_ref())) } else { Err(errors) }
 }
 
 /// The lines of `message`, trimmed and joined by commas.
@@ -120,6 +119,14 @@ struct Document<'a> {
 }
 
 impl Document<'_> {
+    /// An error with its offset.
+    fn error(&self, error: &toml::de::Error) -> (usize, SyntaxError) {
+        let offset = error.span().map(|span| span.start);
+        let message = one_line(error.message());
+        let line = self.line(offset.unwrap_or_default());
+        (offset.unwrap_or_default(), SyntaxError { place: self.place(offset), line, message })
+    }
+
     /// The beginning of the line at `offset`, what cannot be printed left out.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));

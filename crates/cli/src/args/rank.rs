@@ -58,7 +58,7 @@ pub struct RankArguments {
     pub scale: String,
 
     /// Designs that are printed
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10)]
     pub top: usize,
 
     /// Steps from one corner of the tetrahedron of weights to the next, 1 to 200

@@ -2,6 +2,8 @@
 
 mod report;
 
+use std::path::Path;
+
 use anyhow::Context as _;
 use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
@@ -9,6 +11,7 @@ use ranking::{
 };
 use results::Results;
 
+use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
 use crate::args;
 use crate::print::print;
@@ -18,21 +21,25 @@ use report::{RankReport, unmet_report};
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&arguments.results)?;
+    let source = results_folder(&arguments.results)?;
+    let results = Results::read(&source)?;
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
-        Ok(ranking) => ranked(arguments, &results, &ranking),
-        Err(InvalidRanking::Unmet(unmet)) => none_meets(arguments, &results, &preferences, &unmet),
+        Ok(ranking) => ranked(arguments, &source, &results, &ranking),
+        Err(InvalidRanking::Unmet(unmet)) => {
+            none_meets(arguments, &source, &results, &preferences, &unmet)
+        }
         Err(error) => Err(error.into()),
     }
 }
 
 fn ranked(
     arguments: &args::RankArguments,
+    source: &Path,
     results: &Results,
     ranking: &Ranking<'_>,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
+    let folder = arguments.out.as_deref().unwrap_or(source);
     let files = ranking::write_ranking(folder, ranking)?;
     let text = RankReport { results, ranking, top: arguments.top }.text();
     print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
@@ -41,11 +48,12 @@ fn ranked(
 
 fn none_meets(
     arguments: &args::RankArguments,
+    source: &Path,
     results: &Results,
     preferences: &Preferences,
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
+    let folder = arguments.out.as_deref().unwrap_or(source);
     let file = ranking::write_unmet(folder, preferences)?;
     let text = unmet_report(results, preferences, unmet);
     print(&format!("{text}\n{}: {file}\n", folder.display()))?;

@@ -12,6 +12,7 @@ use sweep::Case;
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
+use super::source::{require_folder_of, results_folder};
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::print::print;
@@ -25,11 +26,11 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&arguments.results)?;
-    let page = page(&results)?;
+    let results = ResultsFolder::read(&results_folder(&arguments.results)?)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    require_folder_of("--out", &out)?;
+    let page = page(&results)?;
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    results::make_folder(&folder)?;
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
