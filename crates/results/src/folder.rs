@@ -37,6 +37,8 @@ impl RunFolder {
     /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
+    /// What a ranking goes by: requirements, criteria, weights, scale.
+    pub const PREFERENCES: &'static str = "ranking.toml";
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
     /// The table of the measures of one design.
@@ -118,6 +120,7 @@ impl RunFolder {
     /// Removes the tables and rankings of an earlier run, but for those named in `files`: a folder
     /// describes one run.
     pub fn remove_tables_but(&self, files: &[String]) {
+        self.remove(Self::PREFERENCES);
         Self::of_runs().filter(|file| !files.contains(file)).for_each(|file| self.remove(&file));
     }
 
@@ -129,12 +132,12 @@ impl RunFolder {
 
     /// Removes what a killed process left half-written.
     pub fn remove_partial_files(&self) {
-        let files = Self::of_runs().chain([Self::RUN_INFO.to_owned()]);
+        let files = Self::of_runs().chain([Self::RUN_INFO, Self::PREFERENCES].map(str::to_owned));
         files.for_each(|file| atomic_file::remove_partial(&self.path, &file));
     }
 
     /// Removes the file `name`, if it is there.
-    pub(crate) fn remove(&self, name: &str) {
+    pub fn remove(&self, name: &str) {
         // Nearly always there is none.
         let _ = fs::remove_file(self.file(name));
     }

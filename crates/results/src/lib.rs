@@ -17,6 +17,7 @@
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //!
 //! ```
@@ -44,6 +45,7 @@ mod folder;
 mod measure_table;
 mod path_tables;
 mod reader;
+pub mod round_off;
 mod tables;
 
 pub use columns::cell::Cell;
@@ -57,7 +59,7 @@ pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
 };
-pub use measure_table::write_measures;
+pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::columns::parameter_of;
-use sweep::{Parameter, Sweep, number, reason};
+use sweep::{Parameter, Sweep, nearest, number, reason};
 
 use crate::folder::RunFolder;
 use crate::tables::csv_format::CsvFormat;
@@ -43,12 +43,14 @@ pub enum InvalidResults {
         found: String,
     },
     /// A column is missing.
-    #[error("{file}: there is no column {column}, expected one")]
+    #[error("{file}: there is no column {column}, {expected}")]
     NoColumn {
         /// The table.
         file: String,
         /// The column.
         column: String,
+        /// The column that may be meant.
+        expected: String,
     },
     /// A cell is not what its column holds.
     #[error("{file}: design {design}: {column}: {found} is not accepted, expected a number")]
@@ -144,8 +146,14 @@ impl Results {
     /// If there is no such column.
     pub fn column(&self, name: &str) -> Result<usize, InvalidResults> {
         let found = self.header.iter().position(|column| column == name);
-        let error = || InvalidResults::NoColumn { file: self.file(), column: name.to_owned() };
-        found.ok_or_else(error)
+        found.ok_or_else(|| self.no_column(name))
+    }
+
+    fn no_column(&self, name: &str) -> InvalidResults {
+        let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
+        let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
+        let expected = near.unwrap_or_else(|| "expected one".to_owned());
+        InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 
     /// The number of a design, as it is written.

@@ -74,7 +74,7 @@ impl ColumnFilter {
     ) -> Result<&'c Column<DesignRow>, InvalidFilter> {
         let found = columns.iter().find(|column| column.name == self.column);
         found.ok_or_else(|| {
-            let known: Vec<_> = columns.iter().map(|column| column.name).collect();
+            let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
             let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),

@@ -87,7 +87,7 @@ impl SolvedChoice {
 
     fn report(&self) -> String {
         let rows = self.measures().map(|(column, cell)| {
-            [column.name.to_owned(), shown(&cell), unit(column.unit), column.meaning.to_owned()]
+            [column.name.to_string(), shown(&cell), unit(column.unit), column.meaning.to_owned()]
         });
         let rows: Vec<_> = rows.collect();
         format!("{}\n{}\n{}", self.title(), self.changes(), aligned(&rows))
@@ -119,8 +119,8 @@ impl SolvedChoice {
     fn json(&self, folder: &str, files: &[&str]) -> Value {
         let case = self.design.case();
         let parameters = PARAMETERS.iter().map(|p| (p.path(), json::scalar(p.get(&case))));
-        let measures = self.measures().map(|(c, cell)| (c.name.to_owned(), json::cell(&cell)));
-        let units = self.measures().map(|(c, _)| (c.name.to_owned(), c.unit.into()));
+        let measures = self.measures().map(|(c, cell)| (c.name.to_string(), json::cell(&cell)));
+        let units = self.measures().map(|(c, _)| (c.name.to_string(), c.unit.into()));
         json!({
             "sweep": self.design.sweep.name(),
             "design": self.design.number.map(|number| number.to_string()),

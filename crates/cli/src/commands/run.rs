@@ -109,7 +109,12 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    let row =
-        |best: &Best| [best.what.to_owned(), format!("{:.6} (design {})", best.value, best.design)];
+    let row = |Best { what, leader }: Best| {
+        let ties = match leader.ties {
+            0 => String::new(),
+            ties => format!(", and {ties} more"),
+        };
+        [what.to_owned(), format!("{:.6} (design {}{ties})", leader.value, leader.first)]
+    };
     finished.summary.best().map(row)
 }

@@ -29,7 +29,7 @@ impl<'c, R> CsvFile<'c, R> {
         let path = file.path().to_owned();
         let csv = format.writer(file).map_err(|error| OutputError::file(&path, &error))?;
         let mut table = Self { csv, format, columns };
-        let header = table.csv.write_record(columns.iter().map(|column| column.name));
+        let header = table.csv.write_record(columns.iter().map(|column| column.name.as_ref()));
         table.checked(header)?;
         Ok(table)
     }

@@ -38,11 +38,12 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
     };
     // The settings have columns of their own.
     let columns = columns.iter().filter(|column| column.name != "settings");
-    let values = columns.map(|column| (column.name, rows.each_ref().map(|row| column.cell(row))));
+    let values =
+        columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
     if changes.is_empty() {
-        changes.push(change("", [Cell::Empty, Cell::Empty]));
+        changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }
     changes
 }

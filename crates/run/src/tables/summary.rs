@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use results::round_off::Leader;
 use results::{DesignResult, DesignRow, Outcome};
 use sweep::{DesignNumber, Measure};
 
@@ -14,18 +15,16 @@ pub struct Summary {
     pub failed: u64,
     /// The number of designs of each status, by its text, for each measure that has a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    best: [Option<Best>; 4],
+    best: [Option<Leader<DesignNumber>>; 4],
 }
 
-/// A value and the first design that has it.
+/// The best value of its kind, and the first design that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     /// The name of the value, in words.
     pub what: &'static str,
-    /// The value.
-    pub value: f64,
-    /// The design.
-    pub design: DesignNumber,
+    /// The value, its first design, and how many others have it too.
+    pub leader: Leader<DesignNumber>,
 }
 
 /// A value of which the best is told.
@@ -76,17 +75,18 @@ impl Summary {
     }
 
     /// The best values, those that exist.
-    pub fn best(&self) -> impl Iterator<Item = &Best> {
-        self.best.iter().flatten()
+    pub fn best(&self) -> impl Iterator<Item = Best> {
+        let contests = self.best.iter().zip(&CONTESTS);
+        contests
+            .filter_map(|(leader, contest)| Some(Best { what: contest.what, leader: (*leader)? }))
     }
 }
 
 impl Contest {
-    /// Puts the value of a design in place of `best` if it is better.
-    fn enter(&self, row: &DesignRow, best: &mut Option<Best>) {
-        let Some(value) = (self.value)(&row.result) else { return };
-        if best.is_none_or(|best| (self.is_better)(&value, &best.value)) {
-            *best = Some(Best { what: self.what, value, design: row.number });
+    /// Enters the value of a design.
+    fn enter(&self, row: &DesignRow, best: &mut Option<Leader<DesignNumber>>) {
+        if let Some(value) = (self.value)(&row.result) {
+            Leader::enter(best, row.number, value, self.is_better);
         }
     }
 }
@@ -114,8 +114,9 @@ mod tests {
         assert_eq!(summary.designs, 3);
         let counts = &summary.statuses[&Measure::Puncture];
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
-        let best: Vec<_> = summary.best().map(|b| (b.what, b.design.to_string())).collect();
-        let expected = [("largest critical force", "0001"), ("least penetration", "0003")];
-        assert_eq!(best, expected.map(|(what, design)| (what, design.to_owned())));
+        let best: Vec<_> =
+            summary.best().map(|b| (b.what, b.leader.first.to_string(), b.leader.ties)).collect();
+        let expected = [("largest critical force", "0001", 1), ("least penetration", "0003", 0)];
+        assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
     }
 }

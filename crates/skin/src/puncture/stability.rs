@@ -25,7 +25,8 @@ impl Chain {
     ///
     /// With the stiffness `K` of the row under its load and the load vector `p`, which is the gradient of the depth, a held depth takes
     /// away a negative eigenvalue if `pᵀ K⁻¹ p < 0`, that is `du/dF < 0`, and a held tilt one if its compliance
-    /// `eᵀ K⁻¹ e` is negative (P5).
+    /// `eᵀ K⁻¹ e` is negative (P5). Corners that meet on a ridge of the energy are held together by their contact, but not by the energy, and count as
+    /// one more.
     pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
         let kept = self.kept(state);
         let mut places = vec![LEFT_OUT; self.layout.size()];
@@ -41,7 +42,8 @@ impl Chain {
             load.iter().zip(&x[at..]).map(|(load, x)| load * x).sum::<f64>()
         };
         let forces = kept.len() - 3 * self.layout.scales();
-        let load = factors.negative_eigenvalues().checked_sub(forces)?;
+        let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
+        let load = held_together + self.contacts.ridges(state);
         let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
         let arm = self.loaded_arm(&state.z);
         Some(Instability {

@@ -10,7 +10,7 @@ use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::stability::Instability;
 use super::system::{Chain, Layout};
-use super::window::Reach;
+use super::window::{Reach, Surroundings};
 use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
@@ -357,6 +357,9 @@ fn parameters_out_of_their_range_are_refused() {
     assert_eq!(text, "modulus of the contact law is -0.75, expected a positive number");
 }
 
+/// Contacts of these tests are softer than this, but for those that are rigid.
+const RIGID: f64 = 1e6;
+
 /// The stiffness of a state as a dense matrix over the displacements: the contact forces eliminated from the tangent itself, those
 /// that are rigid with a tiny compliance.
 fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
@@ -372,7 +375,12 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
     let part = |rows: &[usize], columns: &[usize]| {
         DMatrix::from_fn(rows.len(), columns.len(), |i, j| entry(rows[i], columns[j]))
     };
-    let compliance = part(&forces, &forces) + 1e-9 * DMatrix::<f64>::identity(forces.len(), forces.len());
+    let mut compliance = part(&forces, &forces);
+    for k in 0..forces.len() {
+        if compliance.row(k).iter().all(|entry| *entry == 0.0) {
+            compliance[(k, k)] = 1e-8;
+        }
+    }
     let by_forces = compliance.try_inverse().unwrap() * part(&forces, &coordinates);
     part(&coordinates, &coordinates) - part(&coordinates, &forces) * by_forces
 }
@@ -387,7 +395,8 @@ fn negative_eigenvalues(stiffness: &DMatrix<f64>, held: Option<&DVector<f64>>) -
     );
     let eigenvalues = (&projection * symmetric * &projection).symmetric_eigenvalues();
     let largest = eigenvalues.amax();
-    eigenvalues.iter().filter(|value| **value < -1e-12 * largest).count()
+    // What is rigid stays so with a tiny compliance of either sign: eigenvalues of such a size are no motions.
+    eigenvalues.iter().filter(|value| (-RIGID..-1e-13 * largest).contains(*value)).count()
 }
 
 /// Half-way between the points: at extrema of the load an eigenvalue vanishes.
@@ -402,43 +411,49 @@ fn compare_instability(path: Path<Chain>, compared: &mut HashSet<(usize, usize, 
         depth[punctured + 2] = chain.loaded_arm(&state.z).x;
         let mut tilt = DVector::zeros(dense.nrows());
         tilt[punctured + 2] = 1.0;
+        let ridges = chain.contacts.ridges(state);
         let expected = Instability {
-            load: negative_eigenvalues(&dense, None),
-            depth: negative_eigenvalues(&dense, Some(&depth)),
-            tilt: negative_eigenvalues(&dense, Some(&tilt)),
+            load: negative_eigenvalues(&dense, None) + ridges,
+            depth: negative_eigenvalues(&dense, Some(&depth)) + ridges,
+            tilt: negative_eigenvalues(&dense, Some(&tilt)) + ridges,
         };
+        // On a path that leaves a stable state, load and depth fall where the number is odd.
+        let falls = [point.leaving[chain.load()], chain.depth_slope(&state.z, &point.leaving)];
+        let odd = [expected.load, expected.depth].map(|count| count % 2 == 1);
+        assert_eq!(falls.map(|rate| rate < 0.0), odd, "{:?}", chain.path_point(&point));
+        let asymmetry = (&dense - dense.transpose()).amax();
+        assert!(asymmetry < 1e-5 * dense.amax(), "{asymmetry:e} {:e}", dense.amax());
         assert_eq!(chain.instability(state), Some(expected), "{:?}", chain.path_point(&point));
         compared.insert((expected.load, expected.depth, expected.tilt));
     });
 }
 
-/// Paths to 40°, through snaps, on rows with ends and on a part of an endless one, in the paper's coupling and in full.
+/// Paths to 40°, through snaps, on rows with ends and on a part of an endless one, in the paper's coupling and in full. The
+/// contacts give way enough for a dense stiffness to keep its digits.
 #[test]
 fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
     let mut compared = HashSet::new();
-    let tilt = 40.0_f64.to_radians();
-    for design in [LIVELY, FOLDING, SLIDING, STEEP] {
-        let stiffness = (&calibrate(&design.footprint(0.5).unwrap()).unwrap()).into();
+    for (design, modulus) in
+        [LIVELY, FOLDING, SLIDING, STEEP].into_iter().zip([30.0, HARD, 300.0, HARD])
+    {
+        let law = law(&design, Law::EXCHANGED, modulus);
+        let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
-        for stiffness in [stiffness, full] {
-            let layout = Layout { left: 7, right: 9 };
+        let chain = |stiffness: &RowStiffness| {
+            let (layout, tilt) = (Layout { left: 7, right: 9 }, 40.0_f64.to_radians());
             let row = Arrangement::Even(design.row().unwrap());
-            let law = law(&design, Law::PRINTED, HARD);
-            let chain = Chain::new(row, &stiffness, law, layout, 1.0, tilt, design.length);
+            Chain::new(row, stiffness, law, layout, 1.0, tilt, design.length)
+        };
+        let nearest: RowStiffness = (&springs).into();
+        let layout = Layout { left: 7, right: 9 };
+        let rows = Rows::Even(design.row().unwrap());
+        let endless = Surroundings::new(rows, &nearest, layout).unwrap();
+        for chain in [chain(&nearest), chain(&full), chain(&nearest).within(endless)] {
             let rest = SkinState::at_rest(&chain);
             compare_instability(Path::new(chain, rest, Settings::default()), &mut compared);
         }
-        let parameters =
-            PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
-        let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
-        let row = Rows::Even(design.row().unwrap());
-        let problem =
-            Problem::new(row, &design, (&springs).into(), &Common::default(), &parameters).unwrap();
-        let chain = problem.part(Layout { left: 12, right: 12 }).unwrap();
-        let rest = SkinState::at_rest(&chain);
-        compare_instability(Path::new(chain, rest, Settings::default()), &mut compared);
     }
-    for seen in [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)] {
+    for seen in [(0, 0, 0), (1, 0, 1), (1, 1, 1)] {
         assert!(compared.contains(&seen), "{seen:?} {compared:?}");
     }
 }

@@ -2,13 +2,15 @@
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
-use skin::puncture::{Puncture, PunctureParameters};
-use skin::{Base, Design, Status};
-use solver::Stop;
+use skin::puncture::{Instability, Puncture, PunctureParameters, PuncturePoint};
+use skin::{Base, Common, Design, Status};
+use solver::{Settings, Stop};
 use substrate::Calibrations;
 
 use crate::end;
-use crate::samples::{BASES, design, long_campaigns, random, reference_study, solve, solve_with};
+use crate::samples::{
+    BASES, design, finer, long_campaigns, random, reference_study, solve, solve_as, solve_with,
+};
 
 fn to_tilt(critical_tilt_deg: f64) -> PunctureParameters {
     PunctureParameters { critical_tilt_deg, ..PunctureParameters::default() }
@@ -83,4 +85,64 @@ fn random_designs_end_before_a_needle_pulls() {
     let tilt = |k: usize| 10.0 + 5.0 * (k % 8) as f64;
     let designs: Vec<_> = designs.into_iter().enumerate().map(|(k, d)| (d, tilt(k))).collect();
     check(&designs, &Calibrations::default());
+}
+
+/// A corner that slides off its edge lets the row snap: load, depth and tilt turn back there. The place does not depend on the
+/// steps, and at the depth of the snap the force is lower by its drop.
+#[test]
+fn a_row_snaps_where_a_corner_passes_a_corner() {
+    let design = design(0.1, 1.0, 45.0, Base::TwoL);
+    let fine = Common { solver: finer(finer(Settings::default())), ..Common::default() };
+    let puncture = solve_as(&Calibrations::default(), &design, &fine, &to_tilt(10.0));
+    assert_eq!((puncture.measures.snaps, puncture.snaps.len()), (1, 1));
+    let snap = puncture.snaps[0];
+    let corner = puncture.events[snap.events_before - 1];
+    assert_eq!(corner.point, snap.point);
+    assert_eq!(corner.change.name(), "reached corner");
+    assert_relative_eq!(snap.point.force, 0.5892, max_relative = 1e-4);
+    // The path that no needle follows falls to 0.5826 before it rises again.
+    let lowest = puncture.path.iter().skip_while(|p| **p != snap.point).map(|p| p.force);
+    assert_relative_eq!(lowest.fold(f64::MAX, f64::min), 0.5826, max_relative = 1e-4);
+    let at = puncture.path.iter().position(|point| *point == snap.point).unwrap();
+    let behind = puncture.path[at..].windows(2);
+    let landing = |pair: &&[PuncturePoint]| {
+        pair[0].displacement < snap.point.displacement
+            && pair[1].displacement > snap.point.displacement
+    };
+    let &[low, high] = behind.clone().find(landing).unwrap() else { unreachable!() };
+    let part =
+        (snap.point.displacement - low.displacement) / (high.displacement - low.displacement);
+    let landed = low.force + part * (high.force - low.force);
+    // The chord between two points lies a little beside the path.
+    assert_relative_eq!(snap.drop.unwrap(), snap.point.force - landed, max_relative = 5e-3);
+    let measures = puncture.measures;
+    assert_eq!(measures.depth_stability_force, Some(snap.point.force));
+    assert_eq!(measures.load_stability_force, Some(snap.point.force));
+    assert_eq!([measures.stable_under_load, measures.stable_under_depth], [Some(true); 2]);
+    // On the way back nothing holds the row; before and behind everything does.
+    let back = behind.take_while(|pair| pair[1].force < pair[0].force).count();
+    let unstable = |count| Instability { load: count, depth: count, tilt: count };
+    for (k, instability) in puncture.instability.iter().enumerate() {
+        let count = usize::from((at..at + back).contains(&k));
+        assert_eq!(*instability, unstable(count), "point {k}, snap at {at}, {back} back");
+    }
+}
+
+/// Of the 720 designs of either base those snap whose contact reaches a corner.
+#[test]
+fn corners_and_snaps_go_together() {
+    let every = if long_campaigns() { 1 } else { 5 };
+    let known = Calibrations::default();
+    let designs = BASES.map(reference_study).concat();
+    let solved: Vec<(usize, usize)> = designs
+        .par_iter()
+        .step_by(every)
+        .map(|design| {
+            let puncture = solve_with(&known, design, &to_tilt(10.0));
+            let corners = puncture.events.iter().filter(|e| e.change.name() == "reached corner");
+            (puncture.measures.snaps, corners.count())
+        })
+        .collect();
+    assert!(solved.iter().all(|&(snaps, corners)| snaps == corners));
+    assert!(solved.iter().any(|&(snaps, _)| snaps > 0));
 }
