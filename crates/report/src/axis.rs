@@ -53,11 +53,11 @@ impl ChartAxis {
         Self::linear(label, low, high)
     }
 
-    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
+    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let air = 0.05 * if high > low { high - low } else { 1.0 };
         let below = if low == 0.0 { low } else { low - air };
-        let above = if high == 0.0 { high } else { high + air };
+        let above = if high == 0.0 && low < high { high } else { high + air };
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
@@ -171,6 +171,15 @@ mod tests {
     fn ticks_are_round_numbers() {
         assert_eq!(labels(&ChartAxis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
         assert_eq!(labels(&ChartAxis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+    }
+
+    #[test]
+    fn zeros_alone_have_an_axis_too() {
+        let axis = ChartAxis::fit("", [0.0, 0.0].into_iter());
+        assert_eq!(
+            (axis.place(0.0), axis.ticks(5).first().map(|tick| tick.value)),
+            (Some(0.0), Some(0.0))
+        );
     }
 
     #[test]
