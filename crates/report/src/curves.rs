@@ -19,6 +19,8 @@ const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
 /// Where the first line of the legend stands, px.
 const LEGEND: f64 = 56.0;
+/// Least distance between crosses, px.
+const CROSS: f64 = 5.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 
@@ -57,7 +59,8 @@ pub fn curves(name: &str, designs: &[DesignCurves]) -> Vec<Figure> {
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
     ];
-    candidates.into_iter().filter_map(|(name, svg)| Some(Figure { name, svg: svg? })).collect()
+    let drawn = candidates.into_iter();
+    drawn.filter_map(|(name, svg)| Some(Figure { name: name.to_owned(), svg: svg? })).collect()
 }
 
 /// The texts of a kind of figure.
@@ -208,13 +211,24 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .at("stroke-width", 1.8)
         .with("stroke-dasharray", curve.dashes)
         .with("stroke-linejoin", "round");
-    let crosses = spots(&curve.crosses).into_iter().flat_map(|[x, y]| {
-        [1.0, -1.0].map(|s| line([x - 3.8, y - 3.8 * s], [x + 3.8, y + 3.8 * s], INK, 1.1))
+    let crosses = apart(spots(&curve.crosses)).into_iter().flat_map(|[x, y]| {
+        [1.0, -1.0].map(|s| line([x - 3.0, y - 3.0 * s], [x + 3.0, y + 3.0 * s], INK, 0.8))
     });
     let ring =
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
     let rings = spots(&curve.rings).into_iter().map(ring);
     Element::group("curve").containing([path]).containing(crosses).containing(rings)
+}
+
+/// Returns spots without those that stand on the one before: crosses would bury a steep path.
+fn apart(spots: Vec<Spot>) -> Vec<Spot> {
+    let mut kept: Vec<Spot> = Vec::new();
+    for [x, y] in spots {
+        if kept.last().is_none_or(|last| (x - last[0]).hypot(y - last[1]) > CROSS) {
+            kept.push([x, y]);
+        }
+    }
+    kept
 }
 
 fn legend(curve: &Curve, y: f64) -> Element {

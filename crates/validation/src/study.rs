@@ -5,7 +5,7 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use results::{InvalidResults, Results};
-use run::{Options, Program, Start};
+use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
 
 use crate::ValidationError;
@@ -62,6 +62,7 @@ impl Study {
             fail_fast: false,
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
+            work: &WorkMeter::default(),
         };
         run::run(&sweep, Subset::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;

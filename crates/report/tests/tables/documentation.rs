@@ -11,7 +11,7 @@ use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
     design_columns,
 };
-use results::{Column, Outcome, RERUN_COLUMNS, failure_detail_columns};
+use results::{Column, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns};
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -60,6 +60,7 @@ fn the_guide_to_the_results_explains_every_column() {
             columns(&failure_detail_columns()),
         ),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
+        ("`measures.csv`", columns(MEASURE_COLUMNS)),
         ("`path.csv`", columns(PATH)),
         ("`events.csv`", columns(EVENTS)),
         ("`scales.csv`", columns(SCALES)),

@@ -19,7 +19,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         tables: &["coverage"],
         name: "coverage",
         unit: "-",
-        meaning: "share of the thickness that scales fill below the top right corner of a scale",
+        meaning: "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
         cell: |r| r.result.coverage.into(),
     },
     MeasuredValue {
