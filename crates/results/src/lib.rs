@@ -13,6 +13,7 @@
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
@@ -42,6 +43,7 @@ pub mod columns;
 mod design;
 mod folder;
 mod path_tables;
+mod quantity;
 mod reader;
 pub mod round_off;
 mod tables;
@@ -58,6 +60,7 @@ pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
 };
 pub use path_tables::write_path_tables;
+pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

@@ -98,6 +98,7 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
         name: &name,
         design: &case.design,
         load_position: case.puncture.load_position,
+        thickness_mm: case.material.thickness_mm,
         states: &states,
     };
     Some((number.to_owned(), drawing.svg().ok()?))

@@ -225,6 +225,13 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
         cell: |r| bent(r, |m| m.membrane_strain_max),
     },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "contact_curvature",
+        unit: "1/t",
+        meaning: "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close",
+        cell: |r| bent(r, |m| m.contact_curvature),
+    },
 ];
 
 fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureMeasures) -> Option<T>) -> Cell {
