@@ -1,10 +1,8 @@
 //! Axes of charts: a range of values, linear or logarithmic, with ticks at round numbers.
 //!
-//! Figures draw these axes, and the page of a sweep hands them to its charting library, so that both have the same ticks.
+//! Figures draw these axes, and the scripts of the page draw them too, so that both have the same ticks.
 
 use serde_json::{Value, json};
-
-use crate::label;
 
 /// The spacing of the values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +47,12 @@ impl ChartAxis {
         }
     }
 
+    /// Fits a linear axis to `values` and zero.
+    pub(crate) fn spanning(label: &str, values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = ends(values.chain(std::iter::once(0.0)));
+        Self::linear(label, low, high)
+    }
+
     /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let air = 0.05 * if high > low { high - low } else { 1.0 };
@@ -79,30 +83,16 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the axis as the charting library of the page takes it: type, range, and labelled and minor ticks.
-    pub(crate) fn to_plotly(&self) -> Value {
-        let (kind, range) = match self.scale {
-            AxisScale::Linear => ("linear", [self.low, self.high]),
-            AxisScale::Log => ("log", [self.low.log10(), self.high.log10()]),
+    /// Returns the axis as the scripts of the page take it: the kind of scale, the ends, and the ticks.
+    pub(crate) fn to_json(&self) -> Value {
+        let scale = match self.scale {
+            AxisScale::Linear => "linear",
+            AxisScale::Log => "log",
         };
-        let (mut values, mut texts, mut minor) = (Vec::new(), Vec::new(), Vec::new());
-        for tick in self.ticks(PAGE_TICKS) {
-            match tick.label {
-                Some(text) => {
-                    values.push(tick.value);
-                    texts.push(label::html(&text));
-                }
-                None => minor.push(tick.value),
-            }
-        }
-        json!({
-            "type": kind,
-            "range": range,
-            "tickmode": "array",
-            "tickvals": values,
-            "ticktext": texts,
-            "minor": {"ticks": "inside", "tickmode": "array", "tickvals": minor},
-        })
+        let ticks = self.ticks(PAGE_TICKS);
+        let tick = |tick: &Tick| json!({"value": tick.value, "label": tick.label});
+        let ticks: Vec<_> = ticks.iter().map(tick).collect();
+        json!({"scale": scale, "low": self.low, "high": self.high, "ticks": ticks})
     }
 
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
@@ -185,13 +175,17 @@ mod tests {
 
     #[test]
     fn the_page_has_the_same_ticks() {
-        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter()).to_plotly();
-        let texts = "10<sup>−6</sup> 10<sup>−4</sup> 0.01 1 100 10<sup>4</sup>";
-        assert_eq!(axis["ticktext"], serde_json::json!(texts.split(' ').collect::<Vec<_>>()));
-        assert_eq!(axis["tickvals"][0], 1e-6);
-        assert_eq!(axis["minor"]["tickvals"][0], 1e-5);
-        let [low, high] = [0, 1].map(|k| axis["range"][k].as_f64().unwrap());
-        assert!(low < -6.0 && high > 4.0, "{low} {high}");
+        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter());
+        let json = axis.to_json();
+        let page: Vec<_> =
+            json["ticks"].as_array().unwrap().iter().filter_map(|t| t["label"].as_str()).collect();
+        assert_eq!(page.join(" "), labels(&axis));
+        assert_eq!(
+            (json["scale"].as_str(), json["ticks"][0]["value"].as_f64()),
+            (Some("log"), Some(1e-6))
+        );
+        let [low, high] = ["low", "high"].map(|end| json[end].as_f64().unwrap());
+        assert!(low < 1e-6 && high > 1e4, "{low} {high}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::chart::{Area, ChartPanel};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
-use crate::palette::{INK, shaded, slant_color};
+use crate::palette::{INK, SlantPalette, shaded};
 use crate::svg::{Element, Spot, line, polyline};
 
 const WIDTH: f64 = 760.0;
@@ -161,17 +161,23 @@ fn one_panel(
 
 /// Returns a curve for each design, darker and with other dashes where slants repeat.
 fn curves_of(designs: &[DesignCurves], values: CurveValues) -> Vec<Curve> {
+    let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
         let Some([points, crosses]) = values(solved) else { continue };
         let slant = solved.design.slant_deg;
         let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
-        let color = shaded(&slant_color(slant), SHADES[before % SHADES.len()]);
+        let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
         let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
         curves.push(Curve { name, color, dashes, points, crosses });
     }
     curves
+}
+
+/// Returns the colours of the slants of some designs.
+fn palette(designs: &[DesignCurves]) -> SlantPalette {
+    SlantPalette::new(designs.iter().map(|solved| solved.design.slant_deg))
 }
 
 /// Fits axes to points, both from zero.
@@ -223,13 +229,15 @@ fn panels(
     if solved.is_empty() {
         return None;
     }
+    let palette = palette(designs);
     let columns = columns(solved.len()).min(3);
     let [w, h] = ENERGY_PANEL;
     let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (k, (design, energies)) in solved.iter().enumerate() {
         let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
         let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
-        inside.extend(energies_of(text, design, energies, area));
+        let color = palette.color(design.design.slant_deg);
+        inside.extend(energies_of(text, (design, &color), energies, area));
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
@@ -241,7 +249,7 @@ fn panels(
 /// Returns the energies of one design.
 fn energies_of(
     text: &FigureText,
-    solved: &DesignCurves,
+    (solved, color): (&DesignCurves, &str),
     energies: &Energies,
     area: Area,
 ) -> Vec<Element> {
@@ -251,7 +259,7 @@ fn energies_of(
     let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),
-        color: slant_color(solved.design.slant_deg),
+        color: color.to_owned(),
         dashes,
         points: points.clone(),
         crosses: Vec::new(),

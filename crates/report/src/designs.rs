@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use results::Results;
 
+use crate::palette::SlantPalette;
+
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Designs {
@@ -59,6 +61,11 @@ impl Designs {
     /// Returns the numbers of a column, where there are any.
     pub(crate) fn numbers(&self, column: &str) -> impl Iterator<Item = f64> {
         (0..self.count).filter_map(move |row| self.number(column, row))
+    }
+
+    /// Returns the colours and marks of the slants.
+    pub(crate) fn palette(&self) -> SlantPalette {
+        SlantPalette::new(self.numbers("slant_deg"))
     }
 
     /// Returns the different numbers of a column, sorted.

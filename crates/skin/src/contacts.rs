@@ -3,6 +3,7 @@
 mod audit;
 mod change;
 mod closed;
+mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
@@ -145,20 +146,6 @@ impl Contacts {
     /// Whether a side and a neighbour's end lie flush anywhere.
     pub(crate) fn flush(state: &SkinState) -> bool {
         state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
-    }
-
-    /// Adds what the closed contacts contribute to the equations.
-    pub(crate) fn add_residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_response(contact, acting, response, residual);
-        });
-    }
-
-    /// Adds what the closed contacts contribute to the tangent.
-    pub(crate) fn add_tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_derivatives(contact, acting, response, matrix);
-        });
     }
 
     /// Adds what the closed contacts contribute to the equations and to the tangent.

@@ -1,8 +1,11 @@
 //! Puncture of a row of scales on an elastic half-space.
 
+mod ending;
 mod measures;
 mod point;
+mod snap;
 mod snapshot;
+mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -11,6 +14,7 @@ mod window;
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use point::scales;
+use snap::Needle;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
@@ -23,7 +27,9 @@ use crate::{Common, Design, Sample, Status};
 
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
+pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
+pub use stability::Instability;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -75,8 +81,12 @@ pub struct Puncture {
     pub measures: PunctureMeasures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
+    /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
+    pub instability: Vec<Instability>,
     /// Every contact event, in order.
     pub events: Vec<ContactEvent<PuncturePoint>>,
+    /// Every snap of a row under a needle that only goes deeper, in order.
+    pub snaps: Vec<Snap>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -193,7 +203,7 @@ impl<'a> Problem<'a> {
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let mut record = Record::new(&path);
+        let (mut record, mut needle) = (Record::new(&path), Needle::default());
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -201,6 +211,7 @@ impl<'a> Problem<'a> {
             let reach = path.system().reach(&point.state);
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
+                needle.follow(&mut path, [&before, &point], record.events.len());
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
@@ -210,11 +221,12 @@ impl<'a> Problem<'a> {
             }
         }
         let status = if has_room {
-            Status::of(&path, path.stop().unwrap_or(Stop::Reached))
+            let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
+            ending::judged(status, &record.path)
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, &mut path, status))
+        Ok(self.puncture(record, needle, &mut path, status))
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -253,15 +265,22 @@ impl<'a> Problem<'a> {
         Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
     }
 
-    fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
+    fn puncture(
+        &self,
+        record: Record<Chain>,
+        needle: Needle,
+        path: &mut Path<Chain>,
+        status: Status,
+    ) -> Puncture {
         let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let measures = PunctureMeasures::new(&record, path, modulus);
+        let mut measures = PunctureMeasures::new(&record, path, modulus);
+        let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, events, scales, history }
+        Puncture { status, measures, path, instability, events, snaps, scales, history }
     }
 }

@@ -19,8 +19,9 @@
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
+//! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
+//! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
@@ -70,6 +71,7 @@ mod newton;
 mod path;
 mod peak;
 mod rate_problem;
+mod skyline;
 mod step;
 mod stop;
 mod system;
@@ -84,7 +86,8 @@ pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::Peak;
+pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};
-pub use tangent::Tangent;
+pub use tangent::{NoTangent, Tangent};

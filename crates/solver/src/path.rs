@@ -34,7 +34,7 @@ pub struct Point<M = ()> {
 }
 
 /// The path of equilibria of a system, from a first one until the control parameter reaches its
-/// target, one scale.
+/// target, one scale, or a load that only pushes comes back to zero.
 ///
 /// Between events the active set is held and the equations are smooth: a predictor along the
 /// tangent, then Newton's method for the point at a given distance,
@@ -243,7 +243,7 @@ impl<S: System> Path<S> {
         self.correct(near.state.moved(factor, &near.leaving), condition)
     }
 
-    fn correct(
+    pub(crate) fn correct(
         &mut self,
         mut state: State<S::Mode>,
         condition: &Condition,
@@ -317,6 +317,9 @@ impl<S: System> Path<S> {
         if self.turns(&from, &candidate) {
             candidate = self.extremum(&from, &candidate)?;
         }
+        if self.pulls(&candidate) {
+            candidate = self.unloaded(&from, &candidate)?;
+        }
         Ok(candidate)
     }
 
@@ -379,6 +382,8 @@ impl<S: System> Iterator for Path<S> {
             Ok(point) => {
                 if self.at_target(&point.state) {
                     self.stop = Some(Stop::Reached);
+                } else if point.event == Some(Event::Unloaded) {
+                    self.stop = Some(Stop::Unloaded);
                 }
                 self.stand(point.clone());
                 Some(point)

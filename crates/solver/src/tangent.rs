@@ -23,3 +23,13 @@ pub trait Tangent {
         }
     }
 }
+
+/// A matrix that is not asked for: derivatives added to it are lost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoTangent;
+
+impl Tangent for NoTangent {
+    fn clear_row(&mut self, _row: usize) {}
+
+    fn add(&mut self, _row: usize, _column: usize, _value: f64) {}
+}

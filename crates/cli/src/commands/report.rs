@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use ranking::{Ranking, Weights};
 use rayon::prelude::*;
-use report::{Fact, Page, RankingEntry, drawings};
+use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
-use skin::puncture;
+use skin::{flexure, puncture};
+use sweep::Case;
 
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
@@ -17,6 +18,8 @@ use crate::print::print;
 
 /// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
 const DRAWN: usize = 24;
+/// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
+const CURVE_STEP: f64 = 0.01;
 /// Bytes of all their drawings, at most.
 const ROOM: usize = 1_500_000;
 
@@ -57,15 +60,15 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        drawings: ranking.as_ref().map_or_else(Vec::new, |ranking| drawn(results, ranking)),
-        ranking: ranking.as_ref().map_or_else(Vec::new, RankingEntry::all),
+        solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
+        opening: String::new(),
         designs: results.designs.clone(),
     })
 }
 
-/// Drawings of the designs that are best for all criteria alike, for one alone, or for other weights,
-/// as many as there is room for.
-fn drawn(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<Fact> {
+/// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings
+/// and curves: as many as there is room for.
+fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<SolvedDesign> {
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let mut rows: Vec<usize> = Vec::new();
@@ -74,20 +77,21 @@ fn drawn(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<Fact> {
             rows.push(winner);
         }
     }
-    let drawings: Vec<_> = rows.par_iter().filter_map(|&row| drawing(results, row)).collect();
+    let all: Vec<_> = rows.par_iter().filter_map(|&row| solve(results, row)).collect();
     let mut room = ROOM;
-    let fits = |(_, svg): &Fact| {
-        room = room.saturating_sub(svg.len());
+    let fits = |design: &SolvedDesign| {
+        room = room.saturating_sub(design.svg.len());
         room > 0
     };
-    drawings.into_iter().take_while(fits).collect()
+    all.into_iter().take_while(fits).collect()
 }
 
-/// A drawing, or none if the design cannot be solved: its row in the table says why.
-fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
+/// A design with drawing and curves, or none if it cannot be solved: its row in the table says why.
+fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
-    let case = grid.case(grid.parse_number(number).ok()?);
+    let mut case = grid.case(grid.parse_number(number).ok()?);
+    case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
     let solved =
@@ -101,5 +105,18 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
         thickness_mm: case.material.thickness_mm,
         states: &states,
     };
-    Some((number.to_owned(), drawing.svg().ok()?))
+    let path = solved.puncture.path.iter();
+    Some(SolvedDesign {
+        number: number.to_owned(),
+        svg: drawing.svg().ok()?,
+        puncture: path.map(|point| [point.displacement, point.force]).collect(),
+        flexure: bending(&case),
+    })
+}
+
+/// Curvatures and moments along the path of bending; none if it cannot be solved.
+fn bending(case: &Case) -> Vec<[f64; 2]> {
+    let solved = flexure::solve(&case.design, &case.common, &case.flexure);
+    let path = solved.map_or_else(|_| Vec::new(), |solved| solved.path);
+    path.iter().map(|point| [point.curvature, point.moment]).collect()
 }

@@ -86,7 +86,9 @@ impl ColumnProfile {
         let round_off = ROUND_OFF * self.largest();
         let digits = "0.000E+00";
         if is_positive && round_off > 0.0 && self.smallest.is_some_and(|least| least < round_off) {
-            format!("[<{round_off:.0e}]0;{digits}")
+            // As a decimal fraction of one digit: conditions of formats know no powers of ten.
+            let limit: f64 = format!("{round_off:.0e}").parse().unwrap_or(round_off);
+            format!("[<{limit}]0;{digits}")
         } else {
             digits.to_owned()
         }
@@ -127,7 +129,7 @@ mod tests {
         assert_eq!(format(&["22.412345678", "0.00291427547"]), "0.00000");
         assert_eq!(format(&["22.412345678", "0.00000291427547"]), "0.000E+00");
         assert_eq!(format(&["0.12345678", "7.9e-27"]), "0.000");
-        assert_eq!(format(&["1.5e-7", "7.9e-27"]), "[<2e-16]0;0.000E+00");
+        assert_eq!(format(&["1.5e-7", "7.9e-27"]), "[<0.0000000000000002]0;0.000E+00");
         assert_eq!(format(&["-1.5e-7", "7.9e-27"]), "0.000E+00");
     }
 

@@ -6,10 +6,10 @@ use ranking::{CRITERIA, Criterion, Goal, Preferences};
 use results::round_off::Leader;
 use results::{CsvFormat, RunFolder};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
-use sweep::toml_source::{self, KeyValue, Value};
 use sweep::{PARAMETERS, Sweep};
 
 use super::explanation::Explanation;
+use crate::facts::facts;
 
 /// The name of the sheet.
 const NAME: &str = "summary";
@@ -99,8 +99,7 @@ impl Sheet {
         let left = Format::new().set_align(FormatAlign::Left);
         for (place, cell) in (0..).zip(cells) {
             match CsvFormat::Plain.number(cell) {
-                // A design number keeps its zeros, and is a text.
-                Some(number) if !cell.starts_with("00") => {
+                Some(number) if !is_design_number(cell) => {
                     self.page.write_number_with_format(self.row, place, number, &left)?
                 }
                 _ => self.page.write_string(self.row, place, *cell)?,
@@ -113,8 +112,12 @@ impl Sheet {
     /// How many designs there are, and what the record of the run says of it.
     fn run(&mut self, folder: &RunFolder, best: &BestValues) -> Result<(), XlsxError> {
         self.part(&["Run"])?;
-        self.add(&["designs", &best.designs.to_string()])?;
-        for (name, value) in facts(folder) {
+        let record = fs::read_to_string(folder.file(RunFolder::RUN_INFO)).unwrap_or_default();
+        let facts = facts(&record);
+        if facts.is_empty() {
+            self.add(&["designs", &best.designs.to_string()])?;
+        }
+        for (name, value) in facts {
             self.add(&[&name, &value])?;
         }
         Ok(())
@@ -186,24 +189,9 @@ impl Sheet {
     }
 }
 
-/// What stands in the table `run` of the record of a run.
-fn facts(folder: &RunFolder) -> Vec<(String, String)> {
-    let text = fs::read_to_string(folder.file(RunFolder::RUN_INFO)).unwrap_or_default();
-    let table = toml_source::parse(&text, RunFolder::RUN_INFO).unwrap_or_default();
-    let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
-    let Some(Value::Table(entries)) = run else { return Vec::new() };
-    entries.into_iter().map(|entry| (entry.key.replace('_', " "), words(entry.value))).collect()
-}
-
-fn words(value: Value) -> String {
-    match value {
-        Value::Table(counts) => {
-            let count = |entry: &KeyValue| format!("{} {}", entry.value, entry.key);
-            counts.iter().map(count).collect::<Vec<_>>().join(", ")
-        }
-        Value::Text(text) => text,
-        value => value.to_string(),
-    }
+/// Whether it is the number of a design, which keeps its zeros and so is a text.
+fn is_design_number(cell: &str) -> bool {
+    cell.len() > 1 && cell.starts_with('0') && cell.chars().all(|c| c.is_ascii_digit())
 }
 
 /// Rank, number and fitness of the first designs of the ranking of a folder.
@@ -215,10 +203,7 @@ fn leading(folder: &RunFolder) -> Vec<[String; 3]> {
     let row = |row: csv::StringRecord| {
         places.map(|place| {
             let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
-            match format
-                .number(cell)
-                .filter(|_| !cell.starts_with("00") && cell.contains(['.', ',']))
-            {
+            match format.number(cell).filter(|_| cell.contains(['.', ','])) {
                 Some(number) => format!("{number:.6}"),
                 None => cell.to_owned(),
             }

@@ -34,8 +34,8 @@ fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
     let axis = |k: usize| ChartAxis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let (front, beaten): (Vec<_>, Vec<_>) = all.iter().partition(|design| design.on_front());
-    let slants = designs.values("slant_deg");
-    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0]), legend(front.len(), beaten.len())];
+    let palette = designs.palette();
+    let mut inside = vec![slant_legend(&palette, [LEFT, 50.0]), legend(front.len(), beaten.len())];
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
     for (k, (i, j)) in pairs.into_iter().enumerate() {
         let panel = ChartPanel {
@@ -60,7 +60,8 @@ fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
             |design: &&RankedDesign<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
         inside.push(Element::group("beaten").containing(beaten.iter().filter_map(dot)));
         let marked = |design: &&RankedDesign<'_>| {
-            Some(mark(designs.number("slant_deg", design.row())?, at(design)?, 3.4, true))
+            let slant = designs.number("slant_deg", design.row())?;
+            Some(mark(&palette, slant, at(design)?, 3.4, true))
         };
         inside.push(Element::group("front").containing(front.iter().filter_map(marked)));
     }

@@ -6,7 +6,7 @@ use ranking::{RankedDesign, Ranking, Weights};
 use super::sheet;
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK, shaded, slant_color};
+use crate::palette::{FAINT, INK, shaded};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 const WIDTH: f64 = 1000.0;
@@ -145,9 +145,10 @@ fn colors(designs: &Designs, regions: &[Region]) -> Vec<String> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
     let slant = |region: &Region| designs.number("slant_deg", region.row).unwrap_or(90.0);
     let listed = &regions[..regions.len().min(LISTED)];
+    let palette = designs.palette();
     let color = |(k, region): (usize, &Region)| {
         let before = listed[..k].iter().filter(|other| slant(other) == slant(region)).count();
-        shaded(&slant_color(slant(region)), SHADES[before % SHADES.len()])
+        shaded(&palette.color(slant(region)), SHADES[before % SHADES.len()])
     };
     listed.iter().enumerate().map(color).collect()
 }

@@ -1,35 +1,112 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{PuncturePoint, ScaleState};
+use skin::puncture::{Instability, Puncture, PuncturePoint, ScaleState, Snap};
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
 
+/// An equilibrium of a puncture and its instability.
+pub type StabilityPoint = (PuncturePoint, Instability);
+
 /// The columns of `path.csv`.
-pub static PATH: &[Column<PuncturePoint>] = &[
-    Column::new("displacement", "t", "downward displacement of the punctured point", |p| {
+pub static PATH: &[Column<StabilityPoint>] = &[
+    Column::new("displacement", "t", "downward displacement of the punctured point", |(p, _)| {
         p.displacement.into()
     }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |p| p.force.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |p| p.tilt_deg.into()),
-    Column::new("contacts", "-", "closed contacts", |p| p.contacts.into()),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |(p, _)| p.force.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
+        p.tilt_deg.into()
+    }),
+    Column::new("contacts", "-", "closed contacts", |(p, _)| p.contacts.into()),
+    Column::new(
+        "unstable_under_load",
+        "-",
+        "negative eigenvalues of the stiffness if the load is held, as the path leaves",
+        |(_, i)| i.load.into(),
+    ),
+    Column::new(
+        "unstable_under_depth",
+        "-",
+        "negative eigenvalues of the stiffness if the depth of the punctured point is held",
+        |(_, i)| i.depth.into(),
+    ),
+    Column::new(
+        "unstable_under_tilt",
+        "-",
+        "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
+        |(_, i)| i.tilt.into(),
+    ),
 ];
 
+/// An event of a puncture.
+pub enum PunctureEvent {
+    /// A contact changes its state.
+    Contact(ContactEvent<PuncturePoint>),
+    /// The row snaps.
+    Snap(Snap),
+}
+
+impl PunctureEvent {
+    /// The events of a puncture, in order.
+    pub fn all(puncture: &Puncture) -> Vec<Self> {
+        let mut events: Vec<_> = puncture.events.iter().copied().map(Self::Contact).collect();
+        // From the last on, so that the places of the others stay.
+        for snap in puncture.snaps.iter().rev() {
+            events.insert(snap.events_before.min(events.len()), Self::Snap(*snap));
+        }
+        events
+    }
+
+    fn point(&self) -> PuncturePoint {
+        match self {
+            Self::Contact(event) => event.point,
+            Self::Snap(snap) => snap.point,
+        }
+    }
+
+    fn contact(&self) -> Option<&ContactEvent<PuncturePoint>> {
+        match self {
+            Self::Contact(event) => Some(event),
+            Self::Snap(_) => None,
+        }
+    }
+
+    fn drop(&self) -> Option<f64> {
+        match self {
+            Self::Contact(_) => None,
+            Self::Snap(snap) => snap.drop,
+        }
+    }
+}
+
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<ContactEvent<PuncturePoint>>] = &[
+pub static EVENTS: &[Column<PunctureEvent>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
-        e.point.displacement.into()
+        e.point().displacement.into()
     }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point.force.into()),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point().force.into()),
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |e| {
-        e.point.tilt_deg.into()
+        e.point().tilt_deg.into()
     }),
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
-        e.left_scale.into()
+        e.contact().and_then(|contact| contact.left_scale).into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
-    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
+    Column::new("kind", "-", "which corner meets which edge", |e| {
+        e.contact().map(|contact| contact.corner_edge.name()).into()
+    }),
+    Column::new(
+        "change",
+        "-",
+        "what happens to the contact; snap where a needle that only goes deeper leaves the path",
+        |e| e.contact().map_or("snap", |contact| contact.change.name()).into(),
+    ),
+    Column::new(
+        "drop",
+        "E_s L t/(1-nu^2)",
+        "force before a snap less that after it, at the same depth; empty if the path ends before",
+        |e| e.drop().into(),
+    ),
 ];
 
 /// The columns of `scales.csv`.

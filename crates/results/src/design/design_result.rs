@@ -139,7 +139,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 13] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -150,6 +150,10 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
         measures.initial_stiffness,
         measures.max_stiffness,
         measures.secant_stiffness,
+        measures.peak_displacement,
+        measures.peak_tilt_deg,
+        measures.load_stability_force,
+        measures.depth_stability_force,
     ]
 }
 
@@ -179,7 +183,8 @@ mod tests {
             ..PunctureMeasures::default()
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
-        Puncture { status, measures, path, events, scales, history }
+        let (instability, snaps) = (vec![], vec![]);
+        Puncture { status, measures, path, instability, events, snaps, scales, history }
     }
 
     #[test]

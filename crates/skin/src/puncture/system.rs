@@ -2,7 +2,7 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{Blocks, Change, Control, Residual, System, Tangent};
+use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
 use substrate::{FarField, Neighbour, RowStiffness};
 
 use super::window::{Reach, Surroundings};
@@ -65,6 +65,11 @@ impl Layout {
             links: scales.map(|scale| self.scale(scale)).collect(),
             root: self.left,
         }
+    }
+
+    /// The scale that an unknown belongs to; of a contact force the left one of its pair.
+    pub(crate) fn scale_of(self, unknown: usize) -> usize {
+        (unknown - usize::from(unknown > self.load())) / BLOCK
     }
 
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
@@ -189,10 +194,20 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
+    /// From the node of the punctured scale to the loaded point, deformed.
+    pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
+        self.contacts.pose(z, self.layout.left).turn(self.load_arm)
+    }
+
+    /// Scales on each side that a scale is coupled with, by the substrate or by contact.
+    pub(crate) fn coupled_scales(&self) -> usize {
+        self.neighbours.len().max(1)
+    }
+
     /// Derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
@@ -221,7 +236,7 @@ impl Chain {
     }
 
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
-    fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
+    pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             for k in 0..3 {
@@ -263,18 +278,6 @@ impl Chain {
         });
         springs.sum()
     }
-
-    fn add_springs(&self, z: &[f64], residual: &mut Residual) {
-        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
-    }
-
-    fn add_load(&self, z: &[f64], residual: &mut Residual) {
-        let at = self.layout.scale(self.layout.left);
-        let load = z[self.layout.load()];
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        residual.add(at + 1, load);
-        residual.add(at + 2, load * arm.x);
-    }
 }
 
 impl System for Chain {
@@ -286,7 +289,7 @@ impl System for Chain {
 
     fn half_bandwidth(&self) -> usize {
         // From x of a scale to φ of the last that it is coupled with, with the load between them.
-        BLOCK * self.neighbours.len().max(1) + 3
+        BLOCK * self.coupled_scales() + 3
     }
 
     fn blocks(&self) -> Option<&Blocks> {
@@ -295,6 +298,10 @@ impl System for Chain {
 
     fn load(&self) -> usize {
         self.layout.load()
+    }
+
+    fn load_only_pushes(&self) -> bool {
+        true
     }
 
     fn controls(&self) -> &[Control] {
@@ -310,21 +317,11 @@ impl System for Chain {
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        residual.clear(&self.units);
-        self.add_springs(&state.z, residual);
-        self.add_load(&state.z, residual);
-        self.contacts.add_residual(state, residual);
+        self.linearise(state, residual, &mut NoTangent);
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        let z = &state.z;
-        self.for_springs(|row, column, value| matrix.add(row, column, value));
-        let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        matrix.add(at + 1, self.layout.load(), 1.0);
-        matrix.add(at + 2, self.layout.load(), arm.x);
-        matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
-        self.contacts.add_tangent(state, matrix);
+        self.linearise(state, &mut Residual::new(self.size()), matrix);
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
@@ -335,7 +332,7 @@ impl System for Chain {
             matrix.add(row, column, value);
         });
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         residual.add(at + 1, z[load]);
         residual.add(at + 2, z[load] * arm.x);
         matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);

@@ -10,8 +10,10 @@
 //! | `scaling` | changes of units that must change nothing |
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
 //! | `outputs` | what the measures, events and scales mean |
+//! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
+mod ends;
 mod first_contact;
 mod isolated_scale;
 mod outputs;
@@ -45,6 +47,8 @@ fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_
         [
             m.critical_force,
             m.peak_force,
+            m.peak_displacement,
+            m.peak_tilt_deg,
             m.critical_displacement,
             m.penetration,
             m.sink,

@@ -140,3 +140,14 @@ proptest::proptest! {
         }
     }
 }
+
+/// A list takes time in proportion to its length: each value is not compared with all before it.
+#[test]
+fn a_long_list_with_a_value_twice_is_refused_at_once() {
+    let numbers = (1..=300_000).map(|k| format!("{k}e-6")).chain(["0.000001".to_owned()]);
+    let list = numbers.collect::<Vec<_>>().join(", ");
+    let start = std::time::Instant::now();
+    let message = all(&[&format!("designs.gap_over_t = [{list}]")]);
+    assert!(message.contains("0.000001"), "{message}");
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+}
