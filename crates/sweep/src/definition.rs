@@ -89,10 +89,17 @@ impl Sweep {
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
+    /// Whether the designs have a value for the parameter of that name.
+    pub fn gives(&self, key: &str) -> bool {
+        let is_given = |parameter: &Parameter| parameter.is_given(self.grid.base());
+        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_given)
+    }
+
     /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let shared = |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
+                && parameter.is_given(self.grid.base())
                 && !parameter.alternative().is_some_and(|other| self.gives_alone(other))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
