@@ -7,6 +7,7 @@ mod measured_value;
 mod path;
 mod reruns;
 mod samples;
+mod tilts;
 mod values;
 
 use std::borrow::Borrow;
@@ -17,6 +18,7 @@ use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
 use measured_value::MeasuredValue;
 use samples::SAMPLE_VALUES;
+use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
@@ -36,8 +38,8 @@ fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {
 
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let value = VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)?;
-    Some((value.unit, value.meaning))
+    let value = VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name);
+    value.map(|value| (value.unit, value.meaning)).or_else(|| explain_tilt_value(name))
 }
 
 /// The layout of a table: the name of its file, and its columns.
@@ -61,17 +63,21 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 }
 
 /// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
-/// imperfections have.
+/// imperfections or several critical tilts have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, None));
+    columns
 }
 
 fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
     let belongs = |value: &&MeasuredValue| value.tables.contains(&table);
     let (leading, others): (Vec<_>, Vec<_>) =
         values(sweep).filter(belongs).partition(|value| value.name == table);
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, Some(table)));
+    columns
 }
 
 /// The columns of `failures.csv`.

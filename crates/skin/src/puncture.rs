@@ -2,6 +2,7 @@
 
 mod ending;
 mod measures;
+mod number_list;
 mod point;
 mod snap;
 mod snapshot;
@@ -9,6 +10,7 @@ mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tilts;
 mod window;
 
 use contact::ContactLaw;
@@ -18,6 +20,7 @@ use snap::Needle;
 use solver::{Path, Settings, Stop};
 use substrate::RowStiffness;
 use system::{Chain, Layout};
+use tilts::TiltWatch;
 use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
@@ -26,10 +29,12 @@ use crate::record::{ContactEvent, Iteration, Record};
 use crate::{Common, Design, Sample, Status};
 
 pub use measures::PunctureMeasures;
+pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
+pub use tilts::TiltMeasures;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -57,6 +62,8 @@ pub struct PunctureParameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
+    /// Tilts at which measures are taken on the way, degrees.
+    pub tilts_deg: NumberList,
 }
 
 impl Default for PunctureParameters {
@@ -68,6 +75,7 @@ impl Default for PunctureParameters {
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
+            tilts_deg: NumberList::default(),
         }
     }
 }
@@ -79,6 +87,8 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
+    /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -204,6 +214,7 @@ impl<'a> Problem<'a> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let (mut record, mut needle) = (Record::new(&path), Needle::default());
+        let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -212,6 +223,7 @@ impl<'a> Problem<'a> {
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
                 needle.follow(&mut path, [&before, &point], record.events.len());
+                tilts.follow(&mut path, &before, &point);
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
@@ -226,7 +238,8 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, needle, &mut path, status))
+        let at_tilts = tilts.finish();
+        Ok(Puncture { at_tilts, ..self.puncture(record, needle, &mut path, status) })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -281,6 +294,7 @@ impl<'a> Problem<'a> {
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, instability, events, snaps, scales, history }
+        let at_tilts = Vec::new();
+        Puncture { status, measures, at_tilts, path, instability, events, snaps, scales, history }
     }
 }

@@ -51,9 +51,15 @@ fn the_guide_to_the_results_explains_every_column() {
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
     let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
+    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
+    let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
     let expected = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
+        (
+            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
+            columns(at_tilts),
+        ),
         ("Statuses", statuses),
         (
             "`failures.csv`, after the columns that say which design it is",

@@ -11,6 +11,7 @@
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
+//! | `tilts` | measures at tilts on the way, against paths that end there |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
 mod ends;
@@ -24,6 +25,7 @@ mod samples;
 mod scaling;
 mod snapshots;
 mod steps;
+mod tilts;
 mod two_blocks;
 
 use approx::assert_relative_eq;
