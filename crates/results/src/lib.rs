@@ -59,7 +59,7 @@ pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
 };
-pub use measure_table::write_measures;
+pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};

@@ -45,14 +45,7 @@ impl Sweep {
     /// # Errors
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let mut table = match toml_source::parse(text, name) {
-            Ok(table) => definition_of(table),
-            Err(errors) => {
-                let errors = errors.into_iter().map(InvalidDefinition::Syntax).collect();
-                InvalidDefinition::of(errors)?;
-                KeyValues::new()
-            }
-        };
+        let mut table = definition_of(toml_source::parse(text, name)?);
         for setting in settings {
             setting.apply(&mut table);
         }

@@ -19,7 +19,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         tables: &["coverage"],
         name: "coverage",
         unit: "-",
-        meaning: "share of the thickness that scales fill below the top right corner of a scale",
+        meaning: "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
         cell: |r| r.result.coverage.into(),
     },
     MeasuredValue {
@@ -273,6 +273,48 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         unit: "-",
         meaning: "times that the row snaps under a needle that only goes deeper",
         cell: |r| punctured(r, |p| p.measures.snaps),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "gap_stretch_min",
+        unit: "-",
+        meaning: "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over",
+        cell: |r| measured(r, |m| m.gap_stretch_min),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "gap_stretch_max",
+        unit: "-",
+        meaning: "width of the widest gap between bases at the critical tilt over that at rest",
+        cell: |r| measured(r, |m| m.gap_stretch_max),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at which the surface first folds over; empty if it does not",
+        cell: |r| measured(r, |m| m.fold_force),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_displacement",
+        unit: "t",
+        meaning: "displacement of the punctured point at which the surface first folds over",
+        cell: |r| measured(r, |m| m.fold_displacement),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_tilt_deg",
+        unit: "deg",
+        meaning: "tilt of the punctured scale at which the surface first folds over",
+        cell: |r| measured(r, |m| m.fold_tilt_deg),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "sound_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
+        cell: |r| measured(r, |m| m.sound_force),
     },
 ];
 

@@ -9,6 +9,8 @@
 //! | `rows` | rows of any length, and those that `Auto` chooses |
 //! | `scaling` | changes of units that must change nothing |
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
+//! | `folds` | where the surface of the substrate folds over |
+//! | `neo_hookean` | a substrate whose surface cannot fold over |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `tilts` | measures at tilts on the way, against paths that end there |
@@ -16,7 +18,9 @@
 
 mod ends;
 mod first_contact;
+mod folds;
 mod isolated_scale;
+mod neo_hookean;
 mod outputs;
 mod robustness;
 mod rows;
