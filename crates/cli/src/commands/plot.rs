@@ -34,14 +34,16 @@ pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
-    let results =
-        ResultsFolder::read(&verified_folder(results, arguments.partial.completeness())?)?;
+    let results = ResultsFolder::read(
+        &verified_folder(results, arguments.partial.completeness())?,
+        usize::MAX,
+    )?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
     for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
-        write_svg(&folder, figure.name, &figure.svg, arguments.png, &mut files)?;
+        write_svg(&folder, &figure.name, &figure.svg, arguments.png, &mut files)?;
     }
     derived::note(results.verified(), "figures", &folder, files.names())?;
     print(&files.report(&folder))?;
@@ -72,7 +74,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown) {
         // Where a puncture ends is a part of what its curves show.
-        let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name));
+        let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
         write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
@@ -98,6 +100,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
+        puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }

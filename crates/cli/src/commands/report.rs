@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ranking::{Ranking, Weights};
+use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
@@ -18,6 +18,9 @@ use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
+/// Designs that a page shows, about, at most: a browser takes no more.
+const SHOWN: usize = 10_000;
+
 /// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
 const DRAWN: usize = 24;
 /// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
@@ -27,10 +30,8 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&verified_folder(
-        &arguments.results,
-        arguments.partial.completeness(),
-    )?)?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = ResultsFolder::read(&verified, SHOWN)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     require_folder_of("--out", &out)?;
     let page = page(&results)?;
@@ -67,9 +68,22 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         run: results.run.clone(),
         shared: shared.collect(),
         solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
-        opening: String::new(),
+        opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
     })
+}
+
+/// What the last ranking went by, as the address of the page has it.
+fn opening(preferences: &Preferences) -> String {
+    let list = |texts: Vec<String>| texts.join(",");
+    let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
+    let weights = list(preferences.weights.values().iter().map(ToString::to_string).collect());
+    let scale = preferences.scale;
+    let required =
+        preferences.requirements.iter().map(|requirement| format!("require={requirement}"));
+    let ranked = format!("criteria={criteria}&weights={weights}&scale={scale}");
+    // In an address a plus stands for a space.
+    required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
 /// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings
@@ -108,6 +122,7 @@ fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
         name: &name,
         design: &case.design,
         load_position: case.puncture.load_position,
+        thickness_mm: case.material.thickness_mm,
         states: &states,
     };
     let path = solved.puncture.path.iter();

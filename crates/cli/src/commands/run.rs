@@ -116,6 +116,7 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
         rows.push(["missing".to_owned(), format!("{missing}, --resume goes on")]);
     }
     rows.extend(status_rows(finished));
+    rows.extend(folded_row(finished));
     rows.extend(best_rows(finished));
     let tables = finished.tables.join(" ");
     rows.push(["tables", &format!("{}: {tables} run.toml", folder.display())].map(str::to_owned));
@@ -128,6 +129,14 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
         let counts: Vec<_> = counts.iter().map(|(status, n)| format!("{n} {status}")).collect();
         [measure.key().to_owned(), counts.join(", ")]
     })
+}
+
+/// Designs whose numbers are not to be trusted to the end.
+fn folded_row(finished: &Finished) -> Option<[String; 2]> {
+    let folded = finished.summary.folded;
+    let designs = counted(folded, "design");
+    let what = format!("{designs}: two bases pass each other, see fold_force and sound_force");
+    (folded > 0).then(|| ["folded over".to_owned(), what])
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
