@@ -11,6 +11,7 @@ use signal_hook::flag;
 const BASE: u8 = 128;
 
 /// Listens to SIGINT and SIGTERM: the first asks the run to end, the second ends the process.
+#[derive(Clone)]
 pub struct Interrupt {
     stop: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,

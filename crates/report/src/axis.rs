@@ -53,11 +53,17 @@ impl ChartAxis {
         Self::linear(label, low, high)
     }
 
-    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
+    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
-        let air = 0.05 * if high > low { high - low } else { 1.0 };
+        let size = low.abs().max(high.abs());
+        // Values that are equal but for round-off have an axis too.
+        let air = match high - low {
+            span if span > 1e-9 * size => 0.05 * span,
+            _ if size > 0.0 => 0.05 * size,
+            _ => 0.05,
+        };
         let below = if low == 0.0 { low } else { low - air };
-        let above = if high == 0.0 { high } else { high + air };
+        let above = if high == 0.0 && low < 0.0 { high } else { high + air };
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
@@ -103,10 +109,10 @@ impl ChartAxis {
         // A small count: the axis has few steps.
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
-        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+        let ends = self.low.abs().max(self.high.abs());
         let tick = |k: i64| {
             let value = k as f64 * step;
-            Tick { value, label: Some(minus(&format!("{value:.decimals$}"))) }
+            Tick { value, label: Some(linear_label(value, step, ends)) }
         };
         (first..=last).map(tick).collect()
     }
@@ -121,10 +127,11 @@ impl ChartAxis {
             _ => false,
         };
         let digits = if decades > 7.0 { 1 } else { 9 };
+        let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
             let value = f64::from(digit) * 10f64.powi(decade);
-            let label = labelled(decade, digit).then(|| power(decade, digit));
+            let label = labelled(decade, digit).then(|| power(decade, digit, decimal));
             Tick { value, label }
         })
         .filter(|tick| self.place(tick.value).is_some())
@@ -132,15 +139,26 @@ impl ChartAxis {
     }
 }
 
-/// Formats `digit · 10^decade`, in full from 0.01 to 1000.
-fn power(decade: i32, digit: i32) -> String {
-    match decade {
-        0..=3 => format!("{}", f64::from(digit) * 10f64.powi(decade)),
-        -2..0 => {
-            let decimals = usize::try_from(-decade).unwrap_or(0);
-            format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade))
-        }
-        _ if digit == 1 => format!("10^{{{}}}", minus(&decade.to_string())),
+/// Formats a tick of a linear axis: in full where that is short, otherwise with the power of ten of the larger end.
+fn linear_label(value: f64, step: f64, ends: f64) -> String {
+    let decade = ends.log10().floor();
+    if (-3.0..5.0).contains(&decade) {
+        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+        return minus(&format!("{value:.decimals$}"));
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let decimals = (decade - (step.log10() + 1e-9).floor()).max(0.0) as usize;
+    minus(&format!("{:.decimals$}·10^{{{decade}}}", value / 10f64.powf(decade)))
+}
+
+/// Formats `digit · 10^decade`: in full or as a power, as all ticks of its axis.
+fn power(decade: i32, digit: i32, decimal: bool) -> String {
+    let decimals = usize::try_from(-decade).unwrap_or(0);
+    match digit {
+        _ if decimal => format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade)),
+        1 => format!("10^{{{}}}", minus(&decade.to_string())),
         _ => format!("{digit}·10^{{{}}}", minus(&decade.to_string())),
     }
 }
@@ -171,6 +189,19 @@ mod tests {
     fn ticks_are_round_numbers() {
         assert_eq!(labels(&ChartAxis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
         assert_eq!(labels(&ChartAxis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+        let small = ChartAxis::fit("", [0.0, 6e-5].into_iter());
+        assert_eq!(labels(&small), "0 2·10^{−5} 4·10^{−5} 6·10^{−5}");
+    }
+
+    #[test]
+    fn equal_values_have_an_axis_with_ticks() {
+        for value in [0.0, 1.0, -2.0, 1e-7, 3e12] {
+            for other in [value, value * (1.0 + 1e-15)] {
+                let axis = ChartAxis::fit("", [value, other].into_iter());
+                assert!(axis.place(value).is_some(), "{value}");
+                assert!((1..12).contains(&axis.ticks(5).len()), "{value}: {:?}", axis.ticks(5));
+            }
+        }
     }
 
     #[test]
@@ -192,7 +223,7 @@ mod tests {
     fn decades_have_a_logarithmic_axis() {
         assert_eq!(
             labels(&ChartAxis::fit("", [1e-6, 1e4].into_iter())),
-            "10^{−6} 10^{−4} 0.01 1 100 10^{4}"
+            "10^{−6} 10^{−4} 10^{−2} 10^{0} 10^{2} 10^{4}"
         );
         assert_eq!(labels(&ChartAxis::fit("", [0.025, 1.0].into_iter())), "0.05 0.1 0.2 0.5 1");
     }

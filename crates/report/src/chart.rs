@@ -130,8 +130,17 @@ impl ChartPanel<'_> {
     /// Returns the label of the y axis beside the panel, `away` px from it.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
-        let size = fitting(&self.y.label, 1.1 * self.area.height);
-        upright(&self.y.label, spot, size).with("fill", INK)
+        let name = self.short_name();
+        upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
+    }
+}
+
+impl ChartPanel<'_> {
+    /// Returns the label of the y axis, without the formula behind its symbol where that is taller than the panel.
+    fn short_name(&self) -> &str {
+        let label = &self.y.label;
+        let is_long = width(label, NAME) > self.area.height;
+        label.split(" = ").next().filter(|_| is_long).unwrap_or(label)
     }
 }
 

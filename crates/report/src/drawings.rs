@@ -6,6 +6,7 @@ mod contacts;
 mod row;
 mod scale_bar;
 mod strip;
+mod surface;
 mod view;
 
 pub use bodies::overlaps;

@@ -41,6 +41,8 @@ impl RunFolder {
     pub const PREFERENCES: &'static str = "ranking.toml";
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
+    /// The table of the measures of one design.
+    pub const MEASURES: &'static str = "measures.csv";
     /// The tables of the puncture of one design: path, events, scales, iterations.
     pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
     /// The tables of the bending of one design: path, events, scales, iterations.

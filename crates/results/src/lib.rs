@@ -16,6 +16,7 @@
 //! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
@@ -42,6 +43,7 @@
 pub mod columns;
 mod design;
 mod folder;
+mod measure_table;
 mod path_tables;
 mod quantity;
 mod reader;
@@ -59,6 +61,7 @@ pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
 };
+pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
 pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};

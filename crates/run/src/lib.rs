@@ -14,6 +14,7 @@
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
 //! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
 //! | [`Evaluator`] | solves one design |
+//! | [`WorkMeter`] | how much of the work is done, within designs too |
 //! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
 //! | [`Archive`] | a journal that was read |
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
@@ -25,7 +26,7 @@
 //! use std::sync::atomic::AtomicBool;
 //! use std::time::Duration;
 //!
-//! use run::{Options, Program, Start};
+//! use run::{Options, Program, Start, WorkMeter};
 //! use sweep::{Subset, Sweep};
 //!
 //! let text = "name = 'two'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\n\
@@ -39,6 +40,7 @@
 //!     fail_fast: false,
 //!     tables_every: Duration::MAX,
 //!     stop: &stop,
+//!     work: &WorkMeter::default(),
 //! };
 //! let program = Program { version: "1.0", revision: "none" };
 //! let all = Subset::default();
@@ -69,5 +71,6 @@ pub use progress::{Finished, Progress, RunError};
 pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
 pub use solve::evaluator::Evaluator;
+pub use solve::work::WorkMeter;
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};

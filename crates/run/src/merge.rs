@@ -13,6 +13,7 @@ use crate::journal::{
 use crate::options::{Options, Program};
 use crate::progress::{Finished, RunError};
 use crate::run::Run;
+use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
 /// The advice to shards that do not belong together.
@@ -80,8 +81,15 @@ pub fn merge(
     let archive = journal.archive();
     let (sweep, missing) =
         (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
-    let (stop, tables_every) = (AtomicBool::new(false), Duration::MAX);
-    let options = Options { threads: 1, format, fail_fast: false, tables_every, stop: &stop };
+    let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
+    let options = Options {
+        threads: 1,
+        format,
+        fail_fast: false,
+        tables_every: Duration::MAX,
+        stop: &stop,
+        work: &work,
+    };
     let info = RunInfo::new(program, &options, clock);
     let finished = Run::new(journal, out, &options, info).finish()?;
     Ok(Merged { finished, added, missing, sweep })

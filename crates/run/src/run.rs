@@ -51,7 +51,7 @@ pub fn run(
     let designs = missing.into_iter().flatten().map(|position| subset.design(position));
     let mut designs = designs.peekable();
     if designs.peek().is_some() {
-        let task = Task::new(sweep, String::new(), 0, clock);
+        let task = Task::new(sweep, String::new(), 0, clock, options.work);
         run.solve(&task, designs, progress)?;
     }
     run.finish()
@@ -82,11 +82,12 @@ impl<'a> Run<'a> {
     pub fn solve(
         &mut self,
         task: &Task<'_>,
-        designs: impl Iterator<Item = u64> + Send,
+        designs: impl Iterator<Item = u64> + Send + Clone,
         mut progress: impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let Options { threads, stop, .. } = *self.options;
         self.journal.begin_session(SessionStart::now(threads, self.format))?;
+        task.measure(designs.clone());
         let groups = Groups::new(task.grid(), designs);
         workers::solve(
             threads,

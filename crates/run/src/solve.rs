@@ -4,4 +4,5 @@ pub mod evaluator;
 pub mod groups;
 mod samples;
 pub mod task;
+pub mod work;
 pub mod workers;

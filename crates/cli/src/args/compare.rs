@@ -23,8 +23,8 @@ pub struct CompareArguments {
     #[arg(value_name = "OTHER")]
     pub second: PathBuf,
 
-    /// Numbers are the same if they differ by at most this, relative to the larger
-    #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "0")]
+    /// Numbers are the same if they differ by at most this, relative to the larger; 0 takes every bit
+    #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "1e-12")]
     pub tolerance: String,
 
     /// Exit with 1 if the runs differ

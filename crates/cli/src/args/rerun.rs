@@ -30,8 +30,8 @@ pub struct RerunArguments {
     #[arg(long, group = "which")]
     pub failed: bool,
 
-    /// Designs with these numbers
-    #[arg(long = "design", value_name = "NUMBER,…", group = "which", value_delimiter = ',')]
+    /// Designs with these numbers, e.g. 0417 or 1-12,0417
+    #[arg(long = "design", value_name = "NUMBERS", group = "which", value_delimiter = ',')]
     pub numbers: Option<Vec<String>>,
 
     /// Designs with this value in a column of designs.csv (may be repeated: all must hold)

@@ -40,11 +40,17 @@ pub struct RunArguments {
     pub fresh: bool,
 
     /// Solve a random subset of this many designs
-    #[arg(long, value_name = "DESIGNS")]
+    #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS")]
     pub sample: Option<u64>,
 
     /// Seed of the random subset: the same seed, the same designs
-    #[arg(long, value_name = "SEED", requires = "sample", default_value_t = 0)]
+    #[arg(
+        long,
+        allow_hyphen_values = true,
+        value_name = "SEED",
+        requires = "sample",
+        default_value_t = 0
+    )]
     pub seed: u64,
 
     /// Solve one shard: of N, the i-th, that is every N-th design from the i-th on

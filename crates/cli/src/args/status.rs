@@ -9,6 +9,7 @@ use clap::Args;
 #[command(after_help = "\
 Examples:
   squama status results/paper
+  squama status results/paper --json
 
 The run may be going on meanwhile.
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input.")]
@@ -16,4 +17,8 @@ pub struct StatusArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
 }

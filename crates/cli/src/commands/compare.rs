@@ -1,11 +1,14 @@
 //! `squama compare`.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ranking::{ColumnDifference, Comparison, Extreme};
 use results::Results;
+use sweep::number;
 
+use super::source::results_folder;
 use super::{DIFFERENT, DONE};
 use crate::args;
 use crate::print::{aligned, counted, digits, print};
@@ -16,7 +19,8 @@ const LISTED: usize = 8;
 /// Says where two runs differ.
 pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
-    let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
+    let results = |path: &PathBuf| anyhow::Ok(Results::read(&results_folder(path)?)?);
+    let [first, second] = [&arguments.first, &arguments.second].map(results);
     let (first, second) = (first?, second?);
     let comparison = ranking::compare(&first, &second, tolerance)?;
     let mut text = report(&comparison, &first, &second);
@@ -82,7 +86,12 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        let _ = writeln!(text, "\nno difference: {}", names.join(" "));
+        let above = if same.iter().any(|column| column.relative.is_some()) {
+            format!(" above {}", number::text(comparison.tolerance()))
+        } else {
+            String::new()
+        };
+        let _ = writeln!(text, "\nno difference{above}: {}", names.join(" "));
     }
     text
 }

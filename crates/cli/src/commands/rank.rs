@@ -1,5 +1,6 @@
 //! `squama rank`.
 
+mod record;
 mod report;
 
 use anyhow::Context as _;
@@ -9,16 +10,19 @@ use ranking::{
 };
 use results::Results;
 
+use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
 use crate::args;
+use crate::json;
 use crate::print::print;
+use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
 /// Finds the best designs of a run and writes them down.
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&arguments.results)?;
+    let results = Results::read(&results_folder(&arguments.results)?)?;
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),
@@ -32,10 +36,14 @@ fn ranked(
     results: &Results,
     ranking: &Ranking<'_>,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
-    let text = RankReport { results, ranking, top: arguments.top }.text();
-    print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    if arguments.json {
+        json::print(&ranking_record(results, ranking, arguments.top))?;
+    } else {
+        let text = RankReport { results, ranking, top: arguments.top }.text();
+        print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    }
     Ok(DONE)
 }
 
@@ -45,10 +53,14 @@ fn none_meets(
     preferences: &Preferences,
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let file = ranking::write_unmet(folder, preferences)?;
-    let text = unmet_report(results, preferences, unmet);
-    print(&format!("{text}\n{}: {file}\n", folder.display()))?;
+    if arguments.json {
+        json::print(&unmet_record(results, unmet))?;
+    } else {
+        let text = unmet_report(results, preferences, unmet);
+        print(&format!("{text}\n{}: {file}\n", folder.display()))?;
+    }
     Ok(INCOMPLETE)
 }
 
@@ -78,9 +90,19 @@ fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
             let read = |text: &str| option::<Criterion>("--criteria", text);
             criteria.split(',').map(read).collect()
         }
+        None if own.is_empty() && arguments.sound => Ok(sound_criteria()),
         None if own.is_empty() => Ok(CRITERIA.to_vec()),
         None => Ok(own),
     }
+}
+
+/// The criteria of the paper with the force that the model can answer for.
+fn sound_criteria() -> Vec<Criterion> {
+    let sound = |criterion: &Criterion| match criterion.column.as_ref() {
+        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        _ => criterion.clone(),
+    };
+    CRITERIA.iter().map(sound).collect()
 }
 
 /// The value of an option.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ranking::{Ranking, Weights};
+use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
@@ -12,6 +12,7 @@ use sweep::Case;
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
+use super::source::{require_folder_of, results_folder};
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::print::print;
@@ -25,11 +26,11 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&arguments.results)?;
-    let page = page(&results)?;
+    let results = ResultsFolder::read(&results_folder(&arguments.results)?)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    require_folder_of("--out", &out)?;
+    let page = page(&results)?;
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    results::make_folder(&folder)?;
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
@@ -61,9 +62,22 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         run: results.run.clone(),
         shared: shared.collect(),
         solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
-        opening: String::new(),
+        opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
     })
+}
+
+/// What the last ranking went by, as the address of the page has it.
+fn opening(preferences: &Preferences) -> String {
+    let list = |texts: Vec<String>| texts.join(",");
+    let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
+    let weights = list(preferences.weights.values().iter().map(ToString::to_string).collect());
+    let scale = preferences.scale;
+    let required =
+        preferences.requirements.iter().map(|requirement| format!("require={requirement}"));
+    let ranked = format!("criteria={criteria}&weights={weights}&scale={scale}");
+    // In an address a plus stands for a space.
+    required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
 /// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings

@@ -6,7 +6,8 @@ use anyhow::{Context as _, ensure};
 use results::{make_folder, write_text};
 use sweep::Sweep;
 
-use super::{DONE, folder_of, read};
+use super::DONE;
+use super::source::{folder_of, read};
 use crate::args;
 use crate::print::print;
 

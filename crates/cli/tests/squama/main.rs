@@ -2,11 +2,13 @@
 
 mod agreement;
 mod bad_input;
+mod beginnings;
 mod clusters;
 mod couplings;
 mod design;
 mod images;
 mod imperfections;
+mod json;
 mod kills;
 mod materials;
 mod output;
@@ -14,6 +16,7 @@ mod process;
 mod rankings;
 mod reruns;
 mod runs;
+mod selection;
 mod shards;
 mod survival;
 mod table;

@@ -1,5 +1,6 @@
 //! `squama run`: its files, its exit code, and that threads do not matter.
 
+use crate::table::cell;
 use crate::{FEW, Place};
 
 /// The files of a run that must not depend on when and with how many threads it ran.
@@ -68,7 +69,11 @@ fn a_design_that_stops_early_is_a_row_and_an_exit_code() {
     place.squama("run x.toml --set solver.max_points=3").assert().code(1);
     let table = place.read("results/few/critical_force.csv");
     let row = table.lines().nth(1).expect("a row");
-    assert!(row.starts_with("0001,0.1,0.2,0,,too many points,,,"), "{row}");
+    assert!(row.starts_with("0001,0.1,0.2,0,,too many points,"), "{row}");
+    // The largest force that it bore stays, and the measures at the critical tilt are none.
+    let none = ["critical_force", "critical_displacement", "secant_stiffness"];
+    assert!(none.iter().all(|column| cell(&table, "0001", column).is_empty()), "{row}");
+    assert!(!cell(&table, "0001", "peak_force").is_empty(), "{row}");
     assert!(place.read("results/few/run.toml").contains("\"too many points\" = 8"));
 }
 

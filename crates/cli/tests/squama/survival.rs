@@ -118,6 +118,18 @@ mod signals {
         }
     }
 
+    #[test]
+    fn the_first_is_answered() {
+        let place = Place::with(ENDLESS);
+        let mut run = place.spawn("run x.toml --threads 1");
+        run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
+        run.send(SIGINT);
+        let word = "ending once the designs in hand are done; a second signal ends at once, --resume goes on\n";
+        run.until_said(word);
+        run.send(SIGINT);
+        assert_eq!(run.end().code(), Some(130));
+    }
+
     /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes.
     const ENDLESS: &str = "name = 'endless'\nmeasures = ['puncture']\n[designs]\ngap_over_t = 0.1\n\
                            length_over_t = 1\nslant_deg = 0\nscales = [1, 10001]\n\

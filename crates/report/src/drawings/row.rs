@@ -8,6 +8,7 @@ use skin::puncture::{RowSnapshot, ScaleState};
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
 use super::scale_bar::scale_bar;
+use super::surface;
 use super::view::View;
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
@@ -142,7 +143,8 @@ impl RowSheet {
         let bottom = AIR + self.view.scale + SUBSTRATE;
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
-        inside.extend(scale_bar(&self.view, self.thickness_mm, [WIDTH - MARGIN, 14.0]));
+        let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
+        inside.extend(scale_bar(&self.view, self.thickness_mm, within_substrate));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
@@ -167,13 +169,16 @@ impl RowSheet {
             self.substrate(&poses, self.bars - 18.0),
             self.ghosts(),
             self.scales(&poses),
+            surface::folds(&self.row, &self.view, &poses),
             self.overlaps(state),
             self.contacts(state),
             self.load(state),
             self.tilt(state),
             self.reactions(&shown, state.force * self.length),
         ];
-        lifted(free, self.height, self.caption(state), inside)
+        let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
+        let caption = self.caption(state) + &surface::folds_label(&self.row, &all);
+        lifted(free, self.height, caption, inside)
     }
 
     fn caption(&self, state: &RowSnapshot) -> String {

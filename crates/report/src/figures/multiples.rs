@@ -129,15 +129,21 @@ impl PanelSeries<'_> {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
-            let spots: Vec<Spot> = points.iter().map(|point| point.1).collect();
             let color = self.palette.color(slant);
-            series.add(polyline(&spots).with("stroke", color).at("stroke-width", 1.2));
+            // No line crosses the place where contact begins: the value jumps there.
+            for part in points.chunk_by(|a, b| self.is_filled(a.2) == self.is_filled(b.2)) {
+                let spots: Vec<Spot> = part.iter().map(|point| point.1).collect();
+                series.add(polyline(&spots).with("stroke", color.as_str()).at("stroke-width", 1.2));
+            }
         }
         for (_, at, row) in points {
-            let filled = self.filled.is_none_or(|column| is_true(designs.text(column, row)));
-            series.add(mark(self.palette, slant, at, 3.2, filled));
+            series.add(mark(self.palette, slant, at, 3.2, self.is_filled(row)));
         }
         series
+    }
+
+    fn is_filled(&self, row: usize) -> bool {
+        self.filled.is_none_or(|column| is_true(self.designs.text(column, row)))
     }
 }
 

@@ -57,7 +57,7 @@ fn figures_are_named_and_the_same_every_time() {
     let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
     let designs = Designs::of(&results);
     let all = figures("x", &designs, Some(&ranking));
-    let names: Vec<_> = all.iter().map(|figure| figure.name).collect();
+    let names: Vec<_> = all.iter().map(|figure| figure.name.as_str()).collect();
     assert_eq!(
         names,
         [
@@ -66,7 +66,7 @@ fn figures_are_named_and_the_same_every_time() {
             "compliance-by-gap-aspect-slant",
             "stiffness-against-critical-force",
             "coverage-maps-by-slant",
-            "pareto-front-pairwise",
+            "pareto-fronts-pairwise",
             "best-designs-by-weights-tetrahedron",
         ]
     );
@@ -80,6 +80,30 @@ fn what_was_not_measured_has_no_figure() {
     let designs = Designs::of(&results(table));
     let names: Vec<_> = figures("x", &designs, None).into_iter().map(|f| f.name).collect();
     assert_eq!(names, ["coverage-maps-by-slant"]);
+}
+
+#[test]
+fn every_value_of_a_further_axis_has_figures_of_its_own() {
+    let mut lines = table().lines().map(|line| line.to_owned()).collect::<Vec<_>>();
+    for (k, line) in lines.iter_mut().enumerate() {
+        line.push_str(if k == 0 { ",width_over_t" } else { [",0.5", ",2"][k % 2] });
+    }
+    let designs = Designs::of(&results(&lines.join("\n")));
+    let all = figures("x", &designs, None);
+    let forces = all.iter().filter(|figure| figure.name.starts_with("critical-force"));
+    let forces: Vec<_> = forces.collect();
+    let names: Vec<_> = forces.iter().map(|figure| figure.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "critical-force-by-gap-aspect-slant-width-over-t-2",
+            "critical-force-by-gap-aspect-slant-width-over-t-0.5"
+        ]
+    );
+    // Each has the half of the marks, and says which.
+    for (figure, width) in forces.iter().zip(["2", "0.5"]) {
+        assert!(figure.svg.contains(&format!("x, width/t {width}: critical force")));
+    }
 }
 
 #[test]

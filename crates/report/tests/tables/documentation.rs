@@ -11,7 +11,7 @@ use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
     design_columns,
 };
-use results::{Column, Outcome, RERUN_COLUMNS, failure_detail_columns};
+use results::{Column, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns};
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -65,6 +65,7 @@ fn the_guide_to_the_results_explains_every_column() {
             columns(&failure_detail_columns()),
         ),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
+        ("`measures.csv`", columns(MEASURE_COLUMNS)),
         ("`path.csv`", columns(PATH)),
         ("`events.csv`", columns(EVENTS)),
         ("`scales.csv`", columns(SCALES)),
@@ -108,6 +109,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 #[test]
 fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
     assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
     assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);

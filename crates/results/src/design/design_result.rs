@@ -139,7 +139,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 13] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -154,6 +154,12 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 13] 
         measures.peak_tilt_deg,
         measures.load_stability_force,
         measures.depth_stability_force,
+        measures.gap_stretch_min,
+        measures.gap_stretch_max,
+        measures.fold_force,
+        measures.fold_displacement,
+        measures.fold_tilt_deg,
+        measures.sound_force,
     ]
 }
 
@@ -183,8 +189,8 @@ mod tests {
             ..PunctureMeasures::default()
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
-        let (instability, snaps) = (vec![], vec![]);
-        Puncture { status, measures, path, instability, events, snaps, scales, history }
+        let (instability, snaps, folds) = (vec![], vec![], vec![]);
+        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
     }
 
     #[test]
