@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
-use results::{CsvFormat, OutputError, RunFolder, words};
+use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
 use sweep::reason;
 
 use measure_chart::MeasureChart;
@@ -39,6 +39,9 @@ pub struct Exported {
 /// Tables that do not become a workbook.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
+    /// A table is not as its run has written it.
+    #[error(transparent)]
+    Folder(#[from] InvalidFolder),
     /// The folder has no table of designs.
     #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
     NoDesigns {
@@ -82,10 +85,9 @@ pub enum ExportError {
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
 /// not take the workbook.
-pub fn export(results: &Path, file: &Path) -> Result<Exported, ExportError> {
+pub fn export(results: &VerifiedFolder, file: &Path) -> Result<Exported, ExportError> {
     let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
-    let results = &RunFolder::new(results);
     if !results.holds(RunFolder::DESIGNS) {
         return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
     }
@@ -101,7 +103,11 @@ fn has_extension(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"))
 }
 
-fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported, ExportError> {
+fn write(
+    results: &VerifiedFolder,
+    folder: &RunFolder,
+    name: &str,
+) -> Result<Exported, ExportError> {
     let failed = |error: XlsxError| match error {
         XlsxError::IoError(error) => OutputError::file(&folder.file(name), &error).into(),
         error => unwritable(folder, name, &error.to_string()),
@@ -114,15 +120,18 @@ fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported
     let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
     for file in RunFolder::tables().filter(|file| results.holds(file)) {
         let table = file.trim_end_matches(".csv").to_owned();
-        let path = results.file(&file);
-        let (profiles, values) = look_over(&path)?;
+        let path = results.path().join(&file);
+        let (profiles, values) = look_over((&path, results.file(&file)?))?;
         if file == RunFolder::DESIGNS {
             best = values;
         }
-        let sheet = Sheet::new(&mut workbook, &table, &profiles);
-        let (page, rows) = copy(&path, sheet.map_err(failed)?, &mut guide, &failed)?;
+        let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
+        let (page, rows) = copy((&path, results.file(&file)?), sheet, &mut guide, &failed)?;
         pages.push(page);
         tables.push((table, rows));
+    }
+    if let Some(held) = results.shortfall() {
+        guide.note(&format!("made from {held}")).map_err(failed)?;
     }
     workbook.push_worksheet(summary(results, &best).map_err(failed)?);
     for page in pages {
@@ -141,10 +150,10 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// What a table holds: its profiles by column, and its best values.
-fn look_over(path: &Path) -> Result<(TableProfile, BestValues), ExportError> {
+/// What a table, in a file with its path, holds: its profiles by column, and its best values.
+fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (format, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let (mut columns, mut best) =
         (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
@@ -163,15 +172,15 @@ struct TableProfile {
     columns: Vec<ColumnProfile>,
 }
 
-/// Fills a sheet with the table in the file `path`; returns its page and how many rows it has.
+/// Fills a sheet with the table in a file with its path; returns its page and how many rows it has.
 fn copy(
-    path: &Path,
+    (path, file): (&Path, File),
     mut sheet: Sheet,
     guide: &mut Guide,
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<(Worksheet, u32), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (_, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let (_, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
@@ -185,8 +194,8 @@ fn copy(
     Ok((sheet.finish().map_err(failed)?, rows))
 }
 
-fn open(path: &Path) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
-    let mut file = BufReader::new(File::open(path)?);
+fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
+    let mut file = BufReader::new(file);
     let (format, start) = CsvFormat::of(file.fill_buf()?);
     file.consume(start);
     Ok((format, format.reader(file)))

@@ -50,19 +50,6 @@ fn report(sweep: &Sweep, path: &Path) -> String {
     )
 }
 
-/// The modulus of the scales in contact that the ratios of the definition make of the moduli of its material, where all designs
-/// share them.
-fn contact_moduli(sweep: &Sweep) -> Option<String> {
-    let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
-    let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
-    let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
-    let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
-    let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
-    let parts: Vec<_> =
-        [words(puncture, "puncture"), words(bending, "bending")].into_iter().flatten().collect();
-    (!parts.is_empty()).then(|| parts.join(", "))
-}
-
 fn as_json(sweep: &Sweep) -> Value {
     let axis = |axis: &Axis| {
         let values = (0..axis.len()).map(|index| json::scalar(axis.value(index)));
@@ -80,6 +67,19 @@ fn as_json(sweep: &Sweep) -> Value {
         "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
     })
+}
+
+/// The modulus of the scales in contact that the ratios of the definition make of the moduli of its material, where all designs
+/// share them.
+fn contact_moduli(sweep: &Sweep) -> Option<String> {
+    let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
+    let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
+    let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
+    let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
+    let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
+    let parts: Vec<_> =
+        [words(puncture, "puncture"), words(bending, "bending")].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 fn row(what: &str, value: &str) -> [String; 2] {

@@ -4,6 +4,7 @@ mod agreement;
 mod bad_input;
 mod beginnings;
 mod clusters;
+mod contents;
 mod couplings;
 mod design;
 mod images;

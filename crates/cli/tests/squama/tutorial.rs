@@ -60,7 +60,7 @@ fn every_command_does_what_it_says() {
     }
     assert!(count > 24, "{count}");
     for file in [
-        "results/steep/report.html",
+        "results/steep/contents.toml",
         "steep.xlsx",
         "results/short/reruns.csv",
         "results/wrist/report.html",

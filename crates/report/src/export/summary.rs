@@ -1,10 +1,10 @@
 //! The first sheet of a workbook: what the run is, how it ended, which designs are best.
 
-use std::fs;
+use std::fs::File;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
 use results::round_off::Leader;
-use results::{CsvFormat, RunFolder};
+use results::{CsvFormat, RunFolder, VerifiedFolder};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
 use sweep::{PARAMETERS, Sweep};
 
@@ -57,19 +57,20 @@ struct Sheet {
 }
 
 /// The summary of the run in `folder`.
-pub(super) fn summary(folder: &RunFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
+pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
     let mut page = Worksheet::new();
     page.set_name(NAME)?;
     for (place, width) in (0..).zip(WIDTHS) {
         page.set_column_width(place, width)?;
     }
     let mut sheet = Sheet { page, row: 0, bold: Format::new().set_bold() };
-    let record = Sweep::read(&folder.file(RunFolder::RUN_INFO), &[]).ok();
-    sheet.title(record.as_ref())?;
-    sheet.run(folder, best)?;
+    let record = folder.text(RunFolder::RUN_INFO).unwrap_or_default();
+    let definition = Sweep::parse(&record, RunFolder::RUN_INFO, &[]).ok();
+    sheet.title(definition.as_ref())?;
+    sheet.run(&record, folder.shortfall(), best)?;
     sheet.best(best)?;
     sheet.ranking(folder)?;
-    if let Some(sweep) = &record {
+    if let Some(sweep) = &definition {
         sheet.definition(sweep)?;
     }
     Ok(sheet.page)
@@ -110,10 +111,17 @@ impl Sheet {
     }
 
     /// How many designs there are, and what the record of the run says of it.
-    fn run(&mut self, folder: &RunFolder, best: &BestValues) -> Result<(), XlsxError> {
+    fn run(
+        &mut self,
+        record: &str,
+        shortfall: Option<String>,
+        best: &BestValues,
+    ) -> Result<(), XlsxError> {
         self.part(&["Run"])?;
-        let record = fs::read_to_string(folder.file(RunFolder::RUN_INFO)).unwrap_or_default();
-        let facts = facts(&record);
+        if let Some(held) = shortfall {
+            self.add(&["made from", &held])?;
+        }
+        let facts = facts(record);
         if facts.is_empty() {
             self.add(&["designs", &best.designs.to_string()])?;
         }
@@ -146,7 +154,7 @@ impl Sheet {
     }
 
     /// What the ranking of the run goes by, and its first designs.
-    fn ranking(&mut self, folder: &RunFolder) -> Result<(), XlsxError> {
+    fn ranking(&mut self, folder: &VerifiedFolder) -> Result<(), XlsxError> {
         let Ok(Some(preferences)) = Preferences::read(folder.path()) else { return Ok(()) };
         self.part(&["Ranking: requirements"])?;
         if preferences.requirements.is_empty() {
@@ -195,9 +203,10 @@ fn is_design_number(cell: &str) -> bool {
 }
 
 /// Rank, number and fitness of the first designs of the ranking of a folder.
-fn leading(folder: &RunFolder) -> Vec<[String; 3]> {
+fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
     let [ranking, ..] = RunFolder::RANKING;
-    let Ok((format, mut table)) = super::open(&folder.file(ranking)) else { return Vec::new() };
+    let file = File::open(folder.path().join(ranking));
+    let Ok((format, mut table)) = file.and_then(super::open) else { return Vec::new() };
     let Ok(header) = table.headers().cloned() else { return Vec::new() };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
     let row = |row: csv::StringRecord| {
