@@ -152,9 +152,7 @@ impl Preferences {
     pub fn parse(text: &str, name: &str) -> Result<Self, InvalidPreferences> {
         let mut found = Self::paper();
         let (mut weights, mut place) = (None, Place::File { name: name.into(), line: None });
-        // One mistake is enough to say that the file is not as it was written.
-        let source = toml_source::parse(text, name).map_err(|mut errors| errors.swap_remove(0))?;
-        for entry in source {
+        for entry in toml_source::parse(text, name)? {
             let wrong = |problem: String| InvalidPreferences::Key {
                 place: entry.place.clone(),
                 key: entry.key.clone(),

@@ -53,7 +53,7 @@ impl ChartAxis {
         Self::linear(label, low, high)
     }
 
-    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
+    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
         let size = low.abs().max(high.abs());
         // Values that are equal but for round-off have an axis too.

@@ -4,7 +4,9 @@ mod animation;
 mod bodies;
 mod contacts;
 mod row;
+mod scale_bar;
 mod strip;
+mod surface;
 mod view;
 
 pub use bodies::overlaps;

@@ -1,16 +1,29 @@
 //! The measures of one design: a row each, to be read from top to bottom.
 
+use std::borrow::Cow;
+
 use crate::columns::{Cell, Column};
 use crate::design::row::DesignRow;
 use crate::folder::{OutputError, RunFolder};
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
 
-/// One measure of a design.
-struct Measured<'c> {
-    column: &'c Column<DesignRow>,
+/// A cell of `designs.csv` with all that is to be known of its column.
+#[derive(Clone, Debug)]
+pub struct DesignMeasure {
+    name: Cow<'static, str>,
     value: Cell,
+    unit: &'static str,
+    meaning: &'static str,
 }
+
+/// The columns of `measures.csv`.
+pub static MEASURE_COLUMNS: &[Column<DesignMeasure>] = &[
+    Column::new("measure", "-", "column of `designs.csv`", |m| m.name.clone().into_owned().into()),
+    Column::new("value", "-", "value, in its unit", |m| m.value.clone()),
+    Column::new("unit", "-", "unit, `-` if it has none", |m| m.unit.into()),
+    Column::new("meaning", "-", "meaning, in half a sentence", |m| m.meaning.into()),
+];
 
 /// Writes every column of a row of `designs.csv` as a row of `measures.csv` in `folder`; returns the name of the file.
 ///
@@ -21,17 +34,12 @@ pub fn write_measures(
     columns: &[Column<DesignRow>],
     row: &DesignRow,
 ) -> Result<&'static str, OutputError> {
-    let measured = columns.iter().map(|column| Measured { column, value: column.cell(row) });
-    write_rows(folder, RunFolder::MEASURES, Plain, &measure_columns(), measured)?;
+    let measure = |column: &Column<DesignRow>| DesignMeasure {
+        name: column.name.clone(),
+        value: column.cell(row),
+        unit: column.unit,
+        meaning: column.meaning,
+    };
+    write_rows(folder, RunFolder::MEASURES, Plain, MEASURE_COLUMNS, columns.iter().map(measure))?;
     Ok(RunFolder::MEASURES)
-}
-
-/// The columns of `measures.csv`.
-fn measure_columns<'c>() -> [Column<Measured<'c>>; 4] {
-    [
-        Column::new("measure", "-", "column of designs.csv", |m| m.column.name.to_string().into()),
-        Column::new("value", "-", "value, in its unit", |m| m.value.clone()),
-        Column::new("unit", "-", "unit, - if it has none", |m| m.column.unit.into()),
-        Column::new("meaning", "-", "meaning, in half a sentence", |m| m.column.meaning.into()),
-    ]
 }

@@ -41,8 +41,8 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    write_rows(folder, path, Plain, PATH, &points.collect::<Vec<_>>())?;
-    write_rows(folder, events, Plain, EVENTS, &PunctureEvent::all(puncture))?;
+    write_rows(folder, path, Plain, PATH, points.collect::<Vec<_>>())?;
+    write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
     Ok(RunFolder::PUNCTURE)

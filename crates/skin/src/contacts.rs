@@ -74,6 +74,11 @@ impl Contacts {
         Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
     }
 
+    /// The gap at rest between the bases of a scale and the next one.
+    pub(crate) fn gap_at_rest(&self, scale: usize) -> f64 {
+        self.arrangement.gap(scale)
+    }
+
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces

@@ -1,7 +1,10 @@
 //! Puncture of a row of scales on an elastic half-space.
 
+mod bars;
 mod ending;
+mod fold;
 mod measures;
+mod number_list;
 mod point;
 mod snap;
 mod snapshot;
@@ -9,6 +12,7 @@ mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tilts;
 mod window;
 
 use contact::ContactLaw;
@@ -16,8 +20,9 @@ use geometry::{OutOfRange, Row};
 use point::scales;
 use snap::Needle;
 use solver::{Path, Settings, Stop};
-use substrate::RowStiffness;
+use substrate::{RowStiffness, SubstrateLaw};
 use system::{Chain, Layout};
+use tilts::TiltWatch;
 use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
@@ -25,11 +30,14 @@ use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, Record};
 use crate::{Common, Design, Sample, Status};
 
+pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
+pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
+pub use tilts::TiltMeasures;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -57,6 +65,10 @@ pub struct PunctureParameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
+    /// How the substrate answers where the surface between two bases is stretched.
+    pub substrate_law: SubstrateLaw,
+    /// Tilts at which measures are taken on the way, degrees.
+    pub tilts_deg: NumberList,
 }
 
 impl Default for PunctureParameters {
@@ -68,6 +80,8 @@ impl Default for PunctureParameters {
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
+            substrate_law: SubstrateLaw::Linear,
+            tilts_deg: NumberList::default(),
         }
     }
 }
@@ -79,6 +93,8 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
+    /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -87,6 +103,8 @@ pub struct Puncture {
     pub events: Vec<ContactEvent<PuncturePoint>>,
     /// Every snap of a row under a needle that only goes deeper, in order.
     pub snaps: Vec<Snap>,
+    /// Every gap in which the surface folds over or unfolds, in order.
+    pub folds: Vec<Fold>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -196,14 +214,17 @@ impl<'a> Problem<'a> {
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
-        self.follow(self.part(Layout::first(&self.stiffness))?, longest)
+        let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
+        self.follow(self.part(first)?, longest)
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
     fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let (mut record, mut needle) = (Record::new(&path), Needle::default());
+        let mut record = Record::new(&path);
+        let (mut needle, mut folds) = (Needle::default(), Vec::new());
+        let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -212,6 +233,8 @@ impl<'a> Problem<'a> {
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
                 needle.follow(&mut path, [&before, &point], record.events.len());
+                tilts.follow(&mut path, &before, &point);
+                folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
@@ -226,7 +249,9 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, needle, &mut path, status))
+        let at_tilts = tilts.finish();
+        let watched = (needle, folds);
+        Ok(Puncture { at_tilts, ..self.puncture(record, watched, &mut path, status) })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -262,18 +287,20 @@ impl<'a> Problem<'a> {
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();
         let length = self.design.length;
-        Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
+        let position = parameters.load_position;
+        let chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
+        Ok(chain.with_law(parameters.substrate_law))
     }
 
     fn puncture(
         &self,
         record: Record<Chain>,
-        needle: Needle,
+        (needle, folds): (Needle, Vec<Fold>),
         path: &mut Path<Chain>,
         status: Status,
     ) -> Puncture {
         let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let mut measures = PunctureMeasures::new(&record, path, modulus);
+        let mut measures = PunctureMeasures::new(&record, &folds, path, modulus);
         let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
@@ -281,6 +308,18 @@ impl<'a> Problem<'a> {
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, instability, events, snaps, scales, history }
+        let at_tilts = Vec::new();
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
     }
 }

@@ -287,7 +287,7 @@ impl<S: System> Path<S> {
 }
 
 /// Where, as a part of the way, the cubic through two values with two slopes dips below zero.
-fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
+pub fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     if !(falling < 0.0 && rising > 0.0) {
         return None;
     }

@@ -81,7 +81,7 @@ mod tangent_solver;
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, LINK};
 pub use check::{WrongDerivative, check_tangent};
-pub use event::{Change, Event};
+pub use event::{Change, Event, dip};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};

@@ -145,8 +145,16 @@ impl<S: System> Path<S> {
         self.between_from(from, to, fraction, from)
     }
 
+    /// How far the path goes between two neighbouring points, in units of the direction in which it leaves the one and of that
+    /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Path::between`].
+    pub fn spans(&self, from: &Point<S::Mode>, to: &Point<S::Mode>) -> [f64; 2] {
+        let condition = self.condition(from);
+        let distance = condition.of(&to.state.z) - condition.value;
+        [&from.leaving, &to.arriving].map(|direction| distance / condition.of(direction))
+    }
+
     /// The equilibrium of [`Path::between`], reached from `near`, a point between the two.
-    pub(crate) fn between_from(
+    pub fn between_from(
         &mut self,
         from: &Point<S::Mode>,
         to: &Point<S::Mode>,

@@ -20,6 +20,7 @@
 //! | [`calibrate`] | one footprint to its springs, 2 ms |
 //! | [`RowStiffness`], [`Coupling`] | the same with more neighbours and with force from rotation |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
+//! | [`Strip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
 //! | [`mesh`] | cells graded towards the edges and the gap |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
@@ -48,6 +49,7 @@ pub mod half_space;
 pub mod mesh;
 mod row_stiffness;
 mod springs;
+mod strip;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
@@ -55,3 +57,4 @@ pub use far_field::FarField;
 pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
+pub use strip::{Strip, SubstrateLaw, neo_hookean};

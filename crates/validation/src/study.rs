@@ -33,6 +33,10 @@ pub(crate) struct MeasuredDesign {
     pub(crate) first_contact: Option<f64>,
     pub(crate) initial_stiffness: Option<f64>,
     pub(crate) max_stiffness: Option<f64>,
+    pub(crate) gap_stretch_min: Option<f64>,
+    pub(crate) gap_stretch_max: Option<f64>,
+    pub(crate) fold_force: Option<f64>,
+    pub(crate) sound_force: Option<f64>,
 }
 
 /// A sweep with its results, or a part of it.
@@ -135,6 +139,10 @@ fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
             first_contact: number(row, "first_contact_displacement")?,
             initial_stiffness: number(row, "initial_stiffness")?,
             max_stiffness: number(row, "max_stiffness")?,
+            gap_stretch_min: number(row, "gap_stretch_min")?,
+            gap_stretch_max: number(row, "gap_stretch_max")?,
+            fold_force: number(row, "fold_force")?,
+            sound_force: number(row, "sound_force")?,
         })
     };
     (0..results.len()).map(design).collect()

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama rank`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -13,6 +15,7 @@ Examples:
   squama rank results/paper --require 'coverage >= 0.6' --require 'penetration < 0.3'
   squama rank results/paper --maximize critical_force --minimize gap_over_t
   squama rank results/paper --criteria coverage,max:peak_force,min:sink --scale log
+  squama rank sweeps/paper.toml --json
 
 Ranks the designs that meet all requirements and have every criterion: those of the paper (coverage,
 critical force, penetration resistance, flexural compliance), or those of --criteria, or of --maximize
@@ -57,6 +60,12 @@ pub struct RankArguments {
     #[arg(long, value_name = "SCALE", default_value = "paper")]
     pub scale: String,
 
+    /// Count the force up to the first fold of the substrate's surface instead of the critical force
+    ///
+    /// Beyond a fold two bases have passed each other, and the model cannot answer for the force.
+    #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
+    pub sound: bool,
+
     /// Designs that are printed
     #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10)]
     pub top: usize,
@@ -68,4 +77,11 @@ pub struct RankArguments {
     /// Folder of the tables [default: RESULTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

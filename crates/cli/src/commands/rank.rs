@@ -1,62 +1,69 @@
 //! `squama rank`.
 
+mod record;
 mod report;
-
-use std::path::Path;
 
 use anyhow::Context as _;
 use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
 };
-use results::Results;
+use results::{Results, RunFolder};
 
-use super::source::results_folder;
-use super::{DONE, INCOMPLETE};
+use super::source::verified_folder;
+use super::{DONE, INCOMPLETE, derived};
 use crate::args;
+use crate::json;
 use crate::print::print;
+use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
 /// Finds the best designs of a run and writes them down.
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let source = results_folder(&arguments.results)?;
-    let results = Results::read(&source)?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = Results::read_from(&verified)?;
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
-        Ok(ranking) => ranked(arguments, &source, &results, &ranking),
-        Err(InvalidRanking::Unmet(unmet)) => {
-            none_meets(arguments, &source, &results, &preferences, &unmet)
-        }
+        Ok(ranking) => ranked(arguments, &results, &ranking),
+        Err(InvalidRanking::Unmet(unmet)) => none_meets(arguments, &results, &preferences, &unmet),
         Err(error) => Err(error.into()),
     }
 }
 
 fn ranked(
     arguments: &args::RankArguments,
-    source: &Path,
     results: &Results,
     ranking: &Ranking<'_>,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(source);
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
-    let text = RankReport { results, ranking, top: arguments.top }.text();
-    print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    if arguments.json {
+        json::print(&ranking_record(results, ranking, arguments.top))?;
+    } else {
+        let text = RankReport { results, ranking, top: arguments.top }.text();
+        print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    }
     Ok(DONE)
 }
 
 fn none_meets(
     arguments: &args::RankArguments,
-    source: &Path,
     results: &Results,
     preferences: &Preferences,
     unmet: &Unmet,
 ) -> anyhow::Result<u8> {
-    let folder = arguments.out.as_deref().unwrap_or(source);
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let file = ranking::write_unmet(folder, preferences)?;
-    let text = unmet_report(results, preferences, unmet);
-    print(&format!("{text}\n{}: {file}\n", folder.display()))?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
+    if arguments.json {
+        json::print(&unmet_record(results, unmet))?;
+    } else {
+        let text = unmet_report(results, preferences, unmet);
+        print(&format!("{text}\n{}: {file}\n", folder.display()))?;
+    }
     Ok(INCOMPLETE)
 }
 
@@ -86,9 +93,19 @@ fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
             let read = |text: &str| option::<Criterion>("--criteria", text);
             criteria.split(',').map(read).collect()
         }
+        None if own.is_empty() && arguments.sound => Ok(sound_criteria()),
         None if own.is_empty() => Ok(CRITERIA.to_vec()),
         None => Ok(own),
     }
+}
+
+/// The criteria of the paper with the force that the model can answer for.
+fn sound_criteria() -> Vec<Criterion> {
+    let sound = |criterion: &Criterion| match criterion.column.as_ref() {
+        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        _ => criterion.clone(),
+    };
+    CRITERIA.iter().map(sound).collect()
 }
 
 /// The value of an option.

@@ -50,13 +50,13 @@ fn writes_its_course() {
     };
     let course = COURSE.split_whitespace().filter(|file| *file != "design.toml");
     insta::assert_snapshot!(course.map(header).collect::<String>(), @r"
-    events.csv: displacement,force,tilt_deg,left_scale,kind,change
+    events.csv: displacement,force,tilt_deg,left_scale,kind,change,drop
     flexure_events.csv: curvature,moment,end_rotation_deg,gap,kind,change
     flexure_path.csv: curvature,moment,stiffness,end_rotation_deg,bending_energy,axial_energy,contact_energy,contacts,membrane_strain
     flexure_scales.csv: scale,displacement_x,displacement_y,rotation_deg
     flexure_steps.csv: step,iteration,residual,end_rotation_deg
     measures.csv: measure,value,unit,meaning
-    path.csv: displacement,force,tilt_deg,contacts
+    path.csv: displacement,force,tilt_deg,contacts,unstable_under_load,unstable_under_depth,unstable_under_tilt
     scales.csv: scale,displacement_x,displacement_y,rotation_deg,reaction
     steps.csv: step,iteration,residual,tilt_deg
     ");

@@ -63,3 +63,22 @@ fn the_status_of_a_run_is_told() {
     assert_eq!(status["failures"][0]["reason"], "too many points");
     assert_eq!(status["slowest"].as_array().map(Vec::len), Some(5));
 }
+
+#[test]
+fn a_ranking_is_told() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q").assert().code(0);
+    let ranking = place.json("rank x.toml --json --top 1");
+    let table = place.read("results/few/ranking.csv");
+    let best = table.lines().nth(1).expect("a row").split(',').collect::<Vec<_>>();
+    let number = crate::table::columns(&table).position(|name| name == "design");
+    assert_eq!(ranking["best"].as_array().map(Vec::len), Some(1));
+    assert_eq!(ranking["best"][0]["design"], best[number.expect("a column")]);
+    assert!(ranking["best"][0]["values"]["critical_force"].is_f64(), "{ranking}");
+    assert_eq!(ranking["best_by_one_criterion"][0]["criterion"], "coverage");
+    assert_eq!(ranking["ranked"], table.lines().count() - 1);
+    let unmet = place.squama("rank x.toml --json --require coverage>=2").assert().code(1);
+    let unmet: Value = serde_json::from_slice(&unmet.get_output().stdout).expect("JSON");
+    assert_eq!((&unmet["ranked"], &unmet["requirements"][0]["met_by"]), (&0.into(), &0.into()));
+    assert!(unmet["nearest"].is_string(), "{unmet}");
+}

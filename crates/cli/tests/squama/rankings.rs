@@ -62,7 +62,7 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
     let message = place.refused("rank results/few");
     insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");
@@ -143,4 +143,37 @@ fn a_run_with_another_base_is_compared_design_by_design() {
         "{text}"
     );
     assert!(text.lines().any(|line| line.trim_start().starts_with("coverage  8 ")), "{text}");
+}
+
+#[test]
+fn tables_that_a_spreadsheet_has_saved_are_ranked() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let ranked = place.prints("rank r");
+    let table = place.read("r/designs.csv");
+    std::fs::write(place.path("r/designs.csv"), format!("\u{feff}{table}")).expect("writable");
+    assert_eq!(place.prints("rank r"), ranked, "commas after a byte-order mark");
+    place.squama("run x.toml -q --out eu --csv excel-eu").assert().code(0);
+    let table = place.read("eu/designs.csv");
+    let without = table.trim_start_matches('\u{feff}');
+    assert_ne!(without, table);
+    std::fs::write(place.path("eu/designs.csv"), without).expect("writable");
+    assert_eq!(place.prints("rank eu"), ranked.replace("r: ", "eu: "), "semicolons without one");
+}
+
+#[test]
+fn round_off_is_no_difference() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out a").assert().code(0);
+    place.squama("run x.toml -q --out b").assert().code(0);
+    let table = place.read("a/designs.csv");
+    let force = crate::table::cell(&table, "0004", "critical_force");
+    let next = force.parse::<f64>().expect("a number").next_up().to_string();
+    assert_ne!(force, next);
+    std::fs::write(place.path("b/designs.csv"), table.replace(force, &next)).expect("writable");
+    let text = place.prints("compare a b --exit-code");
+    assert!(text.contains("\nno difference above 1e-12: "), "{text}");
+    let text = place.squama("compare a b --exit-code --tolerance 0").assert().code(1);
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.lines().any(|line| line.trim_start().starts_with("critical_force ")), "{text}");
 }

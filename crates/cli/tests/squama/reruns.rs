@@ -28,7 +28,8 @@ fn a_failure_says_where_and_how_to_see_it() {
     let path = place.read("r/designs/0004/path.csv");
     let cells: Vec<_> = row.split(',').collect();
     let last = path.lines().last().expect("a point");
-    assert_eq!(last, format!("{},{},{},{}", cells[8], cells[7], cells[6], cells[9]));
+    let begin = format!("{},{},{},{},", cells[8], cells[7], cells[6], cells[9]);
+    assert!(last.starts_with(&begin), "{last} should begin with {begin}");
 }
 
 #[test]

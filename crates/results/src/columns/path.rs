@@ -1,7 +1,7 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{Instability, Puncture, PuncturePoint, ScaleState, Snap};
+use skin::puncture::{Fold, Instability, Puncture, PuncturePoint, ScaleState, Snap};
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
@@ -37,6 +37,18 @@ pub static PATH: &[Column<StabilityPoint>] = &[
         "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
         |(_, i)| i.tilt.into(),
     ),
+    Column::new(
+        "gap_stretch_min",
+        "-",
+        "width of the tightest gap between bases over that at rest",
+        |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
+    ),
+    Column::new(
+        "gap_stretch_max",
+        "-",
+        "width of the widest gap between bases over that at rest",
+        |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
+    ),
 ];
 
 /// An event of a puncture.
@@ -45,36 +57,64 @@ pub enum PunctureEvent {
     Contact(ContactEvent<PuncturePoint>),
     /// The row snaps.
     Snap(Snap),
+    /// The surface of the substrate folds over in a gap, or unfolds.
+    Fold(Fold),
 }
 
 impl PunctureEvent {
     /// The events of a puncture, in order.
     pub fn all(puncture: &Puncture) -> Vec<Self> {
-        let mut events: Vec<_> = puncture.events.iter().copied().map(Self::Contact).collect();
-        // From the last on, so that the places of the others stay.
-        for snap in puncture.snaps.iter().rev() {
-            events.insert(snap.events_before.min(events.len()), Self::Snap(*snap));
+        let mut snaps = puncture.snaps.iter().peekable();
+        let mut folds = puncture.folds.iter().peekable();
+        let mut all = Vec::with_capacity(puncture.events.len());
+        for count in 0..=puncture.events.len() {
+            let is_last = count == puncture.events.len();
+            while let Some(fold) = folds.next_if(|fold| is_last || fold.events_before <= count) {
+                all.push(Self::Fold(*fold));
+            }
+            while let Some(snap) = snaps.next_if(|snap| is_last || snap.events_before <= count) {
+                all.push(Self::Snap(*snap));
+            }
+            all.extend(puncture.events.get(count).copied().map(Self::Contact));
         }
-        events
+        all
     }
 
     fn point(&self) -> PuncturePoint {
         match self {
             Self::Contact(event) => event.point,
             Self::Snap(snap) => snap.point,
+            Self::Fold(fold) => fold.point,
         }
     }
 
-    fn contact(&self) -> Option<&ContactEvent<PuncturePoint>> {
+    fn left_scale(&self) -> Option<i64> {
         match self {
-            Self::Contact(event) => Some(event),
+            Self::Contact(event) => event.left_scale,
             Self::Snap(_) => None,
+            Self::Fold(fold) => Some(fold.left_scale),
+        }
+    }
+
+    fn kind(&self) -> Option<&'static str> {
+        match self {
+            Self::Contact(event) => Some(event.corner_edge.name()),
+            Self::Snap(_) => None,
+            Self::Fold(_) => Some("gap"),
+        }
+    }
+
+    fn change(&self) -> &'static str {
+        match self {
+            Self::Contact(event) => event.change.name(),
+            Self::Snap(_) => "snap",
+            Self::Fold(fold) => fold.name(),
         }
     }
 
     fn drop(&self) -> Option<f64> {
         match self {
-            Self::Contact(_) => None,
+            Self::Contact(_) | Self::Fold(_) => None,
             Self::Snap(snap) => snap.drop,
         }
     }
@@ -90,16 +130,16 @@ pub static EVENTS: &[Column<PunctureEvent>] = &[
         e.point().tilt_deg.into()
     }),
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
-        e.contact().and_then(|contact| contact.left_scale).into()
+        e.left_scale().into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| {
-        e.contact().map(|contact| contact.corner_edge.name()).into()
+    Column::new("kind", "-", "which corner meets which edge; gap between two bases", |e| {
+        e.kind().into()
     }),
     Column::new(
         "change",
         "-",
-        "what happens to the contact; snap where a needle that only goes deeper leaves the path",
-        |e| e.contact().map_or("snap", |contact| contact.change.name()).into(),
+        "what happens to the contact, or to the surface in the gap; snap where a needle that only goes deeper leaves the path",
+        |e| e.change().into(),
     ),
     Column::new(
         "drop",

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, Puncture};
+use skin::puncture::{self, Puncture, TiltMeasures};
 
 use super::failure::{Failure, finite};
 use super::outcome::Outcome;
@@ -25,6 +25,9 @@ pub struct DesignResult {
     /// The puncture, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub puncture: Option<PunctureResult>,
+    /// The measures of the puncture at several critical tilts, if they were asked for; `None` where the path did not get there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// The bending, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexure: Option<FlexureResult>,
@@ -139,7 +142,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 13] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -154,6 +157,12 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 13] 
         measures.peak_tilt_deg,
         measures.load_stability_force,
         measures.depth_stability_force,
+        measures.gap_stretch_min,
+        measures.gap_stretch_max,
+        measures.fold_force,
+        measures.fold_displacement,
+        measures.fold_tilt_deg,
+        measures.sound_force,
     ]
 }
 
@@ -183,8 +192,20 @@ mod tests {
             ..PunctureMeasures::default()
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
-        let (instability, snaps) = (vec![], vec![]);
-        Puncture { status, measures, path, instability, events, snaps, scales, history }
+        let (instability, snaps, folds) = (vec![], vec![], vec![]);
+        let at_tilts = vec![];
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
     }
 
     #[test]

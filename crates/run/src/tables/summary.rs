@@ -15,7 +15,9 @@ pub struct Summary {
     pub failed: u64,
     /// The number of designs of each status, by its text, for each measure that has a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    best: [Option<Leader<DesignNumber>>; 4],
+    /// Designs on whose path the surface of the substrate folds over.
+    pub folded: u64,
+    best: [Option<Leader<DesignNumber>>; 5],
 }
 
 /// The best value of its kind, and the first design that has it.
@@ -34,8 +36,11 @@ struct Contest {
     value: fn(&DesignResult) -> Option<f64>,
 }
 
+/// The value that is told only if designs have folded: of all others it is the critical force.
+const SOUND: &str = "largest force before a fold";
+
 /// The values of which the best is told.
-static CONTESTS: [Contest; 4] = [
+static CONTESTS: [Contest; 5] = [
     Contest { what: "best coverage", is_better: f64::gt, value: |r| r.coverage },
     Contest {
         what: "largest critical force",
@@ -52,6 +57,7 @@ static CONTESTS: [Contest; 4] = [
         is_better: f64::gt,
         value: |r| r.flexure?.measures.compliance,
     },
+    Contest { what: SOUND, is_better: f64::gt, value: |r| r.puncture?.measures.sound_force },
 ];
 
 impl Summary {
@@ -68,6 +74,8 @@ impl Summary {
         for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
             contest.enter(row, best);
         }
+        let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
+        self.folded += u64::from(fold.is_some());
     }
 
     fn count(&mut self, measure: Measure, outcome: Outcome) {
@@ -76,7 +84,8 @@ impl Summary {
 
     /// The best values, those that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
-        let contests = self.best.iter().zip(&CONTESTS);
+        let is_told = |contest: &Contest| contest.what != SOUND || self.folded > 0;
+        let contests = self.best.iter().zip(&CONTESTS).filter(move |(_, contest)| is_told(contest));
         contests
             .filter_map(|(leader, contest)| Some(Best { what: contest.what, leader: (*leader)? }))
     }
@@ -107,16 +116,22 @@ mod tests {
             let mut puncture = PunctureResult::without_path(outcome);
             puncture.measures.penetration = penetration;
             puncture.measures.critical_force = penetration.map(|_| 2.0);
+            puncture.measures.sound_force = penetration;
+            puncture.measures.fold_force = penetration.filter(|_| index == 2);
             let result = DesignResult { puncture: Some(puncture), ..DesignResult::default() };
             let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
             summary.add(&DesignRow { number, case, result });
         }
-        assert_eq!(summary.designs, 3);
+        assert_eq!((summary.designs, summary.folded), (3, 1));
         let counts = &summary.statuses[&Measure::Puncture];
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
         let best: Vec<_> =
             summary.best().map(|b| (b.what, b.leader.first.to_string(), b.leader.ties)).collect();
-        let expected = [("largest critical force", "0001", 1), ("least penetration", "0003", 0)];
+        let expected = [
+            ("largest critical force", "0001", 1),
+            ("least penetration", "0003", 0),
+            ("largest force before a fold", "0001", 0),
+        ];
         assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
     }
 }

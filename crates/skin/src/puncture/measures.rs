@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use solver::Path;
 
 use super::PuncturePoint;
+use super::fold::Fold;
 use super::system::Chain;
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
@@ -50,23 +51,41 @@ pub struct PunctureMeasures {
     /// Snaps of the row under a needle that only goes deeper.
     #[serde(default)]
     pub snaps: usize,
+    /// Stretch of the tightest gap at the critical tilt (V1).
+    pub gap_stretch_min: Option<f64>,
+    /// Stretch of the widest gap at the critical tilt.
+    pub gap_stretch_max: Option<f64>,
+    /// `F*` at the first fold of the surface (V2).
+    pub fold_force: Option<f64>,
+    /// `u*` at the first fold.
+    pub fold_displacement: Option<f64>,
+    /// Tilt of the punctured scale at the first fold, degrees.
+    pub fold_tilt_deg: Option<f64>,
+    /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
+    pub sound_force: Option<f64>,
 }
 
 impl PunctureMeasures {
     /// The measures of a path that came to its end. `modulus` is `E*/E_s`: stiffness is measured in `E_s t`, the force in
     /// `E* t²`.
-    pub(crate) fn new(record: &Record<Chain>, path: &mut Path<Chain>, modulus: f64) -> Self {
+    pub(crate) fn new(
+        record: &Record<Chain>,
+        folds: &[Fold],
+        path: &mut Path<Chain>,
+        modulus: f64,
+    ) -> Self {
         let max_stiffness = record.largest_stiffness(path);
         let (chain, state) = (path.system(), &path.point().state);
         let end = chain.path_point(path.point());
         let peak = peak(&record.path);
         let scales = 0..chain.layout.scales();
-        let nodes = scales.clone().map(|i| -chain.displacement(&state.z, i)[1]);
+        let fold = folds.first().map(|fold| fold.point);
+        let nodes = scales.map(|i| -chain.displacement(&state.z, i)[1]);
         Self {
             critical_force: Some(end.force),
             peak_force: peak.map(|point| point.force),
             critical_displacement: Some(end.displacement),
-            penetration: scales.map(|i| chain.base_depth(&state.z, i)).reduce(f64::max),
+            penetration: Some(chain.penetration(&state.z)),
             sink: nodes.reduce(f64::max),
             first_contact_displacement: record.first_contact().map(|point| point.displacement),
             contacts: Some(end.contacts),
@@ -77,6 +96,12 @@ impl PunctureMeasures {
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
             peak_displacement: peak.map(|point| point.displacement),
             peak_tilt_deg: peak.map(|point| point.tilt_deg),
+            gap_stretch_min: end.gap_stretch.map(|stretch| stretch.min),
+            gap_stretch_max: end.gap_stretch.map(|stretch| stretch.max),
+            fold_force: fold.map(|fold| fold.force),
+            fold_displacement: fold.map(|fold| fold.displacement),
+            fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
+            sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
             ..Self::default()
         }
     }
@@ -93,6 +118,9 @@ impl PunctureMeasures {
             load_stability_force: self.load_stability_force,
             depth_stability_force: self.depth_stability_force,
             snaps: self.snaps,
+            fold_force: self.fold_force,
+            fold_displacement: self.fold_displacement,
+            fold_tilt_deg: self.fold_tilt_deg,
             ..Self::default()
         }
     }

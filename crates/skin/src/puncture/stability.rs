@@ -79,6 +79,7 @@ impl Chain {
             matrix.add(places[row], places[column], value);
         };
         self.for_springs(&mut entry);
+        self.for_bar_stiffness(&state.z, &mut entry);
         let turn = self.layout.scale(self.layout.left) + 2;
         entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         self.contacts.for_stiffness(state, entry);

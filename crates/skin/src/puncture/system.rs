@@ -98,12 +98,14 @@ pub(crate) struct Chain {
     pub(crate) contacts: Contacts,
     /// `L/t`.
     pub(crate) length: f64,
-    half_base: f64,
+    pub(super) half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
-    direct: [f64; 3],
+    pub(super) direct: [f64; 3],
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
-    neighbours: Vec<Neighbour>,
+    pub(super) neighbours: Vec<Neighbour>,
+    /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
+    pub(super) bars: Option<f64>,
     /// The row beyond the ends, if this one is a part of an endless row; forces as above.
     surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
@@ -145,6 +147,7 @@ impl Chain {
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
+            bars: None,
             surroundings: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
@@ -164,6 +167,12 @@ impl Chain {
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
         self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
+    }
+
+    /// Stretches of the gaps beyond the ends of a part of an endless row, the limit far away among them; none of a row that ends.
+    pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
+        let beyond = |surroundings: &Surroundings| surroundings.stretches(self, z);
+        self.surroundings.as_ref().map_or_else(Vec::new, beyond)
     }
 
     fn far_field(&self) -> Option<&FarField> {
@@ -217,8 +226,14 @@ impl Chain {
         self.half_base * rotation.sin().abs() - y
     }
 
-    /// Reaction of the substrate on a scale (force and moment), opposed to its displacement: minus
-    /// the `F_x, F_y, M` of Eq. (1), or of (S9).
+    /// Depth of the deepest base corner of any scale below its place at rest.
+    pub(crate) fn penetration(&self, z: &[f64]) -> f64 {
+        let depths = (0..self.layout.scales()).map(|scale| self.base_depth(z, scale));
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Reaction of the linear substrate on a scale (force and moment), opposed to its displacement: minus
+    /// the `F_x, F_y, M` of Eq. (1), or of (S9). Bars change the force along the row and the moment.
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let own = self.displacement(z, scale);
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
@@ -270,13 +285,13 @@ impl Chain {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Elastic energy of the springs, over `E* t³`.
+    /// Elastic energy of springs and bars, over `E* t³`.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let springs = (0..self.layout.scales()).map(|i| {
             let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
             -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
         });
-        springs.sum()
+        springs.sum::<f64>() + self.bar_energy(&state.z)
     }
 }
 
@@ -331,6 +346,7 @@ impl System for Chain {
             residual.add(row, value * z[column]);
             matrix.add(row, column, value);
         });
+        self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(z);
         residual.add(at + 1, z[load]);

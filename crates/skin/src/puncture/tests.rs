@@ -1,5 +1,7 @@
 //! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
+mod bars;
+
 use std::collections::HashSet;
 
 use approx::assert_relative_eq;

@@ -9,13 +9,18 @@
 //! | `rows` | rows of any length, and those that `Auto` chooses |
 //! | `scaling` | changes of units that must change nothing |
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
+//! | `folds` | where the surface of the substrate folds over |
+//! | `neo_hookean` | a substrate whose surface cannot fold over |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
+//! | `tilts` | measures at tilts on the way, against paths that end there |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
 mod ends;
 mod first_contact;
+mod folds;
 mod isolated_scale;
+mod neo_hookean;
 mod outputs;
 mod robustness;
 mod rows;
@@ -24,6 +29,7 @@ mod samples;
 mod scaling;
 mod snapshots;
 mod steps;
+mod tilts;
 mod two_blocks;
 
 use approx::assert_relative_eq;

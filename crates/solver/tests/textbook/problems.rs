@@ -524,11 +524,23 @@ fn without_mode<M>(state: &State<M>) -> State {
     State { z: state.z.clone(), active: state.active.clone(), mode: () }
 }
 
-/// The kink with a constraint that refuses to become active, and is violated whichever way the path goes.
+/// The kink with a constraint that does not become active.
 #[derive(Clone)]
-pub struct Refusing(pub OneConstraint);
+pub enum Unwilling {
+    /// The constraint is violated whichever way the path goes.
+    Refusing(OneConstraint),
+    /// The constraint cannot change sides.
+    Stuck(OneConstraint),
+}
 
-impl System for Refusing {
+impl Unwilling {
+    fn kink(&self) -> &OneConstraint {
+        let (Self::Refusing(kink) | Self::Stuck(kink)) = self;
+        kink
+    }
+}
+
+impl System for Unwilling {
     type Mode = ();
 
     fn size(&self) -> usize {
@@ -544,7 +556,7 @@ impl System for Refusing {
     }
 
     fn controls(&self) -> &[Control] {
-        &self.0.controls
+        &self.kink().controls
     }
 
     fn constraints(&self) -> &[usize] {
@@ -554,62 +566,23 @@ impl System for Refusing {
     fn mode_at_rest(&self) {}
 
     fn residual(&self, state: &State, residual: &mut Residual) {
-        self.0.residual(state, residual);
+        self.kink().residual(state, residual);
     }
 
     fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
-        self.0.tangent(state, matrix);
+        self.kink().tangent(state, matrix);
     }
 
-    fn slope(&self, _state: &State, _constraint: usize, direction: &[f64]) -> f64 {
-        -direction[0].abs()
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        match self {
+            Self::Refusing(_) => -direction[0].abs(),
+            Self::Stuck(kink) => kink.slope(state, constraint, direction),
+        }
     }
 
     fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
         state.active[change.constraint] = false;
-        Some(change.constraint)
-    }
-}
-
-/// The kink with a constraint that cannot change sides.
-#[derive(Clone)]
-pub struct Stuck(pub OneConstraint);
-
-impl System for Stuck {
-    type Mode = ();
-
-    fn size(&self) -> usize {
-        3
-    }
-
-    fn half_bandwidth(&self) -> usize {
-        2
-    }
-
-    fn load(&self) -> usize {
-        2
-    }
-
-    fn controls(&self) -> &[Control] {
-        &self.0.controls
-    }
-
-    fn constraints(&self) -> &[usize] {
-        &[1]
-    }
-
-    fn mode_at_rest(&self) {}
-
-    fn residual(&self, state: &State, residual: &mut Residual) {
-        self.0.residual(state, residual);
-    }
-
-    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
-        self.0.tangent(state, matrix);
-    }
-
-    fn transition(&self, _state: &mut State, _change: Change) -> Option<usize> {
-        None
+        matches!(self, Self::Refusing(_)).then_some(change.constraint)
     }
 }
 

@@ -3,9 +3,7 @@
 use approx::assert_relative_eq;
 use solver::{Condition, Event, Newton, NewtonFailure, Path, Settings, State, Stop};
 
-use crate::problems::{
-    Refusing, Stiff, Stuck, arch, circle, jump, kink, parabola, pushed_arch, root,
-};
+use crate::problems::{Stiff, Unwilling, arch, circle, jump, kink, parabola, pushed_arch, root};
 use crate::{extrema, follow, steps};
 
 #[test]
@@ -60,14 +58,14 @@ fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
 
 #[test]
 fn a_constraint_that_never_settles_cycles() {
-    let (points, stop) = follow(Refusing(kink::<5>()), Settings::default());
+    let (points, stop) = follow(Unwilling::Refusing(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 #[test]
 fn a_constraint_that_cannot_change_sides_leaves_no_direction() {
-    let (points, stop) = follow(Stuck(kink::<5>()), Settings::default());
+    let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }

@@ -18,7 +18,7 @@ pub enum InvalidDefinition {
     },
     /// The file is no TOML.
     #[error(transparent)]
-    Syntax(SyntaxError),
+    Syntax(#[from] SyntaxError),
     /// Several things are not right: one line for each.
     #[error("{}", lines(.0))]
     Several(Vec<Self>),

@@ -23,6 +23,7 @@ impl RankReport<'_> {
     pub fn text(&self) -> String {
         let mut text = self.title();
         let _ = write!(text, "\n{}", self.best());
+        text.push_str(&self.unfolded());
         if self.preferences().criteria.len() > 1 {
             let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         }
@@ -73,6 +74,20 @@ impl RankReport<'_> {
             let _ = writeln!(text, "  the first {} are equally good", equal + 1);
         }
         text
+    }
+
+    /// The best of the designs whose surface has not folded over, if that of the winner has.
+    fn unfolded(&self) -> String {
+        // Tables of an earlier version do not tell.
+        let Ok(fold) = self.results.column("fold_force") else { return String::new() };
+        let best = self.ranking.by_fitness(self.preferences().weights);
+        let is_open = |design: &&RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
+        if best.first().is_none_or(|winner| is_open(&winner)) {
+            return String::new();
+        }
+        let title = "The surface of the substrate folds over under the best design. Best of those under which it does not";
+        let others: Vec<_> = best.iter().filter(is_open).take(1).collect();
+        format!("\n{title}\n{}", self.table(&others, "fitness", fitness))
     }
 
     /// The best design by each criterion.
