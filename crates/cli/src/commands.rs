@@ -1,9 +1,11 @@
 //! The commands, one file each.
 
+mod audit;
 mod calibrate;
 mod check;
 mod compare;
 mod completions;
+mod derived;
 mod design;
 mod draw;
 mod export;

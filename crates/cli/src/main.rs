@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `args` | command-line arguments |
 //! | `commands` | one file per command |
-//! | `interrupt` | signals that ask a run to end |
+//! | `interrupt` | signals that ask a process to end |
 //! | `progress` | the bar on the terminal |
 //! | `print`, `json` | text for people: aligned tables, closed pipes; the same for programs |
 //! | `templates` | definitions to begin with |
@@ -24,6 +24,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory as _, Parser as _};
 
 use crate::args::{Arguments, Command};
+use crate::interrupt::Interrupt;
 
 /// The input, or the disk, is at fault.
 const BAD_INPUT: u8 = 2;
@@ -34,10 +35,16 @@ fn main() -> ExitCode {
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
+    let interrupt = match Interrupt::listen() {
+        Ok(interrupt) => interrupt,
+        Err(error) => {
+            return refuse(&anyhow::Error::new(error).context("signals cannot be listened to"));
+        }
+    };
     let done = match command {
         Command::Init(arguments) => commands::init(&arguments),
-        Command::Run(arguments) => commands::run(&arguments),
-        Command::Rerun(arguments) => commands::rerun(&arguments),
+        Command::Run(arguments) => commands::run(&arguments, &interrupt),
+        Command::Rerun(arguments) => commands::rerun(&arguments, &interrupt),
         Command::Status(arguments) => commands::status(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Slurm(arguments) => commands::slurm(&arguments),
@@ -93,7 +100,8 @@ fn no_such_command(found: &str) -> anyhow::Error {
 fn refuse(error: &anyhow::Error) -> ExitCode {
     for line in format!("{error:#}").lines() {
         // With nowhere left to say it, the exit code says it.
-        let _ = writeln!(std::io::stderr(), "error: {line}");
+        let line = sweep::shortened(line);
+        let _ = writeln!(std::io::stderr(), "error: {}", sweep::visible(&line));
     }
     ExitCode::from(BAD_INPUT)
 }

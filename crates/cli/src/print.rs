@@ -3,13 +3,27 @@
 use std::io::{self, ErrorKind, Write as _};
 use std::time::Duration;
 
+use results::VerifiedFolder;
+
 /// Prints `text`. A reader that has seen enough and closed the pipe is no error.
 pub fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(sweep::visible(text).as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
+}
+
+/// A line that says how much of a run the results hold, if they are not the whole.
+pub fn shortfall(results: &VerifiedFolder) -> String {
+    let line = |held| format!("  made from {held}, {}\n", results.path().display());
+    results.shortfall().map_or_else(String::new, line)
+}
+
+/// Says what a person should know besides what was asked for.
+pub fn note(text: &str) {
+    // With nowhere left to say it, the results say it too.
+    let _ = writeln!(io::stderr(), "note: {}", sweep::visible(text));
 }
 
 /// `rows` with their columns aligned, each line indented by two spaces.

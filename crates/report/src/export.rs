@@ -1,10 +1,14 @@
 //! The tables of a folder as one workbook for Excel and other spreadsheets.
 //!
-//! The workbook is made from the tables alone, row by row, so that a million designs need no more
-//! memory than a dozen. Its bytes are the same whenever and wherever it is written.
+//! The workbook is made from the files of the folder alone, and tables are read row by row, once to see what their columns
+//! hold and once to write them, so that a million designs need no more memory than a dozen. Its bytes are the same whenever
+//! and wherever it is written.
 
 mod explanation;
+mod measure_chart;
+mod profile;
 mod sheet;
+mod summary;
 
 use std::any::Any;
 use std::fs::File;
@@ -12,12 +16,15 @@ use std::io::{self, BufRead as _, BufReader};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
-use results::{CsvFormat, OutputError, RunFolder, words};
+use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
 use sweep::reason;
 
+use measure_chart::MeasureChart;
+use profile::ColumnProfile;
 use sheet::{Guide, Sheet};
+use summary::{BestValues, summary};
 
 /// Rows that a sheet takes below its header.
 const ROWS: u32 = 1_048_575;
@@ -32,6 +39,9 @@ pub struct Exported {
 /// Tables that do not become a workbook.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
+    /// A table is not as its run has written it.
+    #[error(transparent)]
+    Folder(#[from] InvalidFolder),
     /// The folder has no table of designs.
     #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
     NoDesigns {
@@ -66,19 +76,18 @@ pub enum ExportError {
     Output(#[from] OutputError),
 }
 
-/// Writes every table in the folder `results` to the workbook `file`: a sheet for each, and one that
-/// explains the columns.
+/// Writes every table in the folder `results` to the workbook `file`: a summary, a sheet for each table, with a chart where it
+/// is that of a measure, and one that explains the columns.
 ///
-/// Numbers are numbers and everything else is text; a design number is a number that shows its
-/// leading zeros. What failed is red, and the values that a table is about have a scale of colours.
+/// Numbers are numbers, with the digits that a person needs shown and all of them held, and everything else is text; a
+/// design number is a number that shows its leading zeros. What failed is red, and the values that a table is about have a scale of colours.
 ///
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
 /// not take the workbook.
-pub fn export(results: &Path, file: &Path) -> Result<Exported, ExportError> {
+pub fn export(results: &VerifiedFolder, file: &Path) -> Result<Exported, ExportError> {
     let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
-    let results = &RunFolder::new(results);
     if !results.holds(RunFolder::DESIGNS) {
         return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
     }
@@ -94,7 +103,11 @@ fn has_extension(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"))
 }
 
-fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported, ExportError> {
+fn write(
+    results: &VerifiedFolder,
+    folder: &RunFolder,
+    name: &str,
+) -> Result<Exported, ExportError> {
     let failed = |error: XlsxError| match error {
         XlsxError::IoError(error) => OutputError::file(&folder.file(name), &error).into(),
         error => unwritable(folder, name, &error.to_string()),
@@ -104,11 +117,25 @@ fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported
     workbook.set_properties(&properties().map_err(failed)?);
     workbook.set_tempdir(folder.path()).map_err(failed)?;
     let mut guide = Guide::new(&mut workbook).map_err(failed)?;
-    let mut tables = Vec::new();
+    let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
     for file in RunFolder::tables().filter(|file| results.holds(file)) {
         let table = file.trim_end_matches(".csv").to_owned();
-        let rows = copy(&results.file(&file), &table, &mut workbook, &mut guide, &failed)?;
+        let path = results.path().join(&file);
+        let (profiles, values) = look_over((&path, results.file(&file)?))?;
+        if file == RunFolder::DESIGNS {
+            best = values;
+        }
+        let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
+        let (page, rows) = copy((&path, results.file(&file)?), sheet, &mut guide, &failed)?;
+        pages.push(page);
         tables.push((table, rows));
+    }
+    if let Some(held) = results.shortfall() {
+        guide.note(&format!("made from {held}")).map_err(failed)?;
+    }
+    workbook.push_worksheet(summary(results, &best).map_err(failed)?);
+    for page in pages {
+        workbook.push_worksheet(page);
     }
     workbook.push_worksheet(guide.finish().map_err(failed)?);
     workbook.save_to_writer(&mut file).map_err(failed)?;
@@ -123,18 +150,38 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// Makes a sheet of the table in the file `path`; returns how many rows it has.
+/// What a table, in a file with its path, holds: its profiles by column, and its best values.
+fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
+    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
+    let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
+    let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
+    let (mut columns, mut best) =
+        (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
+    let mut row = csv::StringRecord::new();
+    while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+        ColumnProfile::add(&mut columns, format, &row);
+        best.add(format, &row);
+    }
+    Ok((TableProfile { format, header, columns }, best))
+}
+
+/// What is known of a table before it is written as a sheet.
+struct TableProfile {
+    format: CsvFormat,
+    header: csv::StringRecord,
+    columns: Vec<ColumnProfile>,
+}
+
+/// Fills a sheet with the table in a file with its path; returns its page and how many rows it has.
 fn copy(
-    path: &Path,
-    table: &str,
-    workbook: &mut Workbook,
+    (path, file): (&Path, File),
+    mut sheet: Sheet,
     guide: &mut Guide,
     failed: &dyn Fn(XlsxError) -> ExportError,
-) -> Result<u32, ExportError> {
+) -> Result<(Worksheet, u32), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (format, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let (_, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
-    let mut sheet = Sheet::new(workbook, table, format, &header).map_err(failed)?;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         if sheet.rows() == ROWS {
@@ -142,14 +189,13 @@ fn copy(
         }
         sheet.add(&row).map_err(failed)?;
     }
-    guide.explain(table, &header).map_err(failed)?;
+    guide.explain(sheet.table(), &header).map_err(failed)?;
     let rows = sheet.rows();
-    sheet.finish(workbook).map_err(failed)?;
-    Ok(rows)
+    Ok((sheet.finish().map_err(failed)?, rows))
 }
 
-fn open(path: &Path) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
-    let mut file = BufReader::new(File::open(path)?);
+fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
+    let mut file = BufReader::new(file);
     let (format, start) = CsvFormat::of(file.fill_buf()?);
     file.consume(start);
     Ok((format, format.reader(file)))

@@ -5,6 +5,8 @@
 
 mod data;
 
+use sweep::visible;
+
 use crate::designs::Designs;
 
 const PAGE: &str = include_str!("../assets/page/page.html");
@@ -51,7 +53,7 @@ pub struct Page {
     pub name: String,
     /// The version of the program.
     pub version: String,
-    /// The folder of the results, as commands name it.
+    /// The folder of the results as a word of a shell, for commands to copy.
     pub folder: String,
     /// The designs of the table.
     pub designs: Designs,
@@ -90,7 +92,7 @@ impl Page {
         // Neither `</script` nor `<!--` may end or bend the script that holds the data.
         let data = data::of(self).to_string().replace('<', "\\u003c");
         let parts = [
-            ("{{title}}", escaped(&self.name)),
+            ("{{title}}", escaped(&visible(&self.name))),
             ("{{version}}", escaped(&self.version)),
             ("{{style}}", STYLES.concat()),
             ("{{scripts}}", scripts.join("\n")),
@@ -122,5 +124,6 @@ fn first_place<'a>(
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&#39;")
 }

@@ -5,6 +5,7 @@ mod column;
 mod failures;
 mod measured_value;
 mod path;
+mod physical;
 mod reruns;
 mod samples;
 mod values;
@@ -16,6 +17,7 @@ use sweep::{Axis, Parameter, Sweep};
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
 use measured_value::MeasuredValue;
+use physical::{explain_physical, physical_columns};
 use samples::SAMPLE_VALUES;
 use values::VALUES;
 
@@ -34,10 +36,15 @@ fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {
     VALUES.iter().chain(samples)
 }
 
+/// The measured value of that name.
+fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
+    VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)
+}
+
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let value = VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)?;
-    Some((value.unit, value.meaning))
+    let value = measured_value(name).map(|value| (value.unit, value.meaning));
+    value.or_else(|| explain_physical(name))
 }
 
 /// The layout of a table: the name of its file, and its columns.
@@ -64,14 +71,18 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 /// imperfections have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(physical_columns(sweep, None));
+    columns
 }
 
 fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
     let belongs = |value: &&MeasuredValue| value.tables.contains(&table);
     let (leading, others): (Vec<_>, Vec<_>) =
         values(sweep).filter(belongs).partition(|value| value.name == table);
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(physical_columns(sweep, Some(table)));
+    columns
 }
 
 /// The columns of `failures.csv`.

@@ -13,12 +13,15 @@
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
+//! | [`Contents`], [`VerifiedFolder`] | what a run states of its folder, and the folder once that is checked |
+//! | [`Derivation`] | what was made from the tables, and from which |
 //!
 //! ```
 //! use results::columns::design_columns;
@@ -40,27 +43,38 @@
 //! ```
 
 pub mod columns;
+mod contents;
 mod design;
+mod digest;
 mod folder;
 mod measure_table;
 mod path_tables;
+mod quantity;
 mod reader;
 pub mod round_off;
+mod shell;
 mod tables;
 
 pub use columns::cell::Cell;
 pub use columns::{Column, RERUN_COLUMNS, failure_columns, failure_detail_columns};
+pub use contents::derivation::Derivation;
+pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
+pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
 pub use design::rerun_change::RerunChange;
 pub use design::row::{DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
+pub use digest::sha256;
 pub use folder::{
-    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
+    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,
+    remove_abandoned_files, sync_folder, write_text,
 };
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
+pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
+pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

@@ -20,6 +20,7 @@
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
 //! | [`RunStatus`] | how far a run is |
 //! | [`merge()`] | puts shards together |
+//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
 //!
 //! ```
@@ -50,6 +51,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod audit;
 mod filter;
 mod journal;
 mod merge;
@@ -61,6 +63,7 @@ mod solve;
 mod status;
 mod tables;
 
+pub use audit::{Audit, LargestDifference, SecondWay};
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use journal::{
     Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,

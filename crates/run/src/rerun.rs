@@ -97,7 +97,7 @@ impl Rerun {
         let folder = self.folder.clone();
         let journal = Journal::resume(&folder)?;
         require_program(journal.archive(), &folder, program)?;
-        folder.remove_partial_files();
+        folder.remove_abandoned_files();
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
         let rerun = journal.archive().reruns() + 1;
         let settings = self.settings.clone();

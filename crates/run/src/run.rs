@@ -40,7 +40,8 @@ pub fn run(
     let folder = RunFolder::new(folder);
     folder.make()?;
     let journal = Journal::begin(&folder, JournalHeader::new(sweep, subset, program), start)?;
-    folder.remove_partial_files();
+    folder.remove_abandoned_files();
+    let removed = if start == Start::Fresh { folder.remove_derived() } else { Vec::new() };
     let archive = journal.archive();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
@@ -54,7 +55,15 @@ pub fn run(
         let task = Task::new(sweep, String::new(), 0, clock, options.work);
         run.solve(&task, designs, progress)?;
     }
-    run.finish()
+    let mut finished = run.finish()?;
+    finished.notes.extend(removal(&removed));
+    Ok(finished)
+}
+
+/// What is to be said of files that were made from earlier results.
+fn removal(files: &[String]) -> Option<String> {
+    let files = files.join(" ");
+    (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
 }
 
 /// A run of the designs of one journal.
@@ -118,6 +127,8 @@ impl<'a> Run<'a> {
 
     /// Writes the tables for the last time.
     pub fn finish(mut self) -> Result<Finished, RunError> {
-        self.tables.write(&mut self.journal)
+        let mut finished = self.tables.write(&mut self.journal)?;
+        finished.notes.extend_from_slice(self.journal.notes());
+        Ok(finished)
     }
 }

@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn a_strip_is_measured_between_the_corners_of_the_turned_bases() {
-        let (left, right) = ([0.3_f64, 0.1, -0.4], [0.1, -0.2, 0.7]);
+        let (left, right): ([f64; 3], [f64; 3]) = ([0.3, 0.1, -0.4], [0.1, -0.2, 0.7]);
         // BL of the right base minus BR of the left one, along the row.
         let corner = 0.5 + 0.2 + 0.5 + right[0] - 0.5 * right[2].cos();
         let length = corner - (left[0] + 0.5 * left[2].cos());

@@ -6,6 +6,8 @@ use skin::puncture;
 use skin::{Base, Common, Design, Imperfection};
 use substrate::{Coupling, Footprint};
 
+use crate::material::Material;
+
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
@@ -23,6 +25,8 @@ pub struct Case {
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
     pub samples: Samples,
+    /// What it is made of, in physical units, as far as that is given.
+    pub material: Material,
 }
 
 /// The imperfect rows that are solved.
@@ -55,6 +59,7 @@ impl Default for Case {
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },
+            material: Material::default(),
         }
     }
 }

@@ -8,6 +8,8 @@ pub(crate) mod setting;
 pub(crate) mod suggestion;
 mod to_toml;
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::grid::Grid;
@@ -34,9 +36,9 @@ impl Sweep {
     /// If the file cannot be read or does not define a sweep; all that is wrong with it is told at once.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
+        match read_text(path) {
             Ok(text) => Self::parse(&text, &file, settings),
-            Err(error) => Err(InvalidDefinition::Unreadable { file, reason: reason(&error) }),
+            Err(reason) => Err(InvalidDefinition::Unreadable { file, reason }),
         }
     }
 
@@ -87,10 +89,17 @@ impl Sweep {
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
+    /// Whether the designs have a value for the parameter of that name.
+    pub fn gives(&self, key: &str) -> bool {
+        let is_given = |parameter: &Parameter| parameter.is_given(self.grid.base());
+        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_given)
+    }
+
     /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let shared = |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
+                && parameter.is_given(self.grid.base())
                 && !parameter.alternative().is_some_and(|other| self.gives_alone(other))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
@@ -103,6 +112,17 @@ impl Sweep {
         let value = parameter.get(self.grid.base());
         self.grid.axis(parameter.key).is_some() || matches!(value, Scalar::Count(_))
     }
+}
+
+/// Bytes of a definition, at most: a million values of an axis take a third of them.
+const LONGEST: u64 = 1 << 26;
+
+/// The text of the file at `path`, which may be a pipe but not an endless one.
+fn read_text(path: &Path) -> Result<String, String> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
+    read.map_err(|error| reason(&error))?;
+    if text.len() as u64 > LONGEST { Err("it has more than 64 MB".to_owned()) } else { Ok(text) }
 }
 
 /// A run's own record holds its definition in a table of that name.

@@ -51,6 +51,18 @@ pub(crate) enum ParameterKind {
         get: fn(&Case) -> usize,
         set: fn(&mut Case, usize),
     },
+    /// A number whose sign tells the sense of a rotation: within bounds but for the sign.
+    SignedNumber {
+        noun: &'static str,
+        size: Range,
+        field: fn(&mut Case) -> &mut f64,
+    },
+    /// A number that need not be given.
+    OptionalNumber {
+        noun: &'static str,
+        range: Range,
+        field: fn(&mut Case) -> &mut Option<f64>,
+    },
     /// A count, or the word `auto`.
     CountOrAuto {
         range: CountRange,
@@ -82,6 +94,9 @@ pub(crate) struct CountRange {
 
 /// The word of a count that is to be found.
 const AUTO: &str = "auto";
+
+/// The word of a number that is not given. No definition has it.
+const NOT_GIVEN: &str = "not given";
 
 /// The two ways to say how long a strip is.
 const ALTERNATIVES: [&str; 2] = ["gaps", "membrane_length_over_t"];
@@ -132,13 +147,23 @@ impl Parameter {
     pub fn get(&self, case: &Case) -> Scalar {
         let mut case = *case;
         match &self.kind {
-            ParameterKind::Number { field, .. } => Scalar::Number(*field(&mut case)),
+            ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
+                Scalar::Number(*field(&mut case))
+            }
+            ParameterKind::OptionalNumber { field, .. } => {
+                field(&mut case).map_or(Scalar::Word(NOT_GIVEN), Scalar::Number)
+            }
             ParameterKind::Count { field, .. } => Scalar::Count(*field(&mut case)),
             ParameterKind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
             ParameterKind::CountOrAuto { get, .. } => {
                 get(&case).map_or(Scalar::Word(AUTO), Scalar::Count)
             }
         }
+    }
+
+    /// Whether a case has a value for it: one that need not be given may have none.
+    pub fn is_given(&self, case: &Case) -> bool {
+        self.get(case) != Scalar::Word(NOT_GIVEN)
     }
 
     /// The value that it has unless a definition says otherwise.
@@ -149,7 +174,11 @@ impl Parameter {
     /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
-            (ParameterKind::Number { field, .. }, Scalar::Number(number)) => *field(case) = number,
+            (
+                ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
+                Scalar::Number(number),
+            ) => *field(case) = number,
+            (ParameterKind::OptionalNumber { field, .. }, value) => *field(case) = value.number(),
             (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
             (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
                 // `read` takes no other words.
@@ -169,9 +198,12 @@ impl Parameter {
     /// If it is of another type or out of range.
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
-            (ParameterKind::Number { .. }, Value::Number(text)) => {
-                text.parse().ok().map(Scalar::Number)
-            }
+            (
+                ParameterKind::Number { .. }
+                | ParameterKind::SignedNumber { .. }
+                | ParameterKind::OptionalNumber { .. },
+                Value::Number(text),
+            ) => text.parse().ok().map(Scalar::Number),
             (
                 ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. },
                 Value::Number(text),
@@ -196,9 +228,10 @@ impl Parameter {
     /// The value that a number of a range stands for.
     pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
-            ParameterKind::Number { .. } | ParameterKind::Word { .. } => {
-                Scalar::Number(number.to_f64())
-            }
+            ParameterKind::Number { .. }
+            | ParameterKind::SignedNumber { .. }
+            | ParameterKind::OptionalNumber { .. }
+            | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
             ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. } => {
                 // Whole and in bounds: whoever reads a range has seen both ends and the step.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
@@ -231,7 +264,13 @@ impl Parameter {
 
     fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
-            (ParameterKind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
+            (
+                ParameterKind::Number { range, .. } | ParameterKind::OptionalNumber { range, .. },
+                Scalar::Number(number),
+            ) => range.contains(number),
+            (ParameterKind::SignedNumber { size, .. }, Scalar::Number(number)) => {
+                size.contains(number.abs())
+            }
             (
                 ParameterKind::Count { range, .. } | ParameterKind::CountOrAuto { range, .. },
                 Scalar::Count(count),
@@ -243,7 +282,11 @@ impl Parameter {
     /// The values that the parameter takes, in words.
     pub fn expected(&self) -> String {
         match &self.kind {
-            ParameterKind::Number { noun, range, .. } => format!("{noun} {range}"),
+            ParameterKind::Number { noun, range, .. }
+            | ParameterKind::OptionalNumber { noun, range, .. } => format!("{noun} {range}"),
+            ParameterKind::SignedNumber { noun, size, .. } => {
+                format!("{noun} {size}, or its negative")
+            }
             ParameterKind::Count { range, .. } => format!("a whole number {range}"),
             ParameterKind::Word { words, .. } => any_of(words),
             ParameterKind::CountOrAuto { range, .. } => {

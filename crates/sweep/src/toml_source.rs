@@ -102,7 +102,7 @@ struct SyntaxMistake {
 /// # Errors
 /// If it is no TOML; all lines that cannot be read are told.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
-    let source = Document { text, name: name.into() };
+    let source = Document::new(text, name);
     let (table, mut errors) = DeTable::parse_recoverable(text);
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
@@ -120,9 +120,16 @@ pub fn one_line(message: &str) -> String {
 struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
+    /// The offsets at which lines end.
+    ends: Vec<usize>,
 }
 
-impl Document<'_> {
+impl<'a> Document<'a> {
+    fn new(text: &'a str, name: &str) -> Self {
+        let ends = text.match_indices('\n').map(|(offset, _)| offset).collect();
+        Self { text, name: name.into(), ends }
+    }
+
     fn mistake(&self, error: &toml::de::Error) -> SyntaxMistake {
         let offset = error.span().map(|span| span.start);
         let (place, line) = (self.place(offset), self.line(offset.unwrap_or_default()));
@@ -139,8 +146,7 @@ impl Document<'_> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
-        let before = |offset: usize| self.text.get(..offset.min(self.text.len()));
-        let line = offset.and_then(before).map(|text| text.matches('\n').count() + 1);
+        let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
 

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama compare`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -34,4 +36,7 @@ pub struct CompareArguments {
     /// Folder of the tables of what differs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

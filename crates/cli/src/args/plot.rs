@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::{Definition, Selection};
+use super::{Definition, Partial, Selection};
 
 /// Arguments of `squama plot`.
 #[derive(Debug, Args)]
@@ -32,6 +32,9 @@ pub struct PlotArguments {
     /// Folder of the figures [default: RESULTS/figures]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// The subjects of `squama plot` besides a sweep.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama rank`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -79,4 +81,7 @@ pub struct RankArguments {
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

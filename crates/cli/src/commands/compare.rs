@@ -8,10 +8,10 @@ use ranking::{ColumnDifference, Comparison, Extreme};
 use results::Results;
 use sweep::number;
 
-use super::source::results_folder;
+use super::source::verified_folder;
 use super::{DIFFERENT, DONE};
 use crate::args;
-use crate::print::{aligned, counted, digits, print};
+use crate::print::{aligned, counted, digits, print, shortfall};
 
 /// Designs that are listed before the list is cut short.
 const LISTED: usize = 8;
@@ -19,7 +19,9 @@ const LISTED: usize = 8;
 /// Says where two runs differ.
 pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
-    let results = |path: &PathBuf| anyhow::Ok(Results::read(&results_folder(path)?)?);
+    let completeness = arguments.partial.completeness();
+    let results =
+        |path: &PathBuf| anyhow::Ok(Results::read_from(&verified_folder(path, completeness)?)?);
     let [first, second] = [&arguments.first, &arguments.second].map(results);
     let (first, second) = (first?, second?);
     let comparison = ranking::compare(&first, &second, tolerance)?;
@@ -47,6 +49,9 @@ fn report(comparison: &Comparison<'_>, first: &Results, second: &Results) -> Str
     let [one, other] = [first, second].map(|results| results.folder().display().to_string());
     let both = counted(comparison.matched() as u64, "design");
     let mut text = format!("{one} against {other}: {both} in both\n");
+    for results in [first, second] {
+        text.push_str(&shortfall(results.verified_folder()));
+    }
     for (alone, folder) in comparison.unmatched().iter().zip([one, other]) {
         text.push_str(&unmatched(alone, &folder));
     }

@@ -11,6 +11,11 @@ use results::AtomicFile;
 pub struct Written(Vec<String>);
 
 impl Written {
+    /// The names of the files.
+    pub fn names(&self) -> &[String] {
+        &self.0
+    }
+
     /// A line for each file that was written, for people.
     pub fn report(&self, folder: &Path) -> String {
         let line = |file: &String| format!("{}\n", folder.join(file).display());

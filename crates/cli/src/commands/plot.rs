@@ -13,8 +13,8 @@ use super::draw::{check_place, substrate};
 use super::figure_file::{Written, joined, write_svg};
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, select};
-use super::source::{folder_within, results_folder};
-use super::{DONE, INCOMPLETE};
+use super::source::{folder_within, verified_folder};
+use super::{DONE, INCOMPLETE, derived};
 use crate::args;
 use crate::print::print;
 
@@ -34,14 +34,16 @@ pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&results_folder(results)?)?;
+    let results =
+        ResultsFolder::read(&verified_folder(results, arguments.partial.completeness())?)?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
-    for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
+    for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
         write_svg(&folder, &figure.name, &figure.svg, arguments.png, &mut files)?;
     }
+    derived::note(results.verified(), "figures", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }

@@ -8,10 +8,10 @@ use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
 };
-use results::Results;
+use results::{Results, RunFolder};
 
-use super::source::results_folder;
-use super::{DONE, INCOMPLETE};
+use super::source::verified_folder;
+use super::{DONE, INCOMPLETE, derived};
 use crate::args;
 use crate::json;
 use crate::print::print;
@@ -22,7 +22,8 @@ use report::{RankReport, unmet_report};
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&results_folder(&arguments.results)?)?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = Results::read_from(&verified)?;
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),
@@ -38,6 +39,7 @@ fn ranked(
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     if arguments.json {
         json::print(&ranking_record(results, ranking, arguments.top))?;
     } else {
@@ -55,6 +57,7 @@ fn none_meets(
 ) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let file = ranking::write_unmet(folder, preferences)?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
     if arguments.json {
         json::print(&unmet_record(results, unmet))?;
     } else {

@@ -6,14 +6,15 @@ use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
+use results::shell_word;
 use skin::{flexure, puncture};
 use sweep::Case;
 
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
-use super::source::{require_folder_of, results_folder};
-use super::{DONE, PROGRAM};
+use super::source::{require_folder_of, verified_folder};
+use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
@@ -26,7 +27,10 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&results_folder(&arguments.results)?)?;
+    let results = ResultsFolder::read(&verified_folder(
+        &arguments.results,
+        arguments.partial.completeness(),
+    )?)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     require_folder_of("--out", &out)?;
     let page = page(&results)?;
@@ -35,6 +39,7 @@ pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
     write_html(&folder, &name, &page.html(), &mut files)?;
+    derived::note(results.verified(), "page", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }
@@ -54,9 +59,9 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     });
     let ranking = results.ranking()?;
     Ok(Page {
-        name: sweep.name().to_owned(),
+        name: results.title(),
         version: PROGRAM.version.to_owned(),
-        folder: results.folder.display().to_string(),
+        folder: shell_word(&results.folder.display().to_string()),
         axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
@@ -116,6 +121,7 @@ fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
         name: &name,
         design: &case.design,
         load_position: case.puncture.load_position,
+        thickness_mm: case.material.thickness_mm,
         states: &states,
     };
     let path = solved.puncture.path.iter();

@@ -3,7 +3,7 @@
 use run::{Filter, Rerun};
 use sweep::Setting;
 
-use super::run::{exit_code, options, summary};
+use super::run::{conclude, exit_code, options, summary};
 use super::source::results_folder;
 use super::{DONE, PROGRAM};
 use crate::args;
@@ -15,7 +15,7 @@ use crate::progress::ProgressDisplay;
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
+pub fn rerun(arguments: &args::RerunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
     let folder = results_folder(&arguments.results)?;
@@ -28,19 +28,20 @@ pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
         print(&plan(&rerun))?;
         return Ok(DONE);
     }
-    let interrupt = Interrupt::listen()?;
-    let display = ProgressDisplay::new(arguments.work.quiet, &interrupt);
-    let options = options(&arguments.work, &arguments.format, &interrupt, &display);
+    interrupt.ask_first();
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let options = options(&arguments.work, &arguments.format, interrupt, &display);
     let progress = |progress| display.show(progress);
     let finished = rerun.run(&options, &PROGRAM, progress);
     let threads = options.threads;
     drop(display);
     let finished = finished?;
+    conclude(&folder, &finished);
     if !arguments.work.quiet {
         let results = summary("all results", &folder, threads, &finished);
         print(&format!("{}{results}", plan(&rerun)))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    Ok(exit_code(&finished, interrupt))
 }
 
 fn filter(arguments: &args::RerunArguments) -> Filter {

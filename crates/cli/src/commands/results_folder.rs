@@ -1,12 +1,11 @@
 //! A folder of results, as figures and the page need it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
-use report::{Designs, Fact};
-use results::{InvalidResults, Results};
+use report::{Designs, Fact, facts};
+use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
-use sweep::toml_source::{self, KeyValue, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -22,11 +21,27 @@ pub struct ResultsFolder {
 }
 
 impl ResultsFolder {
+    /// The folder as it was checked.
+    pub fn verified(&self) -> &VerifiedFolder {
+        self.results.verified_folder()
+    }
+
+    /// The name of the sweep, with how much of it is there if that is not the whole.
+    pub fn title(&self) -> String {
+        let name = self.sweep.name();
+        let held = self.verified().shortfall();
+        held.map_or_else(|| name.to_owned(), |held| format!("{name} ({held})"))
+    }
+}
+
+impl ResultsFolder {
     /// Reads `run.toml` and `designs.csv`.
-    pub fn read(folder: &Path) -> anyhow::Result<Self> {
-        let sweep = Sweep::read(&folder.join("run.toml"), &[])?;
-        let results = Results::read(folder)?;
-        let run = std::fs::read_to_string(folder.join("run.toml")).unwrap_or_default();
+    pub fn read(verified: &VerifiedFolder) -> anyhow::Result<Self> {
+        let folder = verified.path();
+        let run = verified.text(RunFolder::RUN_INFO)?;
+        let record = folder.join(RunFolder::RUN_INFO).display().to_string();
+        let sweep = Sweep::parse(&run, &record, &[])?;
+        let results = Results::read_from(verified)?;
         let designs = Designs::of(&results);
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }
@@ -43,21 +58,4 @@ impl ResultsFolder {
             Err(error) => Err(error),
         }
     }
-}
-
-/// The entries of the table `run` of `run.toml`.
-fn facts(text: &str) -> Vec<Fact> {
-    let table = toml_source::parse(text, "run.toml").unwrap_or_default();
-    let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
-    let Some(Value::Table(entries)) = run else { return Vec::new() };
-    let fact = |entry: KeyValue| match entry.value {
-        Value::Table(counts) => {
-            let count = |entry: &KeyValue| format!("{} {}", entry.value, entry.key);
-            let counts: Vec<_> = counts.iter().map(count).collect();
-            (entry.key.replace('_', " "), counts.join(", "))
-        }
-        Value::Text(text) => (entry.key.replace('_', " "), text),
-        value => (entry.key.replace('_', " "), value.to_string()),
-    };
-    entries.into_iter().map(fact).collect()
 }

@@ -5,36 +5,58 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Start};
 use sweep::{RandomSample, Subset, Sweep};
 
 use super::source::{folder_of, read};
-use super::{DONE, INCOMPLETE, PROGRAM};
+use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::args;
 use crate::interrupt::Interrupt;
-use crate::print::{aligned, counted, print, time};
+use crate::print::{aligned, counted, note, print, time};
 use crate::progress::ProgressDisplay;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::RunArguments) -> anyhow::Result<u8> {
+pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
-    let interrupt = Interrupt::listen()?;
-    let display = ProgressDisplay::new(arguments.work.quiet, &interrupt);
-    let options = options(&arguments.work, &arguments.format, &interrupt, &display);
+    interrupt.ask_first();
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let options = options(&arguments.work, &arguments.format, interrupt, &display);
     let progress = |progress| display.show(progress);
     let (subset, start) = (subset(arguments), start(arguments));
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     let threads = options.threads;
-    drop(display);
     let finished = finished?;
+    let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
+    let audited = audited.map(|share| run::Audit::of(&folder, share.0, &options)).transpose()?;
+    drop(display);
+    conclude(&folder, &finished);
     if !arguments.work.quiet {
         print(&summary(sweep.name(), &folder, threads, &finished))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    let code = exit_code(&finished, interrupt);
+    let Some(audit) = audited else { return Ok(code) };
+    print(&audit::report(&audit))?;
+    Ok(if audit::agrees(&audit) { code } else { INCOMPLETE })
+}
+
+/// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from
+/// earlier tables.
+pub(super) fn conclude(folder: &Path, finished: &Finished) {
+    for text in &finished.notes {
+        note(text);
+    }
+    let verified = VerifiedFolder::open(folder, Completeness::Partial);
+    for made in verified.iter().flat_map(VerifiedFolder::outdated) {
+        note(&format!(
+            "{} is made from earlier tables; {} makes it again",
+            made.product, made.command
+        ));
+    }
 }
 
 fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {

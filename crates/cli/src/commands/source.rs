@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
-use results::RunFolder;
+use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep};
 
 use crate::args::Definition;
@@ -19,9 +19,10 @@ pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
 }
 
-/// The file of the definition: `path`, or the record of the run in the folder `path`.
+/// The file of the definition, which is as it was written if a run has written it: `path`, or the record of the run in the folder `path`.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
+        verify_record(path)?;
         return Ok(path.to_owned());
     }
     let record = path.join(RunFolder::RUN_INFO);
@@ -31,6 +32,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
         path.display(),
         RunFolder::RUN_INFO
     );
+    verify_record(&record)?;
     Ok(record)
 }
 
@@ -50,6 +52,11 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
         folder.display()
     );
     Ok(folder)
+}
+
+/// The results in the folder that `path` stands for, once they are checked.
+pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
+    Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?)
 }
 
 /// The folder of the results of `sweep` unless told otherwise.

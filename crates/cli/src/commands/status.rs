@@ -20,6 +20,7 @@ pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
         print(&report(&status))?;
     }
     let complete = status.failed == 0 && status.archive.missing().is_empty();
+    let complete = complete && status.problems.is_empty();
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
@@ -39,7 +40,20 @@ fn report(status: &run::RunStatus) -> String {
     rows.push(row("definition", format!("sha256 {}", header.definition_sha256())));
     let state = if status.in_use { "running" } else { "not running" };
     let name = status.archive.sweep().name();
-    format!("{name}: {state}\n{}{}{}", aligned(&rows), reasons(status), slowest(status))
+    let lists = [problems(status), outdated(status), reasons(status), slowest(status)].concat();
+    format!("{name}: {state}\n{}{lists}", aligned(&rows))
+}
+
+/// What is wrong with the files of the run.
+fn problems(status: &run::RunStatus) -> String {
+    let rows = status.problems.iter().map(|problem| [problem.clone()]);
+    titled("what is wrong", &rows.collect::<Vec<_>>())
+}
+
+/// What was made from tables that are no longer there, and the commands that make it again.
+fn outdated(status: &run::RunStatus) -> String {
+    let rows = status.outdated.iter().map(|made| [made.product.clone(), made.command.clone()]);
+    titled("out of date", &rows.collect::<Vec<_>>())
 }
 
 fn as_json(status: &run::RunStatus) -> Value {

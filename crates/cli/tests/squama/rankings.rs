@@ -62,7 +62,7 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
     let message = place.refused("rank results/few");
     insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");

@@ -19,7 +19,7 @@ fn writes_its_tables_to_the_folder_of_its_name() {
     place.squama("run x.toml --quiet").assert().code(0).stdout("").stderr("");
     assert_eq!(
         place.list("results/few"),
-        "compliance.csv coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
+        "compliance.csv contents.toml coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
          penetration.csv run.toml"
     );
     let table = place.read("results/few/designs.csv");
@@ -84,7 +84,7 @@ fn what_is_not_measured_is_empty_and_has_no_table() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
     let table = place.read("results/few/designs.csv");
     let row = table.lines().nth(8).expect("a row");

@@ -1,6 +1,7 @@
 //! The data of a page, as its scripts read them.
 
 use serde_json::{Map, Value, json};
+use sweep::visible;
 
 use super::{Fact, Page, SolvedDesign};
 use crate::axis::ChartAxis;
@@ -20,7 +21,7 @@ pub(super) fn of(page: &Page) -> Value {
     let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
     let shade = |k: u32| map_color((f64::from(k) + 0.5) / f64::from(SHADES));
     json!({
-        "name": page.name,
+        "name": visible(&page.name),
         "folder": page.folder,
         "opening": page.opening,
         "axes": page.axes,
@@ -55,7 +56,7 @@ fn cell(page: &Page, header: &str, row: usize) -> Value {
     match page.designs.number(header, row) {
         _ if text.is_empty() => Value::Null,
         Some(number) if header != "design" => json!(number),
-        _ => json!(text),
+        _ => json!(visible(text)),
     }
 }
 

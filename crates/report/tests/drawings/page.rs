@@ -118,6 +118,19 @@ fn a_page_is_whole_and_the_same_every_time() {
     }
     // A name cannot end the script that holds the data.
     assert!(!html.contains("a </script>"));
+    // Text that would begin a comment or a script within the script that holds the data.
+    let hostile = Page {
+        name: "<!--<script>\u{202e}x".to_owned(),
+        folder: "a b/<!--".to_owned(),
+        ..page(designs())
+    };
+    let hostile = hostile.html();
+    let data = hostile.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
+    let data = data.expect("a script that holds the data");
+    assert!(!data.contains('<') && data.contains("\\u003c!--\\u003cscript"), "{data}");
+    assert!(hostile.contains("<title>&lt;!--&lt;script&gt;\\u{202e}x</title>"));
+    assert!(data.contains("\"folder\":\"'a b/\\u003c!--'\""), "{data}");
+    assert!(!hostile.contains('\u{202e}'));
 }
 
 #[test]

@@ -5,12 +5,12 @@ use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunC
 
 use crate::journal::{Archive, JournalError};
 
-/// Writes the table of what reruns have changed if there is anything to tell, and returns its name.
+/// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
 pub(super) fn write(
     archive: &Archive,
     folder: &RunFolder,
     format: CsvFormat,
-) -> Result<Option<String>, JournalError> {
+) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
     if pairs.peek().is_none() {
         return Ok(None);
@@ -23,8 +23,7 @@ pub(super) fn write(
         let rows = [archive.row(old), archive.row(new)];
         changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
     }
-    table.finish()?;
-    Ok(Some(RunFolder::RERUNS.to_owned()))
+    Ok(Some((RunFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
 /// Every value that changed; one change without a column if none did.

@@ -11,6 +11,9 @@ use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue};
 use crate::toml_source::{KeyValue, Place, Value};
 
+/// Keys that are refused before the rest is left unread: nobody corrects more at a time.
+const MOST: usize = 50;
+
 /// A reader of definitions, with the keys that it has understood so far, and what it has refused.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
@@ -32,6 +35,9 @@ struct WrittenAxis {
 impl Reader {
     /// Understands one key outside of the sections, or one section.
     pub fn entry(&mut self, entry: &KeyValue) {
+        if self.refused.len() >= MOST {
+            return;
+        }
         let understood = match entry.key.as_str() {
             "name" => self.read_name(entry),
             "measures" => self.read_measures(entry),
@@ -62,6 +68,9 @@ impl Reader {
             return Err(refuse(&entry.place, section, WrongValue::NotAccepted { found, expected }));
         };
         for entry in entries {
+            if self.refused.len() >= MOST {
+                break;
+            }
             let understood = self.parameter(section, entry);
             self.refused.extend(understood.err());
         }
@@ -196,6 +205,19 @@ fn missing_name(file: &Place) -> InvalidDefinition {
     refuse(file, "name", Problem::Missing { expected })
 }
 
+/// Whether Windows keeps the name for a device, whatever follows its first dot.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
+    let numbered = |device| {
+        let number = stem.strip_prefix(device).and_then(|rest: &str| {
+            let mut digits = rest.chars();
+            digits.next().filter(|_| digits.next().is_none())
+        });
+        number.is_some_and(|digit| "123456789¹²³".contains(digit))
+    };
+    ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
+}
+
 /// A name that is a folder on any system.
 fn name_of(value: &Value) -> Result<String, WrongValue> {
     let allowed = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
@@ -204,14 +226,15 @@ fn name_of(value: &Value) -> Result<String, WrongValue> {
             if name.chars().next().is_some_and(char::is_alphanumeric)
                 && name.chars().all(allowed)
                 && !name.ends_with([' ', '.'])
-                && name.len() <= 100 =>
+                && name.len() <= 100
+                && !is_device(name) =>
         {
             Ok(name.clone())
         }
         value => Err(WrongValue::NotAccepted {
             found: value.to_string(),
             expected:
-                "a name for a folder: letters, digits, - _ + . and spaces, a letter or digit first"
+                "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"
                     .to_owned(),
         }),
     }

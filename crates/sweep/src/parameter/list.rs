@@ -252,10 +252,10 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "max_end_rotation_deg",
         section: "flexure",
         unit: "deg",
-        meaning: "rotation of each end at which bending ends",
-        kind: ParameterKind::Number {
+        meaning: "rotation of each end at which bending ends; below zero, bending the other way, scales outside",
+        kind: ParameterKind::SignedNumber {
             noun: "an angle",
-            range: Range { low: Excluded(0.0), high: Included(180.0) },
+            size: Range { low: Excluded(0.0), high: Included(180.0) },
             field: |c| &mut c.flexure.max_end_rotation_deg,
         },
     },
@@ -374,6 +374,50 @@ pub static PARAMETERS: &[Parameter] = &[
         kind: ParameterKind::Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
             field: |c| &mut c.common.solver.max_points,
+        },
+    },
+    Parameter {
+        key: "thickness_mm",
+        section: "material",
+        unit: "mm",
+        meaning: "thickness t of the scales",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: POSITIVE,
+            field: |c| &mut c.material.thickness_mm,
+        },
+    },
+    Parameter {
+        key: "substrate_modulus_MPa",
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_s of the substrate",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.substrate_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: "membrane_modulus_MPa",
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_m of the membrane",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.membrane_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: "scale_density_kg_m3",
+        section: "material",
+        unit: "kg/m^3",
+        meaning: "density of the scales",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.scale_density_kg_m3,
         },
     },
 ];

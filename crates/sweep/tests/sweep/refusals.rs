@@ -173,3 +173,48 @@ fn a_long_list_with_a_value_twice_is_refused_at_once() {
     assert!(message.contains("0.000001"), "{message}");
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
 }
+
+#[test]
+fn names_that_windows_keeps_for_devices_are_refused() {
+    for name in ["con", "NUL", "aux.1", "Com1", "lpt9", "com²", "prn .x"] {
+        let text = format!("name = '{name}'");
+        let error = Sweep::parse(&text, "x.toml", &[]).expect_err("refused").to_string();
+        assert!(error.contains("no device as con or lpt1"), "{error}");
+    }
+    for name in ["control", "com10", "console.1", "lpt", "nul-1"] {
+        let text = format!("name = '{name}'");
+        assert!(Sweep::parse(&text, "x.toml", &[]).is_ok(), "{name}");
+    }
+}
+
+/// The bound is that of a busy machine; both took minutes when they cost the square of their length.
+#[test]
+fn long_lists_and_many_keys_are_read_or_refused_at_once() {
+    let begun = std::time::Instant::now();
+    let values: Vec<_> = (1..=300_000).map(|k| format!("{}", f64::from(k) * 1e-6)).collect();
+    let text = format!("name = 'x'\n[designs]\ngap_over_t = [\n{}\n]", values.join(",\n"));
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
+    assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
+    let twice = text.replace("\n]", ",\n0.1\n]");
+    let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
+    assert!(error.contains("0.1 stands in the list twice"), "{error}");
+    let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
+    let keys = keys.join("\n");
+    let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();
+    assert!(error.starts_with("x.toml:1: key0: unknown key"), "{error}");
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}
+
+#[test]
+fn deep_settings_are_refused() {
+    let deep = format!("{}x=1", "a.".repeat(20_000));
+    let error = sweep::Setting::parse(&deep).expect_err("refused").to_string();
+    assert!(error.contains("a key of 20001 parts"), "{}", &error[error.len() - 100..]);
+    for nested in [
+        "[".repeat(20_000),
+        "{a=".repeat(20_000),
+        format!("{}{}", "[".repeat(20_000), "]".repeat(20_000)),
+    ] {
+        assert!(sweep::Setting::parse(&format!("designs.slant_deg={nested}")).is_err());
+    }
+}
