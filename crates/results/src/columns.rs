@@ -8,6 +8,7 @@ mod path;
 mod physical;
 mod reruns;
 mod samples;
+mod tilts;
 mod values;
 
 use std::borrow::Borrow;
@@ -19,6 +20,7 @@ use crate::folder::{MEASURE_TABLES, RunFolder};
 use measured_value::MeasuredValue;
 use physical::{explain_physical, physical_columns};
 use samples::SAMPLE_VALUES;
+use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
@@ -44,7 +46,7 @@ fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
     let value = measured_value(name).map(|value| (value.unit, value.meaning));
-    value.or_else(|| explain_physical(name))
+    value.or_else(|| explain_tilt_value(name)).or_else(|| explain_physical(name))
 }
 
 /// The layout of a table: the name of its file, and its columns.
@@ -68,10 +70,11 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 }
 
 /// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
-/// imperfections have.
+/// imperfections or several critical tilts have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
     let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, None));
     columns.extend(physical_columns(sweep, None));
     columns
 }
@@ -81,6 +84,7 @@ fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) =
         values(sweep).filter(belongs).partition(|value| value.name == table);
     let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, Some(table)));
     columns.extend(physical_columns(sweep, Some(table)));
     columns
 }

@@ -4,6 +4,7 @@ mod bars;
 mod ending;
 mod fold;
 mod measures;
+mod number_list;
 mod point;
 mod snap;
 mod snapshot;
@@ -11,6 +12,7 @@ mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tilts;
 mod window;
 
 use contact::ContactLaw;
@@ -20,6 +22,7 @@ use snap::Needle;
 use solver::{Path, Settings, Stop};
 use substrate::{RowStiffness, SubstrateLaw};
 use system::{Chain, Layout};
+use tilts::TiltWatch;
 use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
@@ -29,10 +32,12 @@ use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
+pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
+pub use tilts::TiltMeasures;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -62,6 +67,8 @@ pub struct PunctureParameters {
     pub critical_tilt_deg: f64,
     /// How the substrate answers where the surface between two bases is stretched.
     pub substrate_law: SubstrateLaw,
+    /// Tilts at which measures are taken on the way, degrees.
+    pub tilts_deg: NumberList,
 }
 
 impl Default for PunctureParameters {
@@ -74,6 +81,7 @@ impl Default for PunctureParameters {
             load_position: 1.0,
             critical_tilt_deg: 10.0,
             substrate_law: SubstrateLaw::Linear,
+            tilts_deg: NumberList::default(),
         }
     }
 }
@@ -85,6 +93,8 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
+    /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -214,6 +224,7 @@ impl<'a> Problem<'a> {
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path);
         let (mut needle, mut folds) = (Needle::default(), Vec::new());
+        let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -222,6 +233,7 @@ impl<'a> Problem<'a> {
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
                 needle.follow(&mut path, [&before, &point], record.events.len());
+                tilts.follow(&mut path, &before, &point);
                 folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
                 record.visit(&mut path, &point);
             }
@@ -237,7 +249,9 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, (needle, folds), &mut path, status))
+        let at_tilts = tilts.finish();
+        let watched = (needle, folds);
+        Ok(Puncture { at_tilts, ..self.puncture(record, watched, &mut path, status) })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -294,6 +308,18 @@ impl<'a> Problem<'a> {
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
+        let at_tilts = Vec::new();
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
     }
 }

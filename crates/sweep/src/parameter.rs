@@ -5,6 +5,8 @@ mod scalar;
 
 use std::fmt;
 
+use skin::puncture::{MOST_NUMBERS, NumberList};
+
 use crate::case::Case;
 use crate::decimal::Decimal;
 use crate::number;
@@ -69,6 +71,14 @@ pub(crate) enum ParameterKind {
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
     },
+    /// A number or a short list of them, ascending, or the word.
+    Numbers {
+        noun: &'static str,
+        range: Range,
+        word: Option<&'static str>,
+        get: fn(&Case) -> Scalar,
+        set: fn(&mut Case, Scalar),
+    },
 }
 
 /// Bounds of a number.
@@ -98,8 +108,9 @@ const AUTO: &str = "auto";
 /// The word of a number that is not given. No definition has it.
 const NOT_GIVEN: &str = "not given";
 
-/// The two ways to say how long a strip is.
-const ALTERNATIVES: [&str; 2] = ["gaps", "membrane_length_over_t"];
+/// Two ways each to say how long a strip is, and at which tilt a needle slips. The first of two may leave it to the other, by a word.
+const ALTERNATIVES: [[&str; 2]; 2] =
+    [["gaps", "membrane_length_over_t"], ["needle_friction", "critical_tilt_deg"]];
 
 /// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -130,12 +141,12 @@ impl Parameter {
 
     /// The parameter that says the same in another way: a definition has one of the two.
     pub(crate) fn alternative(&self) -> Option<&'static Self> {
-        let [first, second] = ALTERNATIVES;
-        match self.key {
-            key if key == first => Self::named(second),
-            key if key == second => Self::named(first),
+        let other = ALTERNATIVES.iter().find_map(|&[first, second]| match self.key {
+            key if key == first => Some(second),
+            key if key == second => Some(first),
             _ => None,
-        }
+        });
+        other.and_then(Self::named)
     }
 
     /// `section.key`.
@@ -158,6 +169,7 @@ impl Parameter {
             ParameterKind::CountOrAuto { get, .. } => {
                 get(&case).map_or(Scalar::Word(AUTO), Scalar::Count)
             }
+            ParameterKind::Numbers { get, .. } => get(&case),
         }
     }
 
@@ -188,6 +200,7 @@ impl Parameter {
                 set(case, Some(count));
             }
             (ParameterKind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
+            (ParameterKind::Numbers { set, .. }, value) => set(case, value),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
@@ -201,9 +214,14 @@ impl Parameter {
             (
                 ParameterKind::Number { .. }
                 | ParameterKind::SignedNumber { .. }
-                | ParameterKind::OptionalNumber { .. },
+                | ParameterKind::OptionalNumber { .. }
+                | ParameterKind::Numbers { .. },
                 Value::Number(text),
             ) => text.parse().ok().map(Scalar::Number),
+            (ParameterKind::Numbers { .. }, Value::List(items)) => list(items).map(Scalar::List),
+            (ParameterKind::Numbers { word: Some(word), .. }, Value::Text(text)) => {
+                (text == word).then_some(Scalar::Word(word))
+            }
             (
                 ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. },
                 Value::Number(text),
@@ -231,6 +249,7 @@ impl Parameter {
             ParameterKind::Number { .. }
             | ParameterKind::SignedNumber { .. }
             | ParameterKind::OptionalNumber { .. }
+            | ParameterKind::Numbers { .. }
             | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
             ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. } => {
                 // Whole and in bounds: whoever reads a range has seen both ends and the step.
@@ -242,6 +261,14 @@ impl Parameter {
     /// Whether it takes numbers, so that a range of it makes sense.
     pub(crate) fn takes_numbers(&self) -> bool {
         !matches!(self.kind, ParameterKind::Word { .. })
+    }
+
+    /// Whether a word may stand in the place of its numbers.
+    pub(crate) fn takes_word(&self) -> bool {
+        matches!(
+            self.kind,
+            ParameterKind::CountOrAuto { .. } | ParameterKind::Numbers { word: Some(_), .. }
+        )
     }
 
     /// Whether its numbers are whole.
@@ -265,9 +292,14 @@ impl Parameter {
     fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
             (
-                ParameterKind::Number { range, .. } | ParameterKind::OptionalNumber { range, .. },
+                ParameterKind::Number { range, .. }
+                | ParameterKind::OptionalNumber { range, .. }
+                | ParameterKind::Numbers { range, .. },
                 Scalar::Number(number),
             ) => range.contains(number),
+            (ParameterKind::Numbers { range, .. }, Scalar::List(numbers)) => {
+                numbers.as_slice().iter().all(|&number| range.contains(number))
+            }
             (ParameterKind::SignedNumber { size, .. }, Scalar::Number(number)) => {
                 size.contains(number.abs())
             }
@@ -292,6 +324,12 @@ impl Parameter {
             ParameterKind::CountOrAuto { range, .. } => {
                 format!("a whole number {range} or \"{AUTO}\"")
             }
+            ParameterKind::Numbers { noun, range, word, .. } => {
+                let word = word.map(|word| format!(", or \"{word}\"")).unwrap_or_default();
+                format!(
+                    "{noun} {range}, or a list of up to {MOST_NUMBERS} in ascending order{word}"
+                )
+            }
         }
     }
 }
@@ -299,6 +337,16 @@ impl Parameter {
 /// `words` in quotes, as alternatives.
 pub(crate) fn any_of(words: &[&str]) -> String {
     words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+}
+
+/// The list of the numbers of `items`; `None` if one is no number, or they are too many or not ascending.
+fn list(items: &[Value]) -> Option<NumberList> {
+    let number = |item: &Value| match item {
+        Value::Number(text) => text.parse().ok(),
+        _ => None,
+    };
+    let numbers: Vec<f64> = items.iter().map(number).collect::<Option<_>>()?;
+    NumberList::new(&numbers).filter(|list| !list.is_empty())
 }
 
 /// Negative zero is zero.

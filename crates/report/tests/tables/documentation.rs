@@ -55,9 +55,15 @@ fn the_guide_to_the_results_explains_every_column() {
     let physical =
         design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{material}")));
     let in_physical_units = &physical[imperfect.len()..];
+    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
+    let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
     let expected = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
+        (
+            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
+            columns(at_tilts),
+        ),
         ("`designs.csv`, with a material in addition", columns(in_physical_units)),
         ("Statuses", statuses),
         (
