@@ -21,6 +21,7 @@
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
+//! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Motion`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
@@ -70,6 +71,7 @@ mod newton;
 mod path;
 mod peak;
 mod rate_problem;
+mod sensitivity;
 mod step;
 mod stop;
 mod system;
@@ -83,6 +85,7 @@ pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::Peak;
+pub use sensitivity::{Anchor, Linearisation, Motion, Neighbours, Place, Side};
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System, Tangent};
