@@ -3,5 +3,6 @@
 pub mod design_result;
 pub mod failure;
 pub mod outcome;
+pub mod parameter_derivative;
 pub mod rerun_change;
 pub mod sample_statistics;

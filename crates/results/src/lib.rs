@@ -12,6 +12,7 @@
 //! | [`DesignResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
+//! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
@@ -51,6 +52,7 @@ pub use design::design_result::{
 };
 pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
 pub use design::outcome::Outcome;
+pub use design::parameter_derivative::{DERIVATIVE_COLUMNS, DerivativeRow, ParameterDerivative};
 pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};

@@ -8,6 +8,7 @@ use crate::columns::{
     STEPS,
 };
 use crate::design::design_result::SolvedDesign;
+use crate::design::parameter_derivative::DERIVATIVE_COLUMNS;
 use crate::folder::{OutputError, RunFolder};
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
@@ -30,6 +31,13 @@ pub fn write_path_tables(
     match &solved.flexure {
         Some(flexure) => files.extend(write_flexure(folder, flexure)?),
         None => remove(folder, RunFolder::FLEXURE),
+    }
+    if solved.row.result.sensitivity.is_empty() {
+        remove(folder, [RunFolder::SENSITIVITY]);
+    } else {
+        let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
+        write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;
+        files.push(name);
     }
     folder.sync();
     Ok(files)
@@ -58,7 +66,7 @@ fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str;
     Ok(RunFolder::FLEXURE)
 }
 
-fn remove(folder: &RunFolder, files: [&str; 4]) {
+fn remove<const N: usize>(folder: &RunFolder, files: [&str; N]) {
     for file in files {
         folder.remove(file);
     }

@@ -3,5 +3,6 @@
 pub mod evaluator;
 pub mod groups;
 mod samples;
+mod sensitivity;
 pub mod task;
 pub mod workers;

@@ -6,6 +6,7 @@ mod measures;
 mod mesh;
 mod point;
 mod problem;
+mod sensitivity;
 mod snapshot;
 mod strip;
 #[cfg(test)]
@@ -26,6 +27,7 @@ use crate::{Common, ContactChange, Design, InvalidDesign, Sample, Status};
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
+pub use sensitivity::{FlexureInput, differentiate};
 pub use snapshot::{StripSnapshot, snapshots};
 
 /// The part of a strip that is solved for.

@@ -2,6 +2,7 @@
 
 mod measures;
 mod point;
+mod sensitivity;
 mod snapshot;
 mod system;
 #[cfg(test)]
@@ -18,11 +19,12 @@ use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{ContactEvent, Iteration, Record};
+use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, InvalidDesign, Sample, Status};
 
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
+pub use sensitivity::{PunctureInput, differentiate};
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 
 /// Longest row that [`RowLength::Auto`] takes.
@@ -150,6 +152,13 @@ impl PunctureParameters {
     }
 }
 
+/// A path that was followed to its end.
+struct Followed {
+    record: Record<Chain>,
+    path: Path<Chain>,
+    status: Status,
+}
+
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
@@ -168,6 +177,17 @@ impl<'a> Problem<'a> {
         parameters: &'a PunctureParameters,
     ) -> Result<Self, InvalidDesign> {
         parameters.check()?;
+        Self::unchecked(rows, design, stiffness, common, parameters)
+    }
+
+    /// The problem with parameters that may lie a little beyond the ends of their ranges.
+    fn unchecked(
+        rows: Rows<'a>,
+        design: &'a Design,
+        stiffness: RowStiffness,
+        common: &Common,
+        parameters: &'a PunctureParameters,
+    ) -> Result<Self, InvalidDesign> {
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
@@ -175,25 +195,38 @@ impl<'a> Problem<'a> {
     }
 
     fn solve(&self) -> Result<Puncture, InvalidDesign> {
-        match self.parameters.scales {
+        let (start, longest) = self.start()?;
+        Ok(self.puncture(self.follow(start, longest, &[])?))
+    }
+
+    /// The system with which the path begins, and the longest row that it may grow to.
+    fn start(&self) -> Result<(Chain, usize), InvalidDesign> {
+        Ok(match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                self.follow(self.chain(Layout { left, right: scales - 1 - left })?, scales)
+                (self.chain(Layout { left, right: scales - 1 - left })?, scales)
             }
-            RowLength::Auto => self.grow(LONGEST_ROW),
-        }
+            RowLength::Auto => (self.part(Layout::first(&self.stiffness))?, LONGEST_ROW),
+        })
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
+    #[cfg(test)]
     fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
-        self.follow(self.part(Layout::first(&self.stiffness))?, longest)
+        let start = self.part(Layout::first(&self.stiffness))?;
+        Ok(self.puncture(self.follow(start, longest, &[])?))
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
-    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, InvalidDesign> {
+    fn follow(
+        &self,
+        chain: Chain,
+        longest: usize,
+        functions: &[PathFunction<Chain>],
+    ) -> Result<Followed, InvalidDesign> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let mut record = Record::new(&path);
+        let mut record = Record::new(&path, functions);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -214,7 +247,7 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(self.puncture(record, &mut path, status))
+        Ok(Followed { record, path, status })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -250,12 +283,15 @@ impl<'a> Problem<'a> {
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();
         let length = self.design.length;
-        Ok(Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length))
+        let mut chain =
+            Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length);
+        chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
+        Ok(chain)
     }
 
-    fn puncture(&self, record: Record<Chain>, path: &mut Path<Chain>, status: Status) -> Puncture {
-        let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let measures = PunctureMeasures::new(&record, path, modulus);
+    fn puncture(&self, followed: Followed) -> Puncture {
+        let Followed { record, mut path, status } = followed;
+        let measures = PunctureMeasures::new(&record, &mut path);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),

@@ -17,11 +17,11 @@
 //! | [`Path`], [`Point`] | an iterator over the equilibria; one of them, with its directions |
 //! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
-//! | [`Peak`] | the largest value of a quantity along the path, between its points too |
+//! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
-//! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Motion`] | derivatives of an equilibrium with respect to a parameter of the system |
+//! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
@@ -84,8 +84,8 @@ pub use event::{Change, Event};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
-pub use peak::Peak;
-pub use sensitivity::{Anchor, Linearisation, Motion, Neighbours, Place, Side};
+pub use peak::{Peak, Summit};
+pub use sensitivity::{Anchor, Linearisation, Moved, Neighbours, Place};
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System, Tangent};

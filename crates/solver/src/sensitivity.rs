@@ -38,22 +38,13 @@ pub struct Neighbours<S> {
     pub step: f64,
 }
 
-/// The derivatives of a place and of the direction of the path there with respect to a parameter.
+/// A place for a neighbouring value of a parameter, to first order.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
-    /// Derivatives of the unknowns.
-    pub unknowns: Vec<f64>,
-    /// Derivatives of the direction.
+pub struct Moved<M> {
+    /// The equilibrium.
+    pub state: State<M>,
+    /// The direction of the path there.
     pub direction: Vec<f64>,
-}
-
-/// The side on which a parameter leaves its value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The parameter decreases.
-    Left,
-    /// The parameter increases.
-    Right,
 }
 
 /// A place with the factors of its tangent, which serve any number of parameters.
@@ -94,28 +85,49 @@ impl<M: Clone> Linearisation<M> {
         &self.place
     }
 
-    /// The derivatives of the place with respect to the parameter of `neighbours`. They are not finite where the path has a
-    /// fold at the anchor.
-    pub fn motion<S: System<Mode = M>>(
+    /// The place for the neighbouring values of a parameter, to first order: below and above. The directions of the path turn
+    /// with it only if they `turn`. The numbers are not finite where the path has a fold at the anchor.
+    pub fn moved<S: System<Mode = M>>(
         &mut self,
         system: &S,
         neighbours: &Neighbours<S>,
-    ) -> Motion {
+        turns: bool,
+    ) -> [Moved<M>; 2] {
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
         for (unknown, direction) in unknowns.iter_mut().zip(&self.place.direction) {
             *unknown += along * direction;
         }
-        let direction = self.turning(system, neighbours, &unknowns);
-        Motion { unknowns, direction }
+        let Neighbours { below, above, step } = neighbours;
+        self.turned(system, [below, above], *step, unknowns, turns)
     }
 
-    /// The derivative of the place along its path, where the system stays what it is.
-    fn motion_along<S: System<Mode = M> + Clone>(&mut self, system: &S, step: f64) -> Motion {
-        let neighbours = Neighbours { below: system.clone(), above: system.clone(), step };
+    /// The place before and behind it on its path, where the system stays what it is.
+    fn moved_along<S: System<Mode = M>>(&mut self, system: &S, step: f64) -> [Moved<M>; 2] {
         let unknowns = self.place.direction.clone();
-        let direction = self.turning(system, &neighbours, &unknowns);
-        Motion { unknowns, direction }
+        self.turned(system, [system; 2], step, unknowns, true)
+    }
+
+    /// The place with unknowns that change at these rates.
+    fn turned<S: System<Mode = M>>(
+        &mut self,
+        system: &S,
+        sides: [&S; 2],
+        step: f64,
+        unknowns: Vec<f64>,
+        turns: bool,
+    ) -> [Moved<M>; 2] {
+        let states = [-step, step].map(|step| self.place.state.moved(step, &unknowns));
+        let turning = turns.then(|| self.turning(system, sides, step, &states));
+        let direction = |step: f64| match &turning {
+            Some(turning) => moved(&self.place.direction, step, turning),
+            None => self.place.direction.clone(),
+        };
+        let [below, above] = states;
+        [
+            Moved { state: below, direction: direction(-step) },
+            Moved { state: above, direction: direction(step) },
+        ]
     }
 
     /// `−J⁻¹ ∂r/∂q`.
@@ -130,26 +142,26 @@ impl<M: Clone> Linearisation<M> {
             system.residual(state, &mut residual);
             residual.value
         };
-        let change = neighbours.difference(values(&neighbours.below), values(&neighbours.above));
+        let [below, above] = [&neighbours.below, &neighbours.above].map(values);
+        let change = difference(below, above, neighbours.step);
         self.solve(system, change)
     }
 
-    /// `−J⁻¹ d(J v)/dq` where the unknowns move.
+    /// `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
     fn turning<S: System<Mode = M>>(
         &mut self,
         system: &S,
-        neighbours: &Neighbours<S>,
-        unknowns: &[f64],
+        sides: [&S; 2],
+        step: f64,
+        states: &[State<M>; 2],
     ) -> Vec<f64> {
-        let Place { state, direction, .. } = &self.place;
-        let product = |system: &S, step: f64| {
-            let mut product = Product { by: direction, rows: vec![0.0; system.size()] };
-            system.tangent(&state.moved(step, unknowns), &mut product);
+        let product = |side: usize| {
+            let rows = vec![0.0; system.size()];
+            let mut product = Product { by: &self.place.direction, rows };
+            sides[side].tangent(&states[side], &mut product);
             product.rows
         };
-        let step = neighbours.step;
-        let below = product(&neighbours.below, -step);
-        let change = neighbours.difference(below, product(&neighbours.above, step));
+        let change = difference(product(0), product(1), step);
         self.solve(system, change)
     }
 
@@ -187,43 +199,10 @@ impl<M: Clone> Linearisation<M> {
         }
     }
 
-    /// The derivative of a function of system, state and direction where the place moves.
-    pub fn rate<S: System<Mode = M>>(
-        &self,
-        neighbours: &Neighbours<S>,
-        motion: &Motion,
-        f: impl Fn(&S, &State<M>, &[f64]) -> f64,
-    ) -> f64 {
-        let [below, above] = [Side::Left, Side::Right].map(|side| {
-            let (state, direction) = self.moved(neighbours, motion, side);
-            f(neighbours.on(side), &state, &direction)
-        });
-        (above - below) / (2.0 * neighbours.step)
-    }
-
-    /// State and direction for the neighbouring value of the parameter on one side.
-    pub fn moved<S>(
-        &self,
-        neighbours: &Neighbours<S>,
-        motion: &Motion,
-        side: Side,
-    ) -> (State<M>, Vec<f64>) {
-        let step = if side == Side::Left { -neighbours.step } else { neighbours.step };
-        let Place { state, direction, .. } = &self.place;
-        let turned = direction.iter().zip(&motion.direction).map(|(v, dv)| v + step * dv);
-        (state.moved(step, &motion.unknowns), turned.collect())
-    }
-
-    /// The change of sides that the motion of the place calls for between the value of the parameter and its neighbour on one
-    /// side: that of the constraint whose sign is violated most there. `None` if the active set holds.
-    pub fn violated<S: System<Mode = M>>(
-        &self,
-        neighbours: &Neighbours<S>,
-        motion: &Motion,
-        side: Side,
-    ) -> Option<Change> {
-        let (state, _) = self.moved(neighbours, motion, side);
-        let guards = Newton::guards(neighbours.on(side), &state);
+    /// The change of sides that the motion of the place calls for on one side of the parameter: that of the constraint whose
+    /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
+    pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
+        let guards = Newton::guards(system, &moved.state);
         let held = |constraint: usize| self.place.anchor == Anchor::Guard(constraint);
         let violated = guards.iter().enumerate().filter(|&(c, guard)| *guard < -FLOOR && !held(c));
         let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(b.1))?;
@@ -242,8 +221,7 @@ impl<M: Clone> Linearisation<M> {
         state.z[system.constraints()[change.constraint]] = 0.0;
         system.transition(&mut state, change)?;
         let condition = Condition::through(self.section.clone(), &self.place.state.z);
-        let direction =
-            Newton::new(system).solve(system, &mut state, &condition, settings).ok()?;
+        let direction = Newton::new(system).solve(system, &mut state, &condition, settings).ok()?;
         Self::new(system, Place { state, direction, anchor: self.place.anchor }).ok()
     }
 
@@ -257,7 +235,7 @@ impl<M: Clone> Linearisation<M> {
 impl<M: Clone> Place<M> {
     /// The place near this one at which a function of system, state and direction is stationary along the path, by the
     /// secant method. The function must have an extremum there. `None` where the iteration does not settle.
-    pub fn stationary<S: System<Mode = M> + Clone>(
+    pub fn stationary<S: System<Mode = M>>(
         &self,
         system: &S,
         f: &impl Fn(&S, &State<M>, &[f64]) -> f64,
@@ -274,6 +252,11 @@ impl<M: Clone> Place<M> {
             Some((distance, slope, place))
         };
         let (mut last, mut here) = (at(0.0)?, at(SECANT)?);
+        let value = f(system, &self.state, &self.direction);
+        if last.1.abs().max(here.1.abs()) <= FLAT * value.abs() {
+            // The function does not change along the path, or hardly.
+            return Some(last.2);
+        }
         for _ in 0..MOST_SECANTS {
             let step = -here.1 * (here.0 - last.0) / (here.1 - last.1);
             if !(step.abs() < FARTHEST) {
@@ -288,19 +271,15 @@ impl<M: Clone> Place<M> {
     }
 
     /// The derivative of a function along the path.
-    fn slope_along<S: System<Mode = M> + Clone>(
+    fn slope_along<S: System<Mode = M>>(
         &self,
         system: &S,
         f: &impl Fn(&S, &State<M>, &[f64]) -> f64,
     ) -> Option<f64> {
         let mut here = Linearisation::new(system, self.clone()).ok()?;
-        let motion = here.motion_along(system, ALONG);
-        let neighbours = Neighbours { below: system, above: system, step: ALONG };
-        let [below, above] = [Side::Left, Side::Right].map(|side| {
-            let (state, direction) = here.moved(&neighbours, &motion, side);
-            f(system, &state, &direction)
-        });
-        Some((above - below) / (2.0 * ALONG))
+        let [below, above] = here.moved_along(system, ALONG);
+        let value = |moved: &Moved<M>| f(system, &moved.state, &moved.direction);
+        Some((value(&above) - value(&below)) / (2.0 * ALONG))
     }
 }
 
@@ -308,6 +287,9 @@ impl<M: Clone> Place<M> {
 const SECANT: f64 = 1e-4;
 const FARTHEST: f64 = 0.1;
 const SETTLED: f64 = 1e-9;
+
+/// A function whose slope over the path is this part of its value is constant.
+const FLAT: f64 = 1e-9;
 
 /// Steps after which the search for a stationary place has failed.
 const MOST_SECANTS: usize = 20;
@@ -337,22 +319,16 @@ impl Anchor {
     }
 }
 
-impl<S> Neighbours<S> {
-    /// The system on one side.
-    pub fn on(&self, side: Side) -> &S {
-        match side {
-            Side::Left => &self.below,
-            Side::Right => &self.above,
-        }
+/// The derivative of what has these values below and above.
+fn difference(below: Vec<f64>, mut above: Vec<f64>, step: f64) -> Vec<f64> {
+    for (above, below) in above.iter_mut().zip(below) {
+        *above = (*above - below) / (2.0 * step);
     }
+    above
+}
 
-    /// The derivative of what has these values below and above.
-    fn difference(&self, below: Vec<f64>, mut above: Vec<f64>) -> Vec<f64> {
-        for (above, below) in above.iter_mut().zip(below) {
-            *above = (*above - below) / (2.0 * self.step);
-        }
-        above
-    }
+fn moved(from: &[f64], step: f64, rates: &[f64]) -> Vec<f64> {
+    from.iter().zip(rates).map(|(from, rate)| from + step * rate).collect()
 }
 
 /// The condition of the arc length in the controls.

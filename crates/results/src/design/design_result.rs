@@ -9,6 +9,7 @@ use sweep::{Case, DesignNumber};
 
 use super::failure::{Failure, FailureRow};
 use super::outcome::Outcome;
+use super::parameter_derivative::ParameterDerivative;
 use super::sample_statistics::SampleStatistics;
 
 /// Everything that a solved design measured, which is also what the journal keeps of it. It is small,
@@ -31,6 +32,9 @@ pub struct DesignResult {
     /// The statistics of imperfect samples, if they were asked for.
     #[serde(skip_serializing_if = "SampleStatistics::is_none")]
     pub samples: SampleStatistics,
+    /// The derivatives of the measures, if they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<ParameterDerivative>,
     /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
     ///
     /// [`SEPARATOR`]: super::failure::SEPARATOR

@@ -82,7 +82,7 @@ impl Reader {
         let expected = "the name of the sweep, e.g. name = \"paper\"";
         let missing = || refuse(file, "name", Problem::Missing { expected });
         let name = self.name.ok_or_else(missing)?;
-        let measures = self.measures.unwrap_or_else(|| Measure::ALL.to_vec());
+        let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let axes = axes::ordered(self.axes.into_iter().map(|written| written.axis).collect());
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
         Ok(Sweep { name, measures, grid })

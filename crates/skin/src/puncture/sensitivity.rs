@@ -1,0 +1,148 @@
+//! Derivatives of the measures of a puncture.
+
+use solver::Path;
+use substrate::RowStiffness;
+
+use super::system::{Chain, Layout};
+use super::{Followed, Problem, Puncture, PunctureParameters, RowLength, Rows};
+use crate::contacts::SkinState;
+use crate::record::{PathFunction, Record, Skin};
+use crate::sensitivity::{
+    self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
+};
+use crate::{Common, Design, InvalidDesign, Status};
+
+/// Everything that a puncture depends on.
+#[derive(Clone, Debug)]
+pub struct PunctureInput {
+    /// The design.
+    pub design: Design,
+    /// The stiffness of the substrate under its row.
+    pub stiffness: RowStiffness,
+    /// Contact law and solver settings.
+    pub common: Common,
+    /// The other parameters.
+    pub parameters: PunctureParameters,
+}
+
+/// Functions whose largest values are measures besides the stiffness.
+const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
+const LOAD: usize = 0;
+
+/// Follows a puncture as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter
+/// of each variation as well. There are none where the path did not come to its end.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn differentiate(
+    input: &PunctureInput,
+    variations: &[Variation<PunctureInput>],
+) -> Result<(Puncture, Vec<Derivative>), InvalidDesign> {
+    let PunctureInput { design, stiffness, common, parameters } = input;
+    let rows = Rows::Even(design.row()?);
+    let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
+    let (start, longest) = problem.start()?;
+    let mut followed = problem.follow(start, longest, &FOLLOWED)?;
+    let derivatives = match followed.status {
+        Status::Complete => problem.derivatives(&mut followed, variations)?,
+        _ => Vec::new(),
+    };
+    Ok((problem.puncture(followed), derivatives))
+}
+
+impl Problem<'_> {
+    fn derivatives(
+        &self,
+        followed: &mut Followed,
+        variations: &[Variation<PunctureInput>],
+    ) -> Result<Vec<Derivative>, InvalidDesign> {
+        let Followed { record, path, .. } = followed;
+        let spots = self.spots(record, path);
+        let system = path.system();
+        let chain = |input: &PunctureInput| input.chain(system.layout);
+        let variations: Result<Vec<_>, _> =
+            variations.iter().map(|variation| variation.map(chain)).collect();
+        Ok(derivatives(system, spots, &variations?, &self.settings))
+    }
+
+    /// The places of the path at which measures are taken.
+    fn spots(&self, record: &Record<Chain>, path: &mut Path<Chain>) -> Vec<Spot<Chain>> {
+        let settings = &self.settings;
+        let stiffest = record.stiffness_summit(path);
+        let stiffest = stiffest
+            .and_then(|summit| sensitivity::summit(path, &summit, Chain::stiffness, settings));
+        let highest = record.summit(path, LOAD);
+        let highest =
+            highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
+        let chain = path.system();
+        let touching = record.touching().and_then(|point| first_contact(chain, point));
+        let spot = |place, quantities| Spot { place, quantities };
+        vec![
+            spot(Some(end(path)), at_end()),
+            spot(highest, vec![Quantity { measure: "peak_force", ..at_end().remove(0) }]),
+            spot(touching, vec![depth("first_contact_displacement")]),
+            spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
+            spot(stiffest, vec![stiffness("max_stiffness")]),
+        ]
+    }
+}
+
+impl PunctureInput {
+    /// The system of a row of so many scales.
+    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+        let Self { design, stiffness, common, parameters } = self;
+        let rows = Rows::Even(design.leaning_row()?);
+        let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
+        match parameters.scales {
+            RowLength::Auto => problem.part(layout),
+            RowLength::Scales(_) => problem.chain(layout),
+        }
+    }
+}
+
+/// The quantities at the critical tilt.
+fn at_end() -> Vec<Quantity<Chain>> {
+    vec![
+        quantity("critical_force", |chain, state, _, _| chain.force(state)),
+        depth("critical_displacement"),
+        Quantity {
+            largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
+            ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
+        },
+        Quantity {
+            largest: Some(|chain, state| largest(chain, |i| sink(chain, state, i))),
+            ..quantity("sink", |chain, state, _, i| sink(chain, state, i))
+        },
+        quantity("secant_stiffness", |chain, state, _, _| {
+            chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
+        }),
+    ]
+}
+
+fn quantity(
+    measure: &'static str,
+    value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
+) -> Quantity<Chain> {
+    Quantity { measure, value, largest: None, turns: false }
+}
+
+fn depth(measure: &'static str) -> Quantity<Chain> {
+    quantity(measure, |chain, state, _, _| chain.depth(&state.z))
+}
+
+fn stiffness(measure: &'static str) -> Quantity<Chain> {
+    let value = |chain: &Chain, state: &SkinState, direction: &[f64], _| {
+        chain.plane_modulus * chain.stiffness(state, direction)
+    };
+    Quantity { turns: true, ..quantity(measure, value) }
+}
+
+fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {
+    -chain.displacement(&state.z, scale)[1]
+}
+
+/// The scale for which a number is the largest.
+fn largest(chain: &Chain, f: impl Fn(usize) -> f64) -> usize {
+    let scales = 0..chain.layout.scales();
+    scales.max_by(|&i, &j| f(i).total_cmp(&f(j))).unwrap_or_default()
+}
