@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
-/// What a shell adds to the number of a signal that ended a process.
+/// A shell adds this to the number of a signal that ended a process.
 const BASE: u8 = 128;
 
 /// Listens to SIGINT and SIGTERM: the first asks the run to end, the second ends the process.

@@ -50,12 +50,12 @@ fn main() -> ExitCode {
     done.map_or_else(|error| refuse(&error), ExitCode::from)
 }
 
-/// Whether it is no error but a question for help.
+/// Whether the error is a question for help.
 fn is_help(error: &clap::Error) -> bool {
     error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
 }
 
-/// What is wrong with the arguments, without the advice that follows it.
+/// The fault of the arguments in one line, without the advice that follows it.
 fn one_line(error: &clap::Error) -> anyhow::Error {
     let text = error.to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));

@@ -1,6 +1,6 @@
 //! The contact law, Eq. (5).
 
-use thiserror::Error;
+use geometry::OutOfRange;
 
 /// Constants of the contact law `F/(L b E_ct) = C₁ (δ/L)^C₂` (Eq. 5).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,16 +17,6 @@ impl Law {
 
     /// The printed constants exchanged, the reading that finite elements support.
     pub const EXCHANGED: Self = Self { c1: 0.23, c2: 1.1 };
-}
-
-/// A contact law with a constant that is not positive and finite.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
-#[error("{name} of the contact law is {value}, expected a positive number")]
-pub struct InvalidLaw {
-    /// Name of the constant.
-    pub name: &'static str,
-    /// The value given.
-    pub value: f64,
 }
 
 /// Contact between scales of one design: the approach `δ` that a force `λ` on a corner takes.
@@ -67,18 +57,17 @@ impl ContactLaw {
     ///
     /// # Errors
     /// If a number is not positive and finite.
-    pub fn new(law: Law, length: f64, width: f64, modulus: f64) -> Result<Self, InvalidLaw> {
+    pub fn new(law: Law, length: f64, width: f64, modulus: f64) -> Result<Self, OutOfRange> {
         let numbers = [
-            ("c1", law.c1),
-            ("c2", law.c2),
-            ("length", length),
-            ("width", width),
-            ("modulus", modulus),
+            ("c1 of the contact law", law.c1),
+            ("c2 of the contact law", law.c2),
+            ("length of the contact law", length),
+            ("width of the contact law", width),
+            ("modulus of the contact law", modulus),
         ];
-        for (name, value) in numbers {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(InvalidLaw { name, value });
-            }
+        for (quantity, value) in numbers {
+            let is_positive = value > 0.0 && value.is_finite();
+            OutOfRange::unless(is_positive, quantity, value, "a positive number")?;
         }
         Ok(Self { force: law.c1 * length * width * modulus, length, exponent: law.c2 })
     }

@@ -64,7 +64,7 @@ impl CornerContact {
         }
     }
 
-    /// The same as [`CornerContact::response`] without the conditions of the forces that do not act.
+    /// The response of [`CornerContact::response`] without the conditions of the forces that do not act.
     pub fn acting_response(
         self,
         corners: &Corners,

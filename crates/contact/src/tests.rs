@@ -266,7 +266,7 @@ fn sides_are_parallel_where_their_directions_agree() {
     assert!(!parallel(0.0, 0.0) && !parallel(-20.0, 0.0) && !parallel(0.0, 20.0));
 }
 
-/// What the corners of two levels face where the scales stand in these places.
+/// The edges that the corners of two levels face where the scales stand in these places.
 fn faced(slant: f64, pitch: f64, left: [f64; 2], right: [f64; 2]) -> [Option<CornerEdge>; 2] {
     let pair = Pair::new(Parallelogram::new(0.5, slant).unwrap(), pitch);
     let poses = [left, right].map(|[x, y]| Pose::new(x, y, 0.0));

@@ -70,6 +70,15 @@ pub struct GapEnergies {
     pub bending: f64,
 }
 
+/// Derivatives of the potential of a gap with respect to its state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derivatives {
+    /// The first derivatives, in the order of the state.
+    pub gradient: DVector<f64>,
+    /// The second derivatives, symmetric.
+    pub hessian: DMatrix<f64>,
+}
+
 /// Orders that [`Elastica::new`] accepts: a polynomial bends from 2 on, and more than 128 points are a mistake.
 const ORDERS: std::ops::RangeInclusive<usize> = 2..=128;
 
@@ -83,10 +92,10 @@ impl Elastica {
         check(&span)?;
         let accepted = ORDERS.contains(&order);
         OutOfRange::unless(accepted, "order of the membrane", order as f64, "2 to 128")?;
-        Ok(Self { section, span, rule: Arc::new(Lobatto::new(order)) })
+        Ok(Self { section, span, rule: Lobatto::shared(order) })
     }
 
-    /// The same membrane over another span.
+    /// A membrane of this section and order over another span.
     ///
     /// # Errors
     /// If the gap is not positive and finite, the half-base negative, or the offset not finite.
@@ -115,7 +124,7 @@ impl Elastica {
         2.0 * self.span.half_base + self.span.gap
     }
 
-    /// What the entries of [`Self::gradient`] are to be compared with, in the order of the state.
+    /// The sizes that the entries of the gradient are to be compared with, in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         let [axial, bending] = self.stiffness();
         let mut units = DVector::from_element(self.unknowns(), bending);
@@ -125,67 +134,52 @@ impl Elastica {
         units
     }
 
-    /// `∂Π/∂z` (M21): the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over `E_m t²`) and the
+    /// Returns the derivatives of the potential (M21) at a state.
+    ///
+    /// The gradient holds the residuals of the gap's own unknowns, then the force `(Fₓ, F_y)` (over `E_m t²`) and the
     /// moment about its node (over `E_m t³`) that hold the right scale.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
-    pub fn gradient(&self, z: &[f64]) -> DVector<f64> {
+    pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         let State { psi, force, phi, .. } = State::new(z);
         let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
+        let (lever, stiffness) = (self.lever(phi), self.rule.stiffness.view((1, 1), (f, f)));
         let mut gradient = DVector::zeros(z.len());
-        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
         gradient.rows_mut(0, f).gemv(bending, &stiffness, &psi, 0.0);
-        let mut moment = bending * phi + axial * force.dot(&quarter_turn(self.lever(phi)));
-        let mut closure = self.base_to_base(z);
+        let mut hessian = DMatrix::zeros(z.len(), z.len());
+        hessian.view_mut((0, 0), (f, f)).copy_from(&(bending * stiffness));
+        let mut moment = bending * phi + axial * force.dot(&quarter_turn(lever));
+        let mut turning = bending - axial * force.dot(&lever);
+        let (mut closure, mut coupling) = (self.base_to_base(z), axial * quarter_turn(lever));
         for (i, section) in self.sections(z) {
-            let turning = -self.weight(i) * (1.0 + section.strain) * section.shear;
-            moment += self.rule.points[i] * turning;
-            closure -= self.weight(i) / axial * (1.0 + section.strain) * section.along;
+            let (weight, xi) = (self.weight(i), self.rule.points[i]);
+            let Direction { along, across, strain, shear } = section;
+            let torque = -weight * (1.0 + strain) * shear;
+            let stiffness = -weight * (shear * shear - (1.0 + strain) * strain);
+            let mixed = -weight * ((1.0 + strain) * across + shear * along);
+            moment += xi * torque;
+            turning += xi * xi * stiffness;
+            closure -= weight / axial * (1.0 + strain) * along;
+            coupling += xi * mixed;
+            let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
+            stretching -= weight * (along * along.transpose());
             if (1..=f).contains(&i) {
-                gradient[i - 1] += turning;
+                gradient[i - 1] += torque;
+                hessian[(i - 1, i - 1)] += stiffness;
+                set(&mut hessian, [i - 1, f + 4], xi * stiffness);
+                set(&mut hessian, [i - 1, f], mixed.x);
+                set(&mut hessian, [i - 1, f + 1], mixed.y);
             }
         }
         let [closure, right] = [axial * closure, axial * force];
         gradient.rows_mut(f, 5).copy_from_slice(&[closure.x, closure.y, right.x, right.y, moment]);
-        gradient
-    }
-
-    /// `∂²Π/∂z²` (M21), symmetric.
-    ///
-    /// # Panics
-    /// If the state `z` has neither [`Self::unknowns`] nor five entries.
-    pub fn hessian(&self, z: &[f64]) -> DMatrix<f64> {
-        let State { force, phi, .. } = State::new(z);
-        let ([axial, bending], f) = (self.stiffness(), z.len() - 5);
-        let [right, turn] = [f + 2, f + 4];
-        let lever = self.lever(phi);
-        let mut hessian = DMatrix::zeros(z.len(), z.len());
-        let stiffness = self.rule.stiffness.view((1, 1), (f, f));
-        hessian.view_mut((0, 0), (f, f)).copy_from(&(bending * stiffness));
-        hessian[(turn, turn)] = bending - axial * force.dot(&lever);
-        let mut coupling = axial * quarter_turn(lever);
-        for (i, section) in self.sections(z) {
-            let (weight, xi) = (self.weight(i), self.rule.points[i]);
-            let Direction { along, across, strain, shear } = section;
-            let turning = -weight * (shear * shear - (1.0 + strain) * strain);
-            let mixed = -weight * ((1.0 + strain) * across + shear * along);
-            let mut stretching = hessian.fixed_view_mut::<2, 2>(f, f);
-            stretching -= weight * (along * along.transpose());
-            hessian[(turn, turn)] += xi * xi * turning;
-            coupling += xi * mixed;
-            if (1..=f).contains(&i) {
-                hessian[(i - 1, i - 1)] += turning;
-                set(&mut hessian, i - 1, turn, xi * turning);
-                set(&mut hessian, i - 1, f, mixed.x);
-                set(&mut hessian, i - 1, f + 1, mixed.y);
-            }
-        }
+        hessian[(f + 4, f + 4)] = turning;
         for axis in 0..2 {
-            set(&mut hessian, f + axis, right + axis, axial);
-            set(&mut hessian, f + axis, turn, coupling[axis]);
+            set(&mut hessian, [f + axis, f + 2 + axis], axial);
+            set(&mut hessian, [f + axis, f + 4], coupling[axis]);
         }
-        hessian
+        Derivatives { gradient, hessian }
     }
 
     /// Energies at a state that satisfies the equations of the gap's own unknowns.
@@ -236,7 +230,7 @@ impl Elastica {
         std::iter::once(start).chain(steps).collect()
     }
 
-    /// The same state seen by a membrane of another order, its direction interpolated.
+    /// The state `z` as a membrane of another order sees it, its direction interpolated.
     ///
     /// # Panics
     /// If the state `z` has neither [`Self::unknowns`] nor five entries.
@@ -340,7 +334,7 @@ impl Direction {
 }
 
 /// Sets an entry of a symmetric matrix.
-fn set(matrix: &mut DMatrix<f64>, row: usize, column: usize, value: f64) {
+fn set(matrix: &mut DMatrix<f64>, [row, column]: [usize; 2], value: f64) {
     matrix[(row, column)] = value;
     matrix[(column, row)] = value;
 }

@@ -48,7 +48,7 @@ mod rigid_arm;
 mod section;
 
 pub use corotational_beam::{CorotationalBeam, Ends, Local, Response, Stiffness};
-pub use elastica::{Elastica, GapEnergies};
+pub use elastica::{Derivatives, Elastica, GapEnergies};
 pub use gap::{GapMembrane, GapResponse, Span};
 pub use membrane::Membrane;
 pub use rigid_arm::{OffsetBeam, RigidArm};

@@ -1,9 +1,9 @@
 //! Either model of the membrane in a gap, behind one interface.
 
 use geometry::Vec2;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
-use crate::{Elastica, GapEnergies, GapMembrane};
+use crate::{Derivatives, Elastica, GapEnergies, GapMembrane, GapResponse};
 
 /// The membrane in one gap: co-rotational elements, or the extensible elastica that is their limit.
 ///
@@ -42,7 +42,7 @@ impl Membrane {
         }
     }
 
-    /// Returns what the entries of [`Self::gradient`] are to be compared with, in the order of the state.
+    /// Returns the sizes that the entries of the gradient are to be compared with, in the order of the state.
     pub fn units(&self) -> DVector<f64> {
         match self {
             Self::Elements(gap) => gap.units(),
@@ -50,22 +50,17 @@ impl Membrane {
         }
     }
 
-    /// Returns the gradient of the potential of the gap with respect to its state `z`.
-    pub fn gradient(&self, z: &[f64]) -> DVector<f64> {
-        match self {
-            Self::Elements(gap) => gap.response(&from_left(z)).force.rows(3, z.len()).into_owned(),
-            Self::Elastica(gap) => gap.gradient(z),
-        }
-    }
-
-    /// Returns the second derivatives of the potential of the gap with respect to its state `z`, symmetric.
-    pub fn hessian(&self, z: &[f64]) -> DMatrix<f64> {
+    /// Returns the derivatives of the potential of the gap with respect to its state `z`.
+    pub fn derivatives(&self, z: &[f64]) -> Derivatives {
         match self {
             Self::Elements(gap) => {
-                let tangent = gap.response(&from_left(z)).tangent;
-                tangent.view((3, 3), (z.len(), z.len())).into_owned()
+                let GapResponse { force, tangent, .. } = gap.response(&from_left(z));
+                Derivatives {
+                    gradient: force.rows(3, z.len()).into_owned(),
+                    hessian: tangent.view((3, 3), (z.len(), z.len())).into_owned(),
+                }
             }
-            Self::Elastica(gap) => gap.hessian(z),
+            Self::Elastica(gap) => gap.derivatives(z),
         }
     }
 

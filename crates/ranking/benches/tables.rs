@@ -1,4 +1,4 @@
-//! What is made from the tables of a run of 100,000 designs; each within two seconds.
+//! Ranking and comparison of the tables of a run of 100,000 designs; each takes less than two seconds.
 
 #[path = "../../results/tests/samples/mod.rs"]
 mod samples;

@@ -59,7 +59,7 @@ pub struct ColumnDifference {
     pub name: String,
     /// Designs that have a value in both runs.
     pub compared: usize,
-    /// Those whose values differ by more than the tolerance.
+    /// Designs whose values differ by more than the tolerance.
     pub differing: usize,
     /// Designs that have a value in the first run alone.
     pub only_first: usize,

@@ -57,10 +57,10 @@ pub enum InvalidWeights {
         /// The number of weights.
         found: usize,
     },
-    /// They do not sum to 1.
+    /// The weights do not sum to 1.
     #[error("the weights sum to {}, expected 1", number::text(*sum))]
     Sum {
-        /// Their sum.
+        /// The sum of the weights.
         sum: f64,
     },
 }

@@ -22,7 +22,7 @@ use sheet::{Guide, Sheet};
 /// Rows that a sheet takes below its header.
 const ROWS: u32 = 1_048_575;
 
-/// What a workbook holds.
+/// The content of a workbook that was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
     /// Names of its tables and how many rows each has.
@@ -43,7 +43,7 @@ pub enum ExportError {
     Unreadable {
         /// The table.
         file: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the table, in words.
         reason: String,
     },
     /// A table is longer than a sheet.
@@ -117,7 +117,7 @@ fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported
     Ok(Exported { tables })
 }
 
-/// The same whenever a workbook is written, so that equal tables make equal bytes.
+/// The properties of every workbook: they hold no time of writing, so that equal tables make equal bytes.
 fn properties() -> Result<DocProperties, XlsxError> {
     let epoch = ExcelDateTime::from_ymd(2000, 1, 1)?;
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
@@ -159,7 +159,7 @@ fn unwritable(folder: &RunFolder, name: &str, reason: &str) -> ExportError {
     OutputError::file(&folder.file(name), &io::Error::other(reason.to_owned())).into()
 }
 
-/// What a panic says, in one line; of an error of the system, its message.
+/// The message of a panic, in one line; of an error of the system, its own message.
 fn said(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());

@@ -1,120 +1,34 @@
 //! The one list of columns: every table, and every explanation of a column, comes from here.
 
 pub mod cell;
+mod column;
+mod failures;
+mod measured_value;
 mod path;
+mod reruns;
 mod samples;
+mod sensitivity;
 mod values;
 
 use std::borrow::Borrow;
 
-use sweep::{Axis, Measure, PARAMETERS, Parameter, Sweep};
+use sweep::{Axis, Parameter, Sweep};
 
-use crate::design::design_result::DesignRow;
-use crate::design::failure::{FailureRow, failure_detail_columns};
-use crate::folder::RunFolder;
+use crate::design::row::{DesignRow, FailureRow};
+use crate::folder::{MEASURE_TABLES, RunFolder};
+use measured_value::MeasuredValue;
 use samples::SAMPLE_VALUES;
 use values::VALUES;
 
 pub use cell::Cell;
+pub use column::{Column, number, parameter_of};
+pub use failures::failure_detail_columns;
 pub use path::{
     BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
     STEPS,
 };
-
-/// A column of a table whose rows are `R`.
-pub struct Column<R> {
-    /// The header of the column.
-    pub name: &'static str,
-    /// Unit, `-` if it has none.
-    pub unit: &'static str,
-    /// The meaning of its cells, in half a sentence.
-    pub meaning: &'static str,
-    cell: CellSource<R>,
-}
-
-/// The function that makes the cell of a row.
-enum CellSource<R> {
-    Value(fn(&R) -> Cell),
-    Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
-}
-
-impl<R> Column<R> {
-    /// A column whose cells `cell` makes.
-    pub const fn new(
-        name: &'static str,
-        unit: &'static str,
-        meaning: &'static str,
-        cell: fn(&R) -> Cell,
-    ) -> Self {
-        Self { name, unit, meaning, cell: CellSource::Value(cell) }
-    }
-
-    /// The column of a parameter, whose cells `cell` makes.
-    pub fn parameter(parameter: &'static Parameter, cell: fn(&R, &Parameter) -> Cell) -> Self {
-        Self {
-            name: header(parameter),
-            unit: parameter.unit,
-            meaning: parameter.meaning,
-            cell: CellSource::Parameter(parameter, cell),
-        }
-    }
-
-    /// The cell of this column in a row.
-    pub fn cell(&self, row: &R) -> Cell {
-        match self.cell {
-            CellSource::Value(cell) => cell(row),
-            CellSource::Parameter(parameter, cell) => cell(row, parameter),
-        }
-    }
-}
-
-/// The column of the number of a design.
-pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
-    Column::new("design", "-", "position of the design in the grid of its sweep", cell)
-}
-
-/// The header of the column of a parameter: its key, but for those that are also values. A row may have more scales than
-/// were asked for, and a strip as many gaps as its length holds.
-fn header(parameter: &Parameter) -> &'static str {
-    match parameter.key {
-        "scales" => "scales_asked",
-        "gaps" => "gaps_asked",
-        key => key,
-    }
-}
-
-/// The parameter whose column has that header.
-pub fn parameter_of(name: &str) -> Option<&'static Parameter> {
-    PARAMETERS.iter().find(|parameter| header(parameter) == name)
-}
-
-/// A measured value, with the tables in which it stands besides `designs.csv`.
-struct MeasuredValue {
-    tables: &'static [&'static str],
-    name: &'static str,
-    unit: &'static str,
-    meaning: &'static str,
-    cell: fn(&DesignRow) -> Cell,
-}
-
-/// The tables of one measure, named by the value that they are about.
-pub const MEASURE_TABLES: [(&str, Measure); 4] = [
-    ("coverage", Measure::Coverage),
-    ("critical_force", Measure::Puncture),
-    ("penetration", Measure::Puncture),
-    ("compliance", Measure::Flexure),
-];
-
-impl MeasuredValue {
-    fn column(&self) -> Column<DesignRow> {
-        Column::new(self.name, self.unit, self.meaning, self.cell)
-    }
-
-    /// Whether it is what a table of its own is about.
-    fn leads(&self) -> bool {
-        MEASURE_TABLES.iter().any(|(table, _)| *table == self.name)
-    }
-}
+pub use reruns::RERUN_COLUMNS;
+pub use sensitivity::DERIVATIVE_COLUMNS;
 
 /// The measured values of the designs of `sweep`.
 fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {

@@ -5,4 +5,5 @@ pub mod failure;
 pub mod outcome;
 pub mod parameter_derivative;
 pub mod rerun_change;
+pub mod row;
 pub mod sample_statistics;

@@ -5,9 +5,17 @@ mod atomic_file;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use sweep::Measure;
+
 pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
 
-use crate::columns::MEASURE_TABLES;
+/// The tables of one measure, named by the value that they are about.
+pub const MEASURE_TABLES: [(&str, Measure); 4] = [
+    ("coverage", Measure::Coverage),
+    ("critical_force", Measure::Puncture),
+    ("penetration", Measure::Puncture),
+    ("compliance", Measure::Flexure),
+];
 
 /// The folder of a run. It owns the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -46,16 +46,19 @@ mod reader;
 mod tables;
 
 pub use columns::cell::Cell;
-pub use columns::{Column, failure_columns};
-pub use design::design_result::{
-    DesignResult, DesignRow, FlexureResult, PunctureResult, SolvedDesign, finite,
+pub use columns::{
+    Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
 };
-pub use design::failure::{Failure, FailureRow, PathEnd, SEPARATOR, failure_detail_columns};
+pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
+pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
-pub use design::parameter_derivative::{DERIVATIVE_COLUMNS, DerivativeRow, ParameterDerivative};
-pub use design::rerun_change::{RERUN_COLUMNS, RerunChange};
+pub use design::parameter_derivative::ParameterDerivative;
+pub use design::rerun_change::RerunChange;
+pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
-pub use folder::{AtomicFile, OutputError, RunFolder, make_folder, sync_folder, write_text};
+pub use folder::{
+    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
+};
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
 pub use tables::csv_file::{CsvFile, write_rows};

@@ -4,11 +4,10 @@ use skin::flexure::Flexure;
 use skin::puncture::Puncture;
 
 use crate::columns::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
-    STEPS,
+    BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
+    FLEXURE_STEPS, PATH, SCALES, STEPS,
 };
-use crate::design::design_result::SolvedDesign;
-use crate::design::parameter_derivative::DERIVATIVE_COLUMNS;
+use crate::design::row::SolvedDesign;
 use crate::folder::{OutputError, RunFolder};
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;

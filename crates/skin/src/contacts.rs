@@ -147,20 +147,6 @@ impl Contacts {
         state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
-    /// Adds what the closed contacts contribute to the equations.
-    pub(crate) fn add_residual(&self, state: &SkinState, residual: &mut Residual) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_response(contact, acting, response, residual);
-        });
-    }
-
-    /// Adds what the closed contacts contribute to the tangent.
-    pub(crate) fn add_tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_derivatives(contact, acting, response, matrix);
-        });
-    }
-
     /// Adds what the closed contacts contribute to the equations and to the tangent.
     pub(crate) fn linearise(
         &self,

@@ -17,12 +17,12 @@ mod uneven_tests;
 use std::collections::HashSet;
 
 use frame::{Frame, Step};
-use geometry::Row;
+use geometry::{OutOfRange, Row};
 use problem::FlexureProblem;
 
 use crate::arrangement::Arrangement;
 use crate::record::{ContactEvent, Iteration};
-use crate::{Common, ContactChange, Design, InvalidDesign, Sample, Status};
+use crate::{Common, ContactChange, Design, Sample, Status};
 
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
@@ -141,7 +141,7 @@ pub fn solve(
     design: &Design,
     common: &Common,
     parameters: &FlexureParameters,
-) -> Result<Flexure, InvalidDesign> {
+) -> Result<Flexure, OutOfRange> {
     FlexureProblem::even(design, common, parameters)?.solve()
 }
 
@@ -157,6 +157,6 @@ pub fn solve_sample(
     common: &Common,
     parameters: &FlexureParameters,
     sample: &Sample,
-) -> Result<Flexure, InvalidDesign> {
+) -> Result<Flexure, OutOfRange> {
     FlexureProblem::sample(design, common, parameters, sample)?.solve()
 }

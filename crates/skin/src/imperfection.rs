@@ -6,7 +6,7 @@ use rand_chacha::rand_core::SeedableRng as _;
 use rand_distr::{Distribution as _, StandardNormal};
 use sha2::{Digest as _, Sha256};
 
-use crate::{Base, Design, InvalidDesign};
+use crate::{Base, Design};
 
 /// Slants of single scales stay below this, to either side, degrees.
 const STEEPEST_DEG: f64 = 89.0;
@@ -49,13 +49,13 @@ impl Imperfection {
 
     /// Sample `number` of the rows of `design`.
     ///
-    /// What it is depends on the seed, the number and the geometry of the design alone, not on where
+    /// A sample depends on the seed, the number and the geometry of the design alone, not on where
     /// or in which order samples are drawn. The normal numbers do not depend on how far the row
     /// scatters: they are the same for another `cv` or `sd`, but where (I3) refuses them.
     ///
     /// # Errors
     /// If a number is negative or not finite, or the design has no geometrical meaning.
-    pub fn sample(&self, design: &Design, seed: u64, number: u64) -> Result<Sample, InvalidDesign> {
+    pub fn sample(&self, design: &Design, seed: u64, number: u64) -> Result<Sample, OutOfRange> {
         let rules = [
             ("coefficient of variation of the gaps", self.gap_cv),
             ("standard deviation of the slants", self.slant_sd_deg),
@@ -63,7 +63,7 @@ impl Imperfection {
         for (quantity, value) in rules {
             if !(value >= 0.0 && value.is_finite()) {
                 let expected = "a number of at least 0";
-                return Err(OutOfRange { quantity, value, expected }.into());
+                return Err(OutOfRange { quantity, value, expected });
             }
         }
         // Only the check.
@@ -107,7 +107,7 @@ impl Sample {
     ///
     /// # Errors
     /// If no scale is found that stands clear of its neighbour.
-    pub fn row(&self, left: usize, right: usize) -> Result<UnevenRow, InvalidDesign> {
+    pub fn row(&self, left: usize, right: usize) -> Result<UnevenRow, OutOfRange> {
         let centre = self.centre()?;
         let to_right = self.side(Stream::Right, centre, right)?;
         let mut to_left = self.side(Stream::Left, centre, left)?;
@@ -115,10 +115,10 @@ impl Sample {
         let scales = to_left.iter().map(|(scale, _)| *scale).chain([centre]);
         let scales = scales.chain(to_right.iter().map(|(scale, _)| *scale)).collect();
         let gaps = to_left.iter().chain(&to_right).map(|(_, gap)| *gap).collect();
-        Ok(UnevenRow::new(scales, gaps)?)
+        UnevenRow::new(scales, gaps)
     }
 
-    fn centre(&self) -> Result<Parallelogram, InvalidDesign> {
+    fn centre(&self) -> Result<Parallelogram, OutOfRange> {
         let mut random = self.random(Stream::Centre);
         let drawn = (0..DRAWS).find_map(|_| self.slanted(normal(&mut random)));
         drawn.ok_or_else(|| self.crowded())
@@ -130,7 +130,7 @@ impl Sample {
         stream: Stream,
         centre: Parallelogram,
         count: usize,
-    ) -> Result<Vec<(Parallelogram, f64)>, InvalidDesign> {
+    ) -> Result<Vec<(Parallelogram, f64)>, OutOfRange> {
         let mut random = self.random(stream);
         let mut last = centre;
         let mut side = Vec::with_capacity(count);
@@ -180,13 +180,12 @@ impl Sample {
         random
     }
 
-    fn crowded(&self) -> InvalidDesign {
+    fn crowded(&self) -> OutOfRange {
         OutOfRange {
             quantity: "standard deviation of the slants",
             value: self.imperfection.slant_sd_deg,
             expected: "one small enough for scales to stand clear of each other",
         }
-        .into()
     }
 }
 

@@ -26,7 +26,6 @@
 //! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
 //! | [`ContactEvent`], [`ContactChange`], [`Contact`] | a change of a contact along the path; a contact of a state |
-//! | [`InvalidDesign`] | a parameter without mechanical meaning |
 //!
 //! ```
 //! use skin::puncture::{self, PunctureParameters};
@@ -52,7 +51,6 @@ mod crossing;
 mod design;
 pub mod flexure;
 mod imperfection;
-mod invalid;
 pub mod puncture;
 mod record;
 mod sensitivity;
@@ -62,7 +60,6 @@ pub use common::Common;
 pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};
-pub use invalid::InvalidDesign;
 pub use record::{ContactEvent, Iteration};
 pub use sensitivity::{Derivative, Variation};
 pub use solver::Neighbours;

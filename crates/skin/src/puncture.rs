@@ -20,7 +20,7 @@ use window::{Reach, Surroundings};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
-use crate::{Common, Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, Sample, Status};
 
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
@@ -96,7 +96,7 @@ pub fn solve(
     substrate: impl Into<RowStiffness>,
     common: &Common,
     parameters: &PunctureParameters,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Even(design.row()?), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -111,7 +111,7 @@ pub fn solve_sample(
     common: &Common,
     parameters: &PunctureParameters,
     sample: &Sample,
-) -> Result<Puncture, InvalidDesign> {
+) -> Result<Puncture, OutOfRange> {
     Problem::new(Rows::Sample(sample), design, substrate.into(), common, parameters)?.solve()
 }
 
@@ -123,7 +123,7 @@ enum Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn row(self, layout: Layout) -> Result<Arrangement, InvalidDesign> {
+    fn row(self, layout: Layout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
             Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
@@ -175,7 +175,7 @@ impl<'a> Problem<'a> {
         stiffness: RowStiffness,
         common: &Common,
         parameters: &'a PunctureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         parameters.check()?;
         Self::unchecked(rows, design, stiffness, common, parameters)
     }
@@ -187,20 +187,20 @@ impl<'a> Problem<'a> {
         stiffness: RowStiffness,
         common: &Common,
         parameters: &'a PunctureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
         Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
     }
 
-    fn solve(&self) -> Result<Puncture, InvalidDesign> {
+    fn solve(&self) -> Result<Puncture, OutOfRange> {
         let (start, longest) = self.start()?;
         Ok(self.puncture(self.follow(start, longest, &[])?))
     }
 
     /// The system with which the path begins, and the longest row that it may grow to.
-    fn start(&self) -> Result<(Chain, usize), InvalidDesign> {
+    fn start(&self) -> Result<(Chain, usize), OutOfRange> {
         Ok(match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
@@ -212,7 +212,7 @@ impl<'a> Problem<'a> {
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     #[cfg(test)]
-    fn grow(&self, longest: usize) -> Result<Puncture, InvalidDesign> {
+    fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
         let start = self.part(Layout::first(&self.stiffness))?;
         Ok(self.puncture(self.follow(start, longest, &[])?))
     }
@@ -223,7 +223,7 @@ impl<'a> Problem<'a> {
         chain: Chain,
         longest: usize,
         functions: &[PathFunction<Chain>],
-    ) -> Result<Followed, InvalidDesign> {
+    ) -> Result<Followed, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path, functions);
@@ -258,7 +258,7 @@ impl<'a> Problem<'a> {
         from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
-    ) -> Result<bool, InvalidDesign> {
+    ) -> Result<bool, OutOfRange> {
         let layout = path.system().layout;
         let longer = layout.grown(reach, longest);
         if longer == layout {
@@ -272,13 +272,13 @@ impl<'a> Problem<'a> {
     }
 
     /// The system of a part of an endless row.
-    fn part(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn part(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
         Ok(self.chain(layout)?.within(surroundings))
     }
 
     /// The system of a row that ends.
-    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { stiffness, law, parameters, .. } = self;
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();

@@ -74,7 +74,7 @@ pub(crate) fn derivatives<S: Skin>(
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
-    for Spot { place, quantities } in spots {
+    for Spot { place, quantities } in merged(spots) {
         let here = place.and_then(|place| Linearisation::new(system, place).ok());
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
@@ -86,6 +86,22 @@ pub(crate) fn derivatives<S: Skin>(
         }
     }
     derivatives
+}
+
+/// The spots, those at one place together.
+fn merged<S: Skin>(spots: Vec<Spot<S>>) -> Vec<Spot<S>> {
+    let mut merged: Vec<Spot<S>> = Vec::new();
+    for spot in spots {
+        let is_there = |other: &&mut Spot<S>| match (&other.place, &spot.place) {
+            (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
+            _ => false,
+        };
+        match merged.iter_mut().find(is_there) {
+            Some(there) => there.quantities.extend(spot.quantities),
+            None => merged.push(spot),
+        }
+    }
+    merged
 }
 
 /// A place whose tangent is factorised.
@@ -206,7 +222,8 @@ impl<S: Skin> Quantity<S> {
         motion: &SideMotion<S::Mode>,
         side: usize,
     ) -> Option<f64> {
-        let moved = motion.moved.as_ref()?;
+        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
+        let moved = motion.moved.as_ref().filter(|_| !(self.turns && motion.change.is_some()))?;
         let systems = [&neighbours.below, &neighbours.above];
         let scale = self.largest.map_or(0, |f| f(systems[side], &moved[side].state));
         let value = |side: usize| {

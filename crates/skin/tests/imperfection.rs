@@ -96,7 +96,7 @@ fn samples_are_reproducible_and_differ() {
     assert_ne!(relative(&STEEP), relative(&narrower));
 }
 
-/// The same normal numbers, whatever they are multiplied by: (I1) turned round.
+/// The normal numbers of a sample do not depend on what they are multiplied by: (I1) turned round.
 #[test]
 fn more_scatter_is_the_same_row_with_larger_deviations() {
     let [some, more] = [0.05_f64, 0.1].map(|cv| {

@@ -1,13 +1,16 @@
-//! One factorisation and solve of a banded tangent, such as that of a row of scales: band LU against faer's sparse LU
-//! with its symbolic part reused.
+//! One factorisation and solve of a tangent such as that of a row of scales: elimination block by block, band LU, and
+//! faer's sparse LU with its symbolic part reused.
 
 use std::hint::black_box;
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, BenchmarkId, Criterion, criterion_group, criterion_main};
 use faer::prelude::*;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, Triplet};
-use solver::{BandLu, BandMatrix, Tangent};
+use solver::{BandLu, BandMatrix, BlockElimination, BlockMatrix, Blocks, Tangent};
+
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
 /// Unknowns of a scale: its three displacements and, at each of two levels, the two forces of corners that are
 /// together.
@@ -33,39 +36,80 @@ fn entries(scales: usize) -> Vec<(usize, usize, f64)> {
     entries
 }
 
-fn linear(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("tangent of a row");
-    for scales in [41, 401] {
-        let size = BLOCK * scales;
-        let entries = entries(scales);
-        let rhs: Vec<f64> = (0..size).map(|i| (i as f64).cos()).collect();
+/// The tangent of a row of `scales`, and a right-hand side.
+struct Problem {
+    scales: usize,
+    entries: Vec<(usize, usize, f64)>,
+    rhs: Vec<f64>,
+}
 
-        let mut matrix = BandMatrix::new(size, HALF);
-        for &(i, j, value) in &entries {
+impl Problem {
+    fn new(scales: usize) -> Self {
+        let rhs = (0..BLOCK * scales).map(|i| (i as f64).cos()).collect();
+        Self { scales, entries: entries(scales), rhs }
+    }
+
+    fn fill(&self, matrix: &mut impl Tangent) {
+        for &(i, j, value) in &self.entries {
             matrix.add(i, j, value);
         }
-        let mut lu = BandLu::new(size, HALF);
-        group.bench_function(BenchmarkId::new("band LU", scales), |bencher| {
+    }
+
+    fn in_blocks(&self, group: &mut Group) {
+        let starts: Vec<_> = (0..self.scales).map(|scale| BLOCK * scale).collect();
+        let blocks = Blocks { links: starts.clone(), starts, root: self.scales - 1 };
+        let mut matrix = BlockMatrix::default();
+        matrix.reshape(&blocks, self.rhs.len(), &[]);
+        self.fill(&mut matrix);
+        let mut elimination = BlockElimination::default();
+        group.bench_function(BenchmarkId::new("block elimination", self.scales), |bencher| {
+            bencher.iter(|| {
+                elimination.factorise(black_box(&matrix)).expect("safe blocks");
+                let mut x = self.rhs.clone();
+                elimination.solve(&mut x);
+                x
+            });
+        });
+    }
+
+    fn in_band(&self, group: &mut Group) {
+        let mut matrix = BandMatrix::new(self.rhs.len(), HALF);
+        self.fill(&mut matrix);
+        let mut lu = BandLu::new(self.rhs.len(), HALF);
+        group.bench_function(BenchmarkId::new("band LU", self.scales), |bencher| {
             bencher.iter(|| {
                 lu.factorise(black_box(&matrix)).expect("a regular matrix");
-                let mut x = rhs.clone();
+                let mut x = self.rhs.clone();
                 lu.solve(&mut x);
                 x
             });
         });
+    }
 
+    fn sparse(&self, group: &mut Group) {
+        let size = self.rhs.len();
         let triplets: Vec<_> =
-            entries.iter().map(|&(i, j, value)| Triplet::new(i, j, value)).collect();
+            self.entries.iter().map(|&(i, j, value)| Triplet::new(i, j, value)).collect();
         let sparse = SparseColMat::<usize, f64>::try_new_from_triplets(size, size, &triplets)
             .expect("a sparse matrix");
         let symbolic = SymbolicLu::try_new(sparse.symbolic()).expect("a symbolic factorisation");
-        let column = Col::from_fn(size, |i| rhs[i]);
-        group.bench_function(BenchmarkId::new("faer sparse LU", scales), |bencher| {
+        let column = Col::from_fn(size, |i| self.rhs[i]);
+        group.bench_function(BenchmarkId::new("faer sparse LU", self.scales), |bencher| {
             bencher.iter(|| {
                 let lu = Lu::try_new_with_symbolic(symbolic.clone(), black_box(sparse.as_ref()));
                 lu.expect("a regular matrix").solve(&column)
             });
         });
+    }
+}
+
+fn linear(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("tangent of a row");
+    for scales in [41, 401] {
+        let problem = Problem::new(scales);
+        problem.in_blocks(&mut group);
+        problem.in_band(&mut group);
+        problem.sparse(&mut group);
     }
     group.finish();
 }

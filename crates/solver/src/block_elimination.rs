@@ -46,7 +46,7 @@ pub struct BlockElimination {
     work: Vec<f64>,
 }
 
-/// What is taken from the link of an inner block.
+/// The matrix that elimination of a block takes from the link of its inner neighbour.
 type Taken = [[f64; LINK]; LINK];
 
 /// Calls a method with the size of a block as a constant.
@@ -134,10 +134,7 @@ impl BlockElimination {
     ) -> Option<Taken> {
         let start = self.starts[block];
         let link = self.links[block] - start;
-        let mut d = [[0.0; N]; N];
-        for (i, row) in d.iter_mut().enumerate() {
-            row.copy_from_slice(matrix.entries::<N>(start + i, start));
-        }
+        let mut d = rows::<N, N>(matrix, start, start);
         let least = least_pivots(&d);
         for (row, taken) in d[link..link + LINK].iter_mut().zip(taken) {
             for (entry, taken) in row[link..link + LINK].iter_mut().zip(taken) {
@@ -146,29 +143,18 @@ impl BlockElimination {
         }
         let exchanges = &mut self.exchanges[start..start + N];
         self.negative[block] = factorise(&mut d, exchanges, &least)?;
-        let (factors, coupling) =
-            self.values[self.at[block]..][..N * (N + 2 * LINK)].split_at_mut(N * N);
+        let stored = &mut self.values[self.at[block]..][..N * (N + 2 * LINK)];
+        let (factors, coupling) = stored.split_at_mut(N * N);
         factors.copy_from_slice(d.as_flattened());
-        let mut next = Taken::default();
-        if let Some(inner) = matrix.inner(block) {
-            let inner = self.links[inner];
-            let mut c = [[0.0; LINK]; N];
-            for (i, row) in c.iter_mut().enumerate() {
-                row.copy_from_slice(matrix.entries::<LINK>(start + i, inner));
-            }
-            solve(&d, exchanges, &mut c);
-            let (columns, rows) = coupling.split_at_mut(N * LINK);
-            columns.copy_from_slice(c.as_flattened());
-            for (k, b) in rows.chunks_exact_mut(N).enumerate() {
-                b.copy_from_slice(matrix.entries::<N>(inner + k, start));
-                for (b, c) in b.iter().zip(&c) {
-                    for (next, c) in next[k].iter_mut().zip(c) {
-                        *next += b * c;
-                    }
-                }
-            }
-        }
-        Some(next)
+        let Some(inner) = matrix.inner(block) else { return Some(Taken::default()) };
+        let inner = self.links[inner];
+        let mut c = rows::<LINK, N>(matrix, start, inner);
+        let b = rows::<N, LINK>(matrix, inner, start);
+        solve(&d, exchanges, &mut c);
+        let (columns, rows) = coupling.split_at_mut(N * LINK);
+        columns.copy_from_slice(c.as_flattened());
+        rows.copy_from_slice(b.as_flattened());
+        Some(b.map(|b| product(&b, &c)))
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution, of all unknowns. Where an unknown was left out, the
@@ -188,8 +174,8 @@ impl BlockElimination {
         self.outwards(x);
     }
 
-    /// The same for a right-hand side of which only one entry, in the root block, is not zero: it is 1. The unknown must be
-    /// kept.
+    /// Replaces `x` by the solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is
+    /// kept and in the root block, is 1.
     pub fn solve_unit(&mut self, unknown: usize, x: &mut [f64]) {
         self.work.fill(0.0);
         let root = self.starts[self.root]..self.starts[self.root + 1];
@@ -260,6 +246,30 @@ impl BlockElimination {
     pub fn negative_blocks(&self) -> usize {
         self.negative.iter().filter(|negative| **negative).count()
     }
+}
+
+/// `M` rows of `N` entries of a matrix, from the entry at (`row`, `column`) on; by their places.
+fn rows<const N: usize, const M: usize>(
+    matrix: &BlockMatrix,
+    row: usize,
+    column: usize,
+) -> [[f64; N]; M] {
+    let mut rows = [[0.0; N]; M];
+    for (i, entries) in rows.iter_mut().enumerate() {
+        entries.copy_from_slice(matrix.entries::<N>(row + i, column));
+    }
+    rows
+}
+
+/// `bᵀ c`.
+fn product<const N: usize, const M: usize>(b: &[f64; N], c: &[[f64; M]; N]) -> [f64; M] {
+    let mut product = [0.0; M];
+    for (b, c) in b.iter().zip(c) {
+        for (sum, c) in product.iter_mut().zip(c) {
+            *sum += b * c;
+        }
+    }
+    product
 }
 
 /// The least pivots that will do, column by column.

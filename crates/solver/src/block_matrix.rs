@@ -1,6 +1,6 @@
 //! Block-tridiagonal matrices of small blocks.
 
-use crate::system::Tangent;
+use crate::tangent::Tangent;
 
 /// Unknowns of a block that its outer neighbour is coupled with.
 pub const LINK: usize = 3;
@@ -130,14 +130,6 @@ impl BlockMatrix {
         &self.kept
     }
 
-    /// Replaces a row by zeros.
-    pub fn clear_row(&mut self, row: usize) {
-        let place = self.places[row];
-        let [first, end] = self.columns[place];
-        let start = self.rows[place];
-        self.values[start..start + end - first].fill(0.0);
-    }
-
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.values.fill(0.0);
@@ -172,6 +164,13 @@ impl BlockMatrix {
 }
 
 impl Tangent for BlockMatrix {
+    fn clear_row(&mut self, row: usize) {
+        let place = self.places[row];
+        let [first, end] = self.columns[place];
+        let start = self.rows[place];
+        self.values[start..start + end - first].fill(0.0);
+    }
+
     /// Adds `value` to an entry; does nothing where its row or column is left out.
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (self.places[row], self.places[column]);

@@ -19,7 +19,7 @@
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
 //! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
-//! | [`Tangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
+//! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
@@ -75,6 +75,7 @@ mod sensitivity;
 mod step;
 mod stop;
 mod system;
+mod tangent;
 mod tangent_solver;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
@@ -88,4 +89,5 @@ pub use peak::{Peak, Summit};
 pub use sensitivity::{Anchor, Linearisation, Moved, Neighbours, Place};
 pub use step::Settings;
 pub use stop::Stop;
-pub use system::{Control, Residual, State, System, Tangent};
+pub use system::{Control, Residual, State, System};
+pub use tangent::{NoTangent, Tangent};

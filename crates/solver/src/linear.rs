@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use crate::system::Tangent;
+use crate::tangent::Tangent;
 
 /// A matrix has no LU factorisation in floating point: a column without a usable pivot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -65,15 +65,6 @@ impl BandMatrix {
         self.rows[row * self.width() + self.place(row, column)]
     }
 
-    /// Replaces a row by zeros.
-    pub fn clear_row(&mut self, row: usize) {
-        let start = row * self.width();
-        let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
-        if first < end {
-            self.rows[start + first..start + end].fill(0.0);
-        }
-    }
-
     /// The columns that a row may use.
     pub fn columns(&self, row: usize) -> Range<usize> {
         row.saturating_sub(self.half)..(row + self.half + 1).min(self.size)
@@ -100,6 +91,14 @@ impl BandMatrix {
 }
 
 impl Tangent for BandMatrix {
+    fn clear_row(&mut self, row: usize) {
+        let start = row * self.width();
+        let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
+        if first < end {
+            self.rows[start + first..start + end].fill(0.0);
+        }
+    }
+
     /// Adds `value` to the entry at (`row`, `column`).
     ///
     /// # Panics

@@ -3,7 +3,8 @@
 use crate::event::Change;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard, guard_slope};
 use crate::step::Settings;
-use crate::system::{Residual, State, System, Tangent, inactive};
+use crate::system::{Residual, State, System, inactive};
+use crate::tangent::Tangent;
 
 /// The condition that tells which equilibrium of the path a place is, when a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,7 +13,7 @@ pub enum Anchor {
     Still,
     /// The control parameter is at its target.
     Target,
-    /// The guard (N5) of this constraint vanishes: an event.
+    /// The guard (N5) of this constraint keeps its value: at an event it vanishes.
     Guard(usize),
 }
 
@@ -243,28 +244,30 @@ impl<M: Clone> Place<M> {
     ) -> Option<Self> {
         let section = section(system, &self.direction);
         let origin = Condition::through(section, &self.state.z);
+        let reach = self.reach(system);
         let at = |distance: f64| {
             let mut state = self.state.moved(distance, &self.direction);
             let condition = Condition { value: origin.value + distance, ..origin.clone() };
             let direction = Newton::new(system).solve(system, &mut state, &condition, settings);
             let place = Self { state, direction: direction.ok()?, anchor: Anchor::Still };
-            let slope = place.slope_along(system, f)?;
+            let slope = place.slope_along(system, f, ALONG * reach)?;
             Some((distance, slope, place))
         };
-        let (mut last, mut here) = (at(0.0)?, at(SECANT)?);
+        let (mut last, mut here) = (at(0.0)?, at(SECANT * reach)?);
         let value = f(system, &self.state, &self.direction);
         if last.1.abs().max(here.1.abs()) <= FLAT * value.abs() {
             // The function does not change along the path, or hardly.
-            return Some(last.2);
+            return Some(last.2.anchored(system));
         }
         for _ in 0..MOST_SECANTS {
             let step = -here.1 * (here.0 - last.0) / (here.1 - last.1);
-            if !(step.abs() < FARTHEST) {
+            if !step.is_finite() || step.abs() > FARTHEST {
                 return None;
             }
-            (last, here) = (here.clone(), at(here.0 + step)?);
-            if step.abs() <= SETTLED {
-                return Some(here.2);
+            let next = at(here.0 + step)?;
+            last = std::mem::replace(&mut here, next);
+            if step.abs() <= SETTLED * reach {
+                return Some(here.2.anchored(system));
             }
         }
         None
@@ -275,18 +278,47 @@ impl<M: Clone> Place<M> {
         &self,
         system: &S,
         f: &impl Fn(&S, &State<M>, &[f64]) -> f64,
+        step: f64,
     ) -> Option<f64> {
         let mut here = Linearisation::new(system, self.clone()).ok()?;
-        let [below, above] = here.moved_along(system, ALONG);
+        let [below, above] = here.moved_along(system, step);
         let value = |moved: &Moved<M>| f(system, &moved.state, &moved.direction);
-        Some((value(&above) - value(&below)) / (2.0 * ALONG))
+        Some((value(&above) - value(&below)) / (2.0 * step))
+    }
+
+    /// The active constraint whose unknown changes fastest along the path, as a part of itself, and the way over which it
+    /// changes by as much as it is.
+    fn fastest<S: System<Mode = M>>(&self, system: &S) -> Option<(usize, f64)> {
+        let constraints = system.constraints().iter().zip(&self.state.active).enumerate();
+        let active = constraints.filter(|(_, (_, active))| **active);
+        let ways = active.map(|(constraint, (&index, _))| {
+            (constraint, (self.state.z[index] / self.direction[index]).abs())
+        });
+        ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The way over which nothing changes by more than itself, at most the whole path.
+    fn reach<S: System<Mode = M>>(&self, system: &S) -> f64 {
+        self.fastest(system).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
+    }
+
+    /// The place held where the unknown of the fastest constraint keeps its value. Where a function is stationary along the path
+    /// any section serves; in this one the layers stay at rest that a force makes which has just begun to act.
+    fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
+        let fast = self.fastest(system).filter(|(_, way)| *way < 1.0);
+        let anchor = fast.map_or(Anchor::Still, |(constraint, _)| Anchor::Guard(constraint));
+        Self { anchor, ..self }
     }
 }
 
-/// First step of the search for a stationary place, the largest step, and that at which the search ends, as parts of the path.
-const SECANT: f64 = 1e-4;
+/// First step of the search for a stationary place, and that at which the search ends, as parts of the way over which the state
+/// changes; the largest step, as a part of the path.
+const SECANT: f64 = 1e-3;
+const SETTLED: f64 = 1e-8;
 const FARTHEST: f64 = 0.1;
-const SETTLED: f64 = 1e-9;
+
+/// The shortest way over which the state is taken to change, as a part of the path.
+const SHORTEST: f64 = 1e-6;
 
 /// A function whose slope over the path is this part of its value is constant.
 const FLAT: f64 = 1e-9;
@@ -294,7 +326,7 @@ const FLAT: f64 = 1e-9;
 /// Steps after which the search for a stationary place has failed.
 const MOST_SECANTS: usize = 20;
 
-/// Part of the path over which derivatives along it are differences.
+/// Part of the way over which the state changes, for derivatives along the path by differences.
 const ALONG: f64 = 1e-5;
 
 impl Anchor {
@@ -348,5 +380,9 @@ struct Product<'a> {
 impl Tangent for Product<'_> {
     fn add(&mut self, row: usize, column: usize, value: f64) {
         self.rows[row] += value * self.by[column];
+    }
+
+    fn clear_row(&mut self, row: usize) {
+        self.rows[row] = 0.0;
     }
 }

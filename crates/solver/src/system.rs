@@ -4,6 +4,7 @@ use std::fmt::Debug;
 
 use crate::block_matrix::Blocks;
 use crate::event::Change;
+use crate::tangent::Tangent;
 
 /// Largest change of an unknown over which a slope is a difference.
 const DIFFERENCE: f64 = 1e-6;
@@ -122,27 +123,6 @@ pub trait System {
     /// constraint cannot change sides in this mode.
     fn transition(&self, _state: &mut State<Self::Mode>, change: Change) -> Option<usize> {
         Some(change.constraint)
-    }
-}
-
-/// A matrix that derivatives are added to.
-pub trait Tangent {
-    /// Adds `value` to the entry at (`row`, `column`).
-    fn add(&mut self, row: usize, column: usize, value: f64);
-
-    /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
-    /// constraint.
-    fn add_block<const R: usize, const C: usize>(
-        &mut self,
-        row: usize,
-        column: usize,
-        values: &[[f64; C]; R],
-    ) {
-        for (i, values) in values.iter().enumerate() {
-            for (j, value) in values.iter().enumerate() {
-                self.add(row + i, column + j, *value);
-            }
-        }
     }
 }
 

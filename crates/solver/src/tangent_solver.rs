@@ -1,9 +1,10 @@
 //! Factors of the tangent of a system: block by block where that is possible, of a band matrix elsewhere.
 
 use crate::block_elimination::BlockElimination;
-use crate::block_matrix::BlockMatrix;
+use crate::block_matrix::{BlockMatrix, Blocks};
 use crate::linear::{BandLu, BandMatrix, SingularMatrix};
-use crate::system::{Residual, State, System, Tangent, inactive};
+use crate::system::{Residual, State, System, inactive};
+use crate::tangent::Tangent;
 
 /// Factors of the tangent, with the row of a condition in the place of the missing one.
 #[derive(Clone, Debug)]
@@ -20,7 +21,7 @@ pub(crate) struct TangentSolver {
 struct InBlocks {
     matrix: BlockMatrix,
     elimination: BlockElimination,
-    /// What the matrix leaves out.
+    /// The unknowns that the matrix leaves out.
     left_out: Option<Vec<usize>>,
 }
 
@@ -54,15 +55,19 @@ impl TangentSolver {
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
         self.inactive.extend(inactive(system, state));
-        let inactive = &self.inactive;
-        let blocks = self.blocks.as_mut();
-        self.is_in_blocks = blocks
-            .is_some_and(|blocks| blocks.factorise(system, state, condition, inactive, residual));
+        self.is_in_blocks = false;
+        if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, system.blocks()) {
+            in_blocks.shape(blocks, system.size(), &self.inactive);
+            assemble(system, state, condition, residual, &mut in_blocks.matrix);
+            self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();
+        }
         if self.is_in_blocks {
             return Ok(());
         }
-        let band = self.band.get_or_insert_with(|| InBand::new(system));
-        band.factorise(system, state, condition, inactive, residual)
+        let InBand { matrix, lu } = self.band.get_or_insert_with(|| InBand::new(system));
+        matrix.clear();
+        assemble(system, state, condition, residual, matrix);
+        lu.factorise_without(matrix, &self.inactive)
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution.
@@ -88,31 +93,32 @@ impl TangentSolver {
     }
 }
 
+/// Evaluates the equations, and adds the tangent to a zero `matrix`, with `condition` in its missing row.
+fn assemble<S: System>(
+    system: &S,
+    state: &State<S::Mode>,
+    condition: &[(usize, f64)],
+    residual: &mut Residual,
+    matrix: &mut impl Tangent,
+) {
+    system.linearise(state, residual, matrix);
+    matrix.clear_row(system.load());
+    for &(index, coefficient) in condition {
+        matrix.add(system.load(), index, coefficient);
+    }
+}
+
 impl InBlocks {
-    /// Whether there are factors, and the pivots are large enough.
-    fn factorise<S: System>(
-        &mut self,
-        system: &S,
-        state: &State<S::Mode>,
-        condition: &[(usize, f64)],
-        inactive: &[usize],
-        residual: &mut Residual,
-    ) -> bool {
-        let Some(blocks) = system.blocks() else { return false };
+    /// Makes the matrix zero, without the unknowns that are `inactive`.
+    fn shape(&mut self, blocks: &Blocks, size: usize, inactive: &[usize]) {
         if self.left_out.as_deref() == Some(inactive) {
             self.matrix.clear();
         } else {
-            self.matrix.reshape(blocks, system.size(), inactive);
+            self.matrix.reshape(blocks, size, inactive);
             let left_out = self.left_out.get_or_insert_default();
             left_out.clear();
             left_out.extend_from_slice(inactive);
         }
-        system.linearise(state, residual, &mut self.matrix);
-        self.matrix.clear_row(system.load());
-        for &(index, coefficient) in condition {
-            self.matrix.add(system.load(), index, coefficient);
-        }
-        self.elimination.factorise(&self.matrix).is_ok()
     }
 }
 
@@ -120,22 +126,5 @@ impl InBand {
     fn new(system: &impl System) -> Self {
         let (size, half) = (system.size(), system.half_bandwidth());
         Self { matrix: BandMatrix::new(size, half), lu: BandLu::new(size, half) }
-    }
-
-    fn factorise<S: System>(
-        &mut self,
-        system: &S,
-        state: &State<S::Mode>,
-        condition: &[(usize, f64)],
-        inactive: &[usize],
-        residual: &mut Residual,
-    ) -> Result<(), SingularMatrix> {
-        self.matrix.clear();
-        system.linearise(state, residual, &mut self.matrix);
-        self.matrix.clear_row(system.load());
-        for &(index, coefficient) in condition {
-            self.matrix.add(system.load(), index, coefficient);
-        }
-        self.lu.factorise_without(&self.matrix, inactive)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::RowStiffness;
 
-/// What an endless row of free scales does to the scale at its beginning.
+/// The effect of an endless row of free scales on the scale at its beginning.
 ///
 /// With the coupling of Eq. (1) a free scale `k` obeys `α u_k = β (u_{k−1} + u_{k+1})` in each direction. Of the two
 /// solutions of such a chain the one that decays is

@@ -39,7 +39,7 @@ pub struct Claim {
     pub place: String,
     /// The measure that the claim is about.
     pub about: String,
-    /// What the paper says.
+    /// The statement of the paper.
     pub claim: String,
 }
 

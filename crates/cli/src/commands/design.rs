@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use results::columns::design_columns;
-use results::{RunFolder, SolvedDesign, write_path_tables};
+use results::{ParameterDerivative, RunFolder, SolvedDesign, write_path_tables};
 use run::Evaluator;
 use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
 
@@ -14,7 +14,10 @@ use crate::print::{aligned, print};
 
 /// Solves one design, prints its measures and writes its path tables.
 pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
-    let chosen = choose(arguments)?;
+    let mut chosen = choose(arguments)?;
+    if arguments.sensitivity {
+        chosen.sweep = chosen.sweep.with_sensitivity();
+    }
     let grid = chosen.sweep.grid();
     let evaluator = Evaluator::new(chosen.sweep.measures());
     let number = chosen.number.unwrap_or(grid.number(0));
@@ -29,13 +32,13 @@ pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
 
 /// The design that is asked for.
 struct Chosen {
-    /// Its sweep, with this design alone.
+    /// A sweep of this design alone.
     sweep: Sweep,
-    /// Its number in the sweep as a whole, if it is one of its designs.
+    /// The number of the design in the whole sweep, if it is one of its designs.
     number: Option<DesignNumber>,
     /// How many designs the sweep has as a whole.
     count: u64,
-    /// What the sweep solves under that number, if settings may have changed it.
+    /// The case that the sweep solves under that number, if settings may have changed it.
     original: Option<Case>,
 }
 
@@ -139,7 +142,8 @@ impl Chosen {
             [column.name.to_owned(), value, unit(column.unit), column.meaning.to_owned()]
         });
         let rows: Vec<_> = rows.collect();
-        format!("{}\n{}\n{}", self.title(), self.changes(), aligned(&rows))
+        let sensitivity = sensitivity(&solved.row.result.sensitivity);
+        format!("{}\n{}\n{}{sensitivity}", self.title(), self.changes(), aligned(&rows))
     }
 
     fn title(&self) -> String {
@@ -150,7 +154,7 @@ impl Chosen {
         }
     }
 
-    /// What is not as the sweep has it.
+    /// The parameters that are not as the sweep has them.
     fn changes(&self) -> String {
         let Some(original) = self.original else {
             return String::new();
@@ -162,6 +166,23 @@ impl Chosen {
         };
         changed.map(line).collect()
     }
+}
+
+/// The elasticities of the measures: a line for each measure and parameter, kinks by their names.
+fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
+    if derivatives.is_empty() {
+        return String::new();
+    }
+    let line = |derivative: &ParameterDerivative| {
+        let change = match (&derivative.kink, derivative.elasticity()) {
+            (Some(kink), _) => format!("kink: {kink}"),
+            (None, Some(elasticity)) => format!("{elasticity:+.3} %"),
+            (None, None) => "none".to_owned(),
+        };
+        [derivative.measure.clone(), derivative.parameter.clone(), change]
+    };
+    let lines: Vec<_> = derivatives.iter().map(line).collect();
+    format!("\nChange for one per cent of a parameter\n{}", aligned(&lines))
 }
 
 fn unit(unit: &str) -> String {

@@ -11,7 +11,7 @@ use results::AtomicFile;
 pub struct Written(Vec<String>);
 
 impl Written {
-    /// What was written, for people.
+    /// A line for each file that was written, for people.
     pub fn report(&self, folder: &Path) -> String {
         let line = |file: &String| format!("{}\n", folder.join(file).display());
         self.0.iter().map(line).collect()

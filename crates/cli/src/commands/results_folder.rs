@@ -10,13 +10,13 @@ use sweep::toml_source::{self, KeyValue, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
-    /// Where it is.
+    /// The path of the folder.
     pub folder: PathBuf,
     /// The sweep that was run.
     pub sweep: Sweep,
     /// The table of its designs.
     pub designs: Designs,
-    /// What the run was.
+    /// Facts about the run.
     pub run: Vec<Fact>,
     results: Results,
 }
@@ -45,7 +45,7 @@ impl ResultsFolder {
     }
 }
 
-/// What stands in the table `run` of `run.toml`.
+/// The entries of the table `run` of `run.toml`.
 fn facts(text: &str) -> Vec<Fact> {
     let table = toml_source::parse(text, "run.toml").unwrap_or_default();
     let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);

@@ -60,7 +60,7 @@ fn check(shards: u64, sweep: &Sweep) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What differs from sweep to sweep.
+/// The settings that differ from sweep to sweep.
 fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
     let program = std::env::current_exe().context("the path of squama is not known")?;
     Ok(format!(

@@ -29,7 +29,7 @@ struct Kills {
 struct Campaign {
     place: Place,
     random: ChaCha8Rng,
-    /// What a run takes that is left alone.
+    /// The time of a run that is left alone.
     whole: Duration,
     kills: Kills,
 }

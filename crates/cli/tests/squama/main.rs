@@ -76,7 +76,7 @@ impl Place {
         command
     }
 
-    /// What `squama` says where no file may take more than so many blocks of 512 or 1024 bytes; it
+    /// The message of `squama` where no file may take more than so many blocks of 512 or 1024 bytes; it
     /// must refuse.
     fn refused_on_a_full_disk(&self, blocks: u32, arguments: &str) -> String {
         let squama = assert_cmd::cargo::cargo_bin!("squama").display();
@@ -98,7 +98,7 @@ impl Place {
         message
     }
 
-    /// What `squama` prints when it is done well.
+    /// The output of `squama` when it is done well.
     fn prints(&self, arguments: &str) -> String {
         let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();
         String::from_utf8(output).expect("text")

@@ -1,4 +1,4 @@
-//! What is printed for people.
+//! The texts that are printed for people.
 
 use std::process::Stdio;
 

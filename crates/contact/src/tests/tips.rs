@@ -21,7 +21,7 @@ pub(super) fn under_the_base(turned: f64, inside: f64, below: f64) -> (Pair, [Po
     (pair, [Pose::new(0.0, 0.0, 0.0), Pose::new(place.x, place.y, -turned.to_radians())])
 }
 
-/// The same for the top: half a turn of the pair.
+/// The pair turned by half a turn, so that the tops play the part of the bases.
 fn above_the_top(turned: f64, inside: f64, above: f64) -> (Pair, [Pose; 2]) {
     let (pair, [left, right]) = under_the_base(turned, inside, above);
     let coordinates = |pose: &Pose| [pose.displacement.x, pose.displacement.y, pose.rotation];
@@ -40,7 +40,7 @@ const ACROSS: [(CornerEdge, CornerEdge); 3] = [
     (CornerEdge::BottomLeftOnBase, CornerEdge::TopRightOnTop),
 ];
 
-/// What half a turn makes of a lower corner and edge.
+/// The upper corner and edge that a lower one becomes by half a turn.
 fn across(lower: CornerEdge) -> CornerEdge {
     ACROSS.into_iter().find(|(edge, _)| *edge == lower).unwrap().1
 }

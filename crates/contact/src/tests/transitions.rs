@@ -9,7 +9,7 @@ use crate::corners::{Corners, Level};
 use crate::gap::CornerEdge::{BottomLeftOnBase, BottomLeftOnRightEdge, BottomRightOnLeftEdge};
 use crate::gap::{CornerEdge, Pair, Pose};
 
-/// What becomes of a lower contact of [`under_the_base`], the side level but for these degrees.
+/// The transition of a lower contact of [`under_the_base`], the side level but for these degrees.
 fn next(
     contact: CornerContact,
     (force, acts): (Force, bool),

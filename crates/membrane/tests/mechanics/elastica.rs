@@ -16,7 +16,7 @@ fn elastica(span: Span, order: usize) -> Result<Elastica, OutOfRange> {
     Elastica::new(Section::new(1.0, THICKNESS)?, span, order)
 }
 
-/// What is known of the right scale.
+/// The boundary condition of the right scale.
 #[derive(Clone, Copy)]
 enum Right {
     /// Displacement, seen from the left end, and rotation of the right end of the membrane.
@@ -46,10 +46,10 @@ fn equilibrium(gap: &Elastica, right: Right, steps: u32) -> Vec<f64> {
 
 fn newton(gap: &Elastica, mut z: DVector<f64>, free: usize, load: Vector3<f64>) -> DVector<f64> {
     for _ in 0..60 {
-        let mut residual: DVector<f64> = -gap.gradient(z.as_slice());
+        let mut residual: DVector<f64> = -gap.derivatives(z.as_slice()).gradient;
         let mut right = residual.fixed_rows_mut::<3>(gap.interior());
         right += load;
-        let tangent = gap.hessian(z.as_slice()).view((0, 0), (free, free)).into_owned();
+        let tangent = gap.derivatives(z.as_slice()).hessian.view((0, 0), (free, free)).into_owned();
         let change = tangent.lu().solve(&residual.rows(0, free)).expect("the tangent is regular");
         let mut moved = z.rows_mut(0, free);
         moved += &change;
@@ -74,7 +74,7 @@ fn pose(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
 
 /// Force and moment on the right scale.
 fn load(gap: &Elastica, z: &[f64]) -> Vector3<f64> {
-    gap.gradient(z).fixed_rows::<3>(gap.interior()).into_owned()
+    gap.derivatives(z).gradient.fixed_rows::<3>(gap.interior()).into_owned()
 }
 
 fn energy(gap: &Elastica, z: &[f64]) -> f64 {
@@ -109,13 +109,13 @@ fn pulled() -> impl Strategy<Value = (Span, Vector3<f64>)> {
 proptest! {
     #[test]
     fn the_hessian_is_the_derivative_of_the_gradient((gap, z) in any_state()) {
-        let hessian = gap.hessian(&z);
+        let hessian = gap.derivatives(&z).hessian;
         prop_assert!(hessian == hessian.transpose());
         for i in 0..z.len() {
             let at = |shift: f64| {
                 let mut moved = z.clone();
                 moved[i] += shift;
-                gap.gradient(&moved)
+                gap.derivatives(&moved).gradient
             };
             let h = 2e-4;
             let slope = (at(-2.0 * h) - 8.0 * at(-h) + 8.0 * at(h) - at(2.0 * h)) / (12.0 * h);
@@ -296,8 +296,11 @@ fn a_state_without_deviations_is_that_of_an_arc() -> Result<(), OutOfRange> {
     let gap = elastica(Span { half_base: 0.5, gap: 0.3, axis_offset: 0.1 }, 6)?;
     let short = [0.1, -0.2, 0.3, 0.4, 0.5];
     let whole = [vec![0.0; 5], short.to_vec()].concat();
-    assert_eq!(gap.gradient(&short), gap.gradient(&whole).rows(5, 5));
-    assert_eq!(gap.hessian(&short), gap.hessian(&whole).view((5, 5), (5, 5)));
+    assert_eq!(gap.derivatives(&short).gradient, gap.derivatives(&whole).gradient.rows(5, 5));
+    assert_eq!(
+        gap.derivatives(&short).hessian,
+        gap.derivatives(&whole).hessian.view((5, 5), (5, 5))
+    );
     assert_eq!(gap.energies(&short), gap.energies(&whole));
     assert_eq!(gap.largest_strain(&short), gap.largest_strain(&whole));
     assert_eq!(gap.axis(&short, 3), gap.axis(&whole, 3));

@@ -1,23 +1,23 @@
-//! What a column of a table means, looked up by the names of both.
+//! The meaning of a column of a table, looked up by the names of both.
 
 use ranking::{
     comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
     winner_columns,
 };
-use results::columns::{Cell, MEASURE_TABLES, explain_value, number, parameter_of};
-use results::{Column, RERUN_COLUMNS, failure_detail_columns};
+use results::columns::{Cell, explain_value, number, parameter_of};
+use results::{Column, MEASURE_TABLES, RERUN_COLUMNS, failure_detail_columns};
 
 /// Unit and meaning of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Explanation {
     /// Unit, `-` if it has none.
     pub unit: &'static str,
-    /// What it holds, in half a sentence.
+    /// The content of the column, in half a sentence.
     pub meaning: &'static str,
 }
 
 impl Explanation {
-    /// What the column `name` of the table `table` (without `.csv`) means; `None` if this program
+    /// The meaning of the column `name` of the table `table` (without `.csv`); `None` if this program
     /// writes no such column.
     pub fn of(table: &str, name: &str) -> Option<Self> {
         Self::own(table, name).or_else(|| Self::common(name))

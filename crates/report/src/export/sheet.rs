@@ -10,9 +10,9 @@ use results::{CsvFormat, Outcome};
 
 use super::explanation::{Explanation, is_leading};
 
-/// Ink of what failed, and what it stands on.
+/// Ink and background of a failure.
 const RED: [Color; 2] = [Color::RGB(0x009C_0006), Color::RGB(0x00FF_C7CE)];
-/// What headers stand on.
+/// The background of headers.
 const GREY: Color = Color::RGB(0x00E6_E6E6);
 /// The scale of a measure: light to dark blue-green, on which black stays legible.
 const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
@@ -54,7 +54,7 @@ pub(super) struct Sheet {
 
 /// A column of a sheet.
 struct SheetColumn {
-    /// Its place; a sheet has fewer than 2^14.
+    /// The place of the column; a sheet has fewer than 2^14.
     place: ColNum,
     /// Whether it holds the numbers of designs.
     is_number: bool,
@@ -172,7 +172,7 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    /// Its columns and their widths.
+    /// The columns of the sheet and their widths.
     const COLUMNS: [(&str, f64); 4] =
         [("sheet", 16.0), ("column", 28.0), ("unit", 30.0), ("meaning", 90.0)];
 

@@ -1,4 +1,4 @@
-//! What people read about sweeps says what the program does.
+//! The guides to sweeps and results say what the program does.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What people read of the tables: the guide to them, and the workbook.
+//! Tests of the guide to the tables, and of the workbook.
 
 mod documentation;
 

@@ -19,7 +19,7 @@ fn names(file: &Path) -> String {
     workbook.sheet_names().join(" ")
 }
 
-/// What a sheet is to hold: every number a number, every other cell a text.
+/// The cells that a sheet is to hold: every number a number, every other cell a text.
 fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
     let cell = |text: &str| {
         let number = text.replace(',', ".").parse::<f64>().ok().filter(|n| n.is_finite());

@@ -4,7 +4,7 @@ use skin::flexure;
 use skin::puncture::{PuncturePoint, ScaleState};
 use skin::{ContactEvent, Iteration};
 
-use super::Column;
+use super::column::Column;
 
 /// The columns of `path.csv`.
 pub static PATH: &[Column<PuncturePoint>] = &[

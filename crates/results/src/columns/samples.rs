@@ -1,6 +1,6 @@
 //! The columns of the statistics of imperfect samples, in runs that have imperfections.
 
-use super::MeasuredValue;
+use super::measured_value::MeasuredValue;
 
 const FORCE: &[&str] = &["critical_force"];
 const DEPTH: &[&str] = &["penetration"];

@@ -3,9 +3,10 @@
 use skin::flexure;
 use skin::puncture::PunctureMeasures;
 
-use super::MeasuredValue;
 use super::cell::Cell;
-use crate::design::design_result::{DesignRow, PunctureResult};
+use super::measured_value::MeasuredValue;
+use crate::design::design_result::PunctureResult;
+use crate::design::row::DesignRow;
 
 const FORCE: &[&str] = &["critical_force"];
 const DEPTH: &[&str] = &["penetration"];

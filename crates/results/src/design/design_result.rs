@@ -1,21 +1,21 @@
 //! The result of a design: everything that is known of it once it is solved.
 
-use std::borrow::Borrow;
-
 use serde::{Deserialize, Serialize};
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
-use sweep::{Case, DesignNumber};
 
-use super::failure::{Failure, FailureRow};
+use super::failure::{Failure, finite};
 use super::outcome::Outcome;
 use super::parameter_derivative::ParameterDerivative;
 use super::sample_statistics::SampleStatistics;
 
+/// The character between the settings of a design.
+pub const SEPARATOR: char = ' ';
+
 /// Everything that a solved design measured, which is also what the journal keeps of it. It is small,
 /// whatever the length of the paths.
 ///
-/// Its numbers are finite: JSON has no form for others, and no table shows them. A number that is
+/// All numbers of a result are finite: JSON has no form for others, and no table shows them. A number that is
 /// not finite counts as one that does not exist.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -36,8 +36,6 @@ pub struct DesignResult {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<ParameterDerivative>,
     /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
-    ///
-    /// [`SEPARATOR`]: super::failure::SEPARATOR
     #[serde(skip_serializing_if = "String::is_empty")]
     pub settings: String,
     /// The measures without a value.
@@ -50,42 +48,6 @@ impl DesignResult {
     pub fn failed(&self) -> bool {
         !self.failures.is_empty()
     }
-}
-
-/// A row of `designs.csv`: a design and its result.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DesignRow {
-    /// The position of the design in the grid.
-    pub number: DesignNumber,
-    /// The parameters of the design.
-    pub case: Case,
-    /// The result of the design.
-    pub result: DesignResult,
-}
-
-impl DesignRow {
-    /// The rows of `failures.csv` that the design has.
-    pub fn failures(&self) -> impl Iterator<Item = FailureRow> {
-        let row = |failure: &Failure| FailureRow { design: self.clone(), failure: *failure };
-        self.result.failures.iter().map(row)
-    }
-}
-
-impl Borrow<DesignRow> for FailureRow {
-    fn borrow(&self) -> &DesignRow {
-        &self.design
-    }
-}
-
-/// A solved design with its paths.
-#[derive(Clone, Debug)]
-pub struct SolvedDesign {
-    /// The row of the design in the tables.
-    pub row: DesignRow,
-    /// The puncture, if it was asked for and ran.
-    pub puncture: Option<Puncture>,
-    /// The bending, if it was asked for and ran.
-    pub flexure: Option<Flexure>,
 }
 
 /// The result of a puncture.
@@ -165,11 +127,6 @@ impl FlexureResult {
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
-}
-
-/// `number` if it is finite.
-pub fn finite(number: f64) -> Option<f64> {
-    Some(number).filter(|number| number.is_finite())
 }
 
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 use skin::Derivative;
 
-use super::design_result::{DesignRow, finite};
-use crate::columns::Column;
+use super::failure::finite;
 
 /// The derivative of a measure of a design with respect to a parameter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -53,68 +52,7 @@ impl ParameterDerivative {
     }
 
     /// A one-sided derivative, at a kink.
-    fn at_kink(&self, side: Option<f64>) -> Option<f64> {
+    pub(crate) fn at_kink(&self, side: Option<f64>) -> Option<f64> {
         side.filter(|_| self.kink.is_some())
     }
 }
-
-/// A row of `sensitivity.csv`: a design and one of its derivatives.
-#[derive(Clone, Debug)]
-pub struct DerivativeRow {
-    /// Number of the design.
-    pub design: String,
-    /// The derivative.
-    pub derivative: ParameterDerivative,
-}
-
-impl DesignRow {
-    /// The rows of `sensitivity.csv` that the design has.
-    pub fn derivatives(&self) -> impl Iterator<Item = DerivativeRow> {
-        let row = |derivative: &ParameterDerivative| DerivativeRow {
-            design: self.number.to_string(),
-            derivative: derivative.clone(),
-        };
-        self.result.sensitivity.iter().map(row)
-    }
-}
-
-/// The columns of `sensitivity.csv`.
-pub static DERIVATIVE_COLUMNS: &[Column<DerivativeRow>] = &[
-    Column::new("design", "-", "position of the design in the grid of its sweep", |r| {
-        r.design.clone().into()
-    }),
-    Column::new("measure", "-", "the measure, by the name of its column", |r| {
-        r.derivative.measure.clone().into()
-    }),
-    Column::new("parameter", "-", "the parameter, by its key", |r| {
-        r.derivative.parameter.clone().into()
-    }),
-    Column::new("value", "as the measure", "value of the measure", |r| r.derivative.value.into()),
-    Column::new(
-        "derivative",
-        "as the measure per parameter",
-        "derivative of the measure with respect to the parameter, empty at a kink",
-        |r| r.derivative.derivative().into(),
-    ),
-    Column::new(
-        "elasticity",
-        "-",
-        "relative change of the measure for a relative change of the parameter, empty at a kink",
-        |r| r.derivative.elasticity().into(),
-    ),
-    Column::new(
-        "left",
-        "as the measure per parameter",
-        "at a kink, the derivative where the parameter decreases",
-        |r| r.derivative.at_kink(r.derivative.left).into(),
-    ),
-    Column::new(
-        "right",
-        "as the measure per parameter",
-        "at a kink, the derivative where the parameter increases",
-        |r| r.derivative.at_kink(r.derivative.right).into(),
-    ),
-    Column::new("kink", "-", "the change at a kink of the measure", |r| {
-        r.derivative.kink.clone().into()
-    }),
-];

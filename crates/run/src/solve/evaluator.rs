@@ -3,11 +3,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use geometry::OutOfRange;
 use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
-use skin::InvalidDesign;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
@@ -181,7 +181,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
 }
 
 /// The solution of a case. Validation lets no case without mechanical meaning come here.
-fn solved<T>(f: impl FnOnce() -> Result<T, InvalidDesign>) -> Result<T, Outcome> {
+fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
     guarded(f)?.map_err(|_| Outcome::Internal)
 }
 

@@ -1,10 +1,10 @@
 //! Derivatives of all measures of a design with respect to all continuous parameters.
 
-use geometry::RowChange;
+use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
 use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
-use skin::{Derivative, InvalidDesign, Neighbours, Variation};
+use skin::{Derivative, Neighbours, Variation};
 use substrate::{OneSided, RowStiffness, StiffnessSlopes};
 use sweep::{Case, PARAMETERS, Parameter};
 
@@ -24,7 +24,7 @@ fn parameters(sections: &[&str]) -> Vec<&'static Parameter> {
 pub(super) fn puncture(
     case: &Case,
     slopes: &StiffnessSlopes,
-) -> Result<(Puncture, Vec<ParameterDerivative>), InvalidDesign> {
+) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
     let parameters = parameters(&["designs", "scale", "substrate", "contact", "puncture"]);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
     let variations: Vec<_> =
@@ -35,7 +35,7 @@ pub(super) fn puncture(
 }
 
 /// Bends the design of `case`, and differentiates its measures.
-pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), InvalidDesign> {
+pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
     let mut parameters = parameters(&["designs", "scale", "contact", "flexure"]);
     // The length of a strip does not count where its gaps do.
     parameters.retain(|p| p.key != "membrane_length_over_t" || case.flexure.gaps.is_none());

@@ -36,7 +36,7 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(12))]
 
-    /// What is solved before a design, and where it stands, does not change a digit of it.
+    /// The designs that are solved before one, and where it stands, do not change a digit of it.
     #[test]
     fn rows_do_not_depend_on_their_order(
         axes in Just(axes()).prop_shuffle().prop_flat_map(|axes| {

@@ -10,7 +10,7 @@ use crate::record::Skin;
 /// A quantity below this, in its own unit, counts as this much where its relative change is taken: it is round-off.
 const NEGLIGIBLE: f64 = 1e-9;
 
-/// What a state of a strip shows that a finer membrane may change.
+/// Quantities of a state of a strip that a finer membrane may change.
 struct Quantities {
     moment: f64,
     stiffness: f64,

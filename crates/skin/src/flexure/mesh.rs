@@ -1,8 +1,7 @@
 //! How the membrane of a gap is resolved.
 
+use geometry::OutOfRange;
 use membrane::{Elastica, GapMembrane, Membrane, Section, Span};
-
-use crate::InvalidDesign;
 
 /// How finely the membrane between two scales is resolved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -11,7 +10,7 @@ pub enum MembraneMesh {
     /// change by less than a ten-thousandth.
     #[default]
     Auto,
-    /// That many co-rotational beam elements of equal length.
+    /// So many co-rotational beam elements of equal length.
     Elements(usize),
 }
 
@@ -25,7 +24,7 @@ pub(crate) enum Resolution {
 }
 
 impl Resolution {
-    pub(crate) fn membrane(self, section: Section, span: Span) -> Result<Membrane, InvalidDesign> {
+    pub(crate) fn membrane(self, section: Section, span: Span) -> Result<Membrane, OutOfRange> {
         Ok(match self {
             Self::Elements(count) => Membrane::Elements(GapMembrane::new(section, span, count)?),
             Self::Order(order) => Membrane::Elastica(Elastica::new(section, span, order)?),

@@ -1,7 +1,7 @@
 //! The problem of bending a strip, and its solution with a resolution that suffices.
 
 use contact::ContactLaw;
-use geometry::Row;
+use geometry::{OutOfRange, Row};
 use membrane::{Section, Span};
 use solver::{Path, Stop};
 
@@ -13,7 +13,7 @@ use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gap
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, InvalidDesign, Sample, Status};
+use crate::{Common, Design, Sample, Status};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
 const TOLERANCE: f64 = 1e-4;
@@ -55,7 +55,7 @@ impl<'a> FlexureProblem<'a> {
         design: &Design,
         common: &'a Common,
         parameters: &'a FlexureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         Self::of_row(design.row()?, design, common, parameters)
     }
 
@@ -65,7 +65,7 @@ impl<'a> FlexureProblem<'a> {
         design: &Design,
         common: &'a Common,
         parameters: &'a FlexureParameters,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let (gaps, solved) = match parameters.method {
             Method::UnitCell => (gaps(&row, parameters), 1),
             Method::Chain => {
@@ -82,7 +82,7 @@ impl<'a> FlexureProblem<'a> {
         common: &'a Common,
         parameters: &'a FlexureParameters,
         sample: &Sample,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let gaps = whole_gaps(&design.row()?, parameters);
         let row = Arrangement::Uneven(sample.row(0, gaps)?);
         Self::new(design, common, parameters, row, gaps as f64, gaps)
@@ -95,7 +95,7 @@ impl<'a> FlexureProblem<'a> {
         row: Arrangement,
         gaps: f64,
         solved: usize,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let modulus = parameters.contact_modulus_over_membrane;
         Ok(Self {
             common,
@@ -110,7 +110,7 @@ impl<'a> FlexureProblem<'a> {
     }
 
     /// The strip with this resolution.
-    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, InvalidDesign> {
+    pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, OutOfRange> {
         let unlike = match &self.row {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,
@@ -128,12 +128,12 @@ impl<'a> FlexureProblem<'a> {
     }
 
     /// Bends the strip, with finer and finer resolution until it suffices.
-    pub(crate) fn solve(&self) -> Result<Flexure, InvalidDesign> {
+    pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
         Ok(self.flexure(self.resolved(&[])?.0))
     }
 
     /// The strip with the resolution that suffices.
-    pub(crate) fn resolved_strip(&self) -> Result<Strip, InvalidDesign> {
+    pub(crate) fn resolved_strip(&self) -> Result<Strip, OutOfRange> {
         self.strip(self.resolved(&[])?.1)
     }
 
@@ -141,7 +141,7 @@ impl<'a> FlexureProblem<'a> {
     pub(crate) fn resolved(
         &self,
         functions: &[PathFunction<Strip>],
-    ) -> Result<(Bent, Resolution), InvalidDesign> {
+    ) -> Result<(Bent, Resolution), OutOfRange> {
         let mut resolution = self.parameters.elements_per_gap.coarsest();
         loop {
             let bent = self.bend(resolution, functions)?;
@@ -157,7 +157,7 @@ impl<'a> FlexureProblem<'a> {
         &self,
         resolution: Resolution,
         functions: &[PathFunction<Strip>],
-    ) -> Result<Bent, InvalidDesign> {
+    ) -> Result<Bent, OutOfRange> {
         let strip = self.strip(resolution)?;
         let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
@@ -200,7 +200,7 @@ impl<'a> FlexureProblem<'a> {
         resolution: Resolution,
         path: &Path<Strip>,
         record: &Record<Strip>,
-    ) -> Result<Option<f64>, InvalidDesign> {
+    ) -> Result<Option<f64>, OutOfRange> {
         let Some(finer) = resolution.finer() else { return Ok(None) };
         if record.first_contact().is_none() {
             // Arcs are exact in every resolution.

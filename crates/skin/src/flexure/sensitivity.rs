@@ -1,5 +1,6 @@
 //! Derivatives of the measures of bending.
 
+use geometry::OutOfRange;
 use solver::Path;
 
 use super::mesh::Resolution;
@@ -11,7 +12,7 @@ use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
 };
-use crate::{Common, Design, InvalidDesign, Status};
+use crate::{Common, Design, Status};
 
 /// Everything that bending depends on.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ const STRAIN: usize = 1;
 pub fn differentiate(
     input: &FlexureInput,
     variations: &[Variation<FlexureInput>],
-) -> Result<(Flexure, Vec<Derivative>), InvalidDesign> {
+) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
     let (mut bent, resolution) = problem.resolved(&FOLLOWED)?;
@@ -57,7 +58,7 @@ impl FlexureProblem<'_> {
         bent: &mut Bent,
         resolution: Resolution,
         variations: &[Variation<FlexureInput>],
-    ) -> Result<Vec<Derivative>, InvalidDesign> {
+    ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| {
             let FlexureInput { design, common, parameters } = input;
@@ -72,15 +73,19 @@ impl FlexureProblem<'_> {
     /// The places of the path at which measures are taken.
     fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<Spot<Strip>> {
         let settings = &self.common.solver;
-        let stiffest = record.stiffness_summit(path);
-        let stiffest = stiffest
-            .and_then(|summit| sensitivity::summit(path, &summit, Strip::stiffness, settings));
+        let touching = record.touching().and_then(|point| first_contact(path.system(), point));
+        let stiffest = match touching {
+            Some(_) => record
+                .stiffness_summit(path)
+                .and_then(|summit| sensitivity::summit(path, &summit, Strip::stiffness, settings)),
+            // Without contact a strip is as stiff everywhere as at rest.
+            None => Some(rest(path.system())),
+        };
         let [moment, strain] = [MOMENT, STRAIN].map(|k| {
             let summit = record.summit(path, k)?;
             sensitivity::summit(path, &summit, FOLLOWED[k], settings)
         });
         let strip = path.system();
-        let touching = record.touching().and_then(|point| first_contact(strip, point));
         let spot = |place, quantity| Spot { place, quantities: vec![quantity] };
         vec![
             spot(stiffest, compliance("compliance")),

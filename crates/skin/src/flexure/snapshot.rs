@@ -1,5 +1,6 @@
 //! A strip of membrane with scales as it stands at chosen curvatures.
 
+use geometry::OutOfRange;
 use solver::Path;
 
 use super::FlexureParameters;
@@ -10,7 +11,7 @@ use crate::arrangement::Arrangement;
 use crate::contacts::{Contact, SkinState};
 use crate::crossing::{Crossing, follow};
 use crate::record::Skin;
-use crate::{Common, Design, InvalidDesign};
+use crate::{Common, Design};
 
 /// Points of the membrane's axis that are kept of each element, or of each gap.
 const INTERVALS: usize = 12;
@@ -44,7 +45,7 @@ pub fn snapshots(
     common: &Common,
     parameters: &FlexureParameters,
     end_rotations_deg: &[f64],
-) -> Result<Vec<Option<StripSnapshot>>, InvalidDesign> {
+) -> Result<Vec<Option<StripSnapshot>>, OutOfRange> {
     let problem = FlexureProblem::even(design, common, parameters)?;
     let (row, strip) = (&problem.row, problem.resolved_strip()?);
     let crossing = |&degrees: &f64| Crossing {

@@ -2,8 +2,8 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::Vec2;
-use membrane::{GapEnergies, Membrane, Section};
-use solver::{Blocks, Change, Condition, Control, Residual, System, Tangent};
+use membrane::{Derivatives, GapEnergies, Membrane, Section};
+use solver::{Blocks, Change, Condition, Control, NoTangent, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
@@ -247,7 +247,7 @@ impl Strip {
         seen
     }
 
-    /// What the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
+    /// The parts that the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
     /// the left one.
     fn parts(&self, active: &[bool], gap: usize) -> impl Iterator<Item = Part> + Clone + use<> {
         let start = self.layout.membrane(gap) + self.vanishing(active, gap);
@@ -255,6 +255,30 @@ impl Strip {
         let frame = self.layout.rotation(gap);
         let of_frame = frame.map(|frame| Part::new(frame, count - 1).opposite());
         (0..count).map(move |k| Part::new(start + k, k)).chain(of_frame)
+    }
+
+    /// Adds the equations of a gap's membrane, and their derivatives.
+    fn add_membrane(
+        &self,
+        state: &SkinState,
+        gap: usize,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        for unknown in self.pinned(&state.active, gap) {
+            residual.add(unknown, self.units[unknown] * state.z[unknown]);
+            matrix.add(unknown, unknown, self.units[unknown]);
+        }
+        let Derivatives { gradient, hessian } =
+            self.membrane(gap).derivatives(&self.acting(state, gap));
+        let parts = self.parts(&state.active, gap);
+        for row in parts.clone() {
+            residual.add(row.unknown, row.sign * gradient[row.coordinate]);
+            for column in parts.clone() {
+                let value = hessian[(row.coordinate, column.coordinate)];
+                matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
+            }
+        }
     }
 
     /// The unknowns of a gap's membrane that vanish.
@@ -297,35 +321,22 @@ impl System for Strip {
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        residual.clear(&self.units);
-        for gap in 0..self.layout.gaps {
-            for unknown in self.pinned(&state.active, gap) {
-                residual.add(unknown, self.units[unknown] * state.z[unknown]);
-            }
-            let force = self.membrane(gap).gradient(&self.acting(state, gap));
-            for Part { unknown, coordinate, sign } in self.parts(&state.active, gap) {
-                residual.add(unknown, sign * force[coordinate]);
-            }
-        }
-        residual.add(self.controls[0].index, -state.z[self.layout.moment()]);
-        self.contacts.add_residual(state, residual);
+        self.linearise(state, residual, &mut NoTangent);
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
+        self.linearise(state, &mut Residual::new(self.size()), matrix);
+    }
+
+    fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
+        residual.clear(&self.units);
         for gap in 0..self.layout.gaps {
-            for unknown in self.pinned(&state.active, gap) {
-                matrix.add(unknown, unknown, self.units[unknown]);
-            }
-            let tangent = self.membrane(gap).hessian(&self.acting(state, gap));
-            for row in self.parts(&state.active, gap) {
-                for column in self.parts(&state.active, gap) {
-                    let value = tangent[(row.coordinate, column.coordinate)];
-                    matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
-                }
-            }
+            self.add_membrane(state, gap, residual, matrix);
         }
-        matrix.add(self.controls[0].index, self.layout.moment(), -1.0);
-        self.contacts.add_tangent(state, matrix);
+        let (moment, turned) = (self.layout.moment(), self.controls[0].index);
+        residual.add(turned, -state.z[moment]);
+        matrix.add(turned, moment, -1.0);
+        self.contacts.linearise(state, residual, matrix);
     }
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {

@@ -1,4 +1,4 @@
-//! What only the assembled system shows: the balance of energy along a path.
+//! Tests of the assembled system: the balance of energy along a path.
 
 use contact::Law;
 use solver::{Path, Settings};

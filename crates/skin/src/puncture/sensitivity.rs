@@ -1,5 +1,6 @@
 //! Derivatives of the measures of a puncture.
 
+use geometry::OutOfRange;
 use solver::Path;
 use substrate::RowStiffness;
 
@@ -10,7 +11,7 @@ use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
 };
-use crate::{Common, Design, InvalidDesign, Status};
+use crate::{Common, Design, Status};
 
 /// Everything that a puncture depends on.
 #[derive(Clone, Debug)]
@@ -37,7 +38,7 @@ const LOAD: usize = 0;
 pub fn differentiate(
     input: &PunctureInput,
     variations: &[Variation<PunctureInput>],
-) -> Result<(Puncture, Vec<Derivative>), InvalidDesign> {
+) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
     let PunctureInput { design, stiffness, common, parameters } = input;
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
@@ -55,7 +56,7 @@ impl Problem<'_> {
         &self,
         followed: &mut Followed,
         variations: &[Variation<PunctureInput>],
-    ) -> Result<Vec<Derivative>, InvalidDesign> {
+    ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { record, path, .. } = followed;
         let spots = self.spots(record, path);
         let system = path.system();
@@ -89,7 +90,7 @@ impl Problem<'_> {
 
 impl PunctureInput {
     /// The system of a row of so many scales.
-    fn chain(&self, layout: Layout) -> Result<Chain, InvalidDesign> {
+    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { design, stiffness, common, parameters } = self;
         let rows = Rows::Even(design.leaning_row()?);
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;

@@ -1,11 +1,12 @@
 //! A row of scales as it stands at chosen places of its path.
 
+use geometry::OutOfRange;
 use solver::{Path, Settings};
 
 use super::system::{Chain, Layout};
 use super::{
-    InvalidDesign, Problem, Puncture, PunctureParameters, PuncturePoint, RowLength, RowStiffness,
-    Rows, ScaleState, Status, scales,
+    Problem, Puncture, PunctureParameters, PuncturePoint, RowLength, RowStiffness, Rows,
+    ScaleState, Status, scales,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::crossing::{Crossing, follow};
@@ -61,7 +62,7 @@ pub fn snapshots(
     common: &Common,
     parameters: &PunctureParameters,
     at: &[At],
-) -> Result<Snapshots, InvalidDesign> {
+) -> Result<Snapshots, OutOfRange> {
     let stiffness = &substrate.into();
     let mut parameters = *parameters;
     let mut puncture = super::solve(design, stiffness, common, &parameters)?;

@@ -2,7 +2,7 @@
 
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
-use solver::{Blocks, Change, Control, Residual, System, Tangent};
+use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
 use substrate::{FarField, Neighbour, RowStiffness};
 
 use super::window::{Reach, Surroundings};
@@ -67,6 +67,15 @@ impl Layout {
         }
     }
 
+    /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
+    fn units(self, direct: [f64; 3]) -> Vec<f64> {
+        let mut units = vec![1.0; self.size()];
+        for scale in 0..self.scales() {
+            units[self.scale(scale)..][..3].copy_from_slice(&direct);
+        }
+        units
+    }
+
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
@@ -92,7 +101,7 @@ pub(crate) struct Chain {
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
     neighbours: Vec<Neighbour>,
-    /// What lies beyond the ends of a part of an endless row; forces as above.
+    /// The row beyond the ends, if this one is a part of an endless row; forces as above.
     surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
@@ -123,10 +132,6 @@ impl Chain {
         });
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
-        let mut units = vec![1.0; layout.size()];
-        for i in 0..layout.scales() {
-            units[layout.scale(i)..layout.scale(i) + 3].copy_from_slice(&direct);
-        }
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -143,11 +148,11 @@ impl Chain {
             // The tilt is clockwise: it decreases the rotation.
             blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
-            units,
+            units: layout.units(direct),
         }
     }
 
-    /// The same row as a part of an endless one.
+    /// This row as a part of an endless one.
     pub(crate) fn within(self, surroundings: Surroundings) -> Self {
         let a = self.half_base;
         Self { surroundings: Some(surroundings.scaled([a, a, a.powi(3)])), ..self }
@@ -261,18 +266,6 @@ impl Chain {
         });
         springs.sum()
     }
-
-    fn add_springs(&self, z: &[f64], residual: &mut Residual) {
-        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
-    }
-
-    fn add_load(&self, z: &[f64], residual: &mut Residual) {
-        let at = self.layout.scale(self.layout.left);
-        let load = z[self.layout.load()];
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        residual.add(at + 1, load);
-        residual.add(at + 2, load * arm.x);
-    }
 }
 
 impl System for Chain {
@@ -308,21 +301,11 @@ impl System for Chain {
     }
 
     fn residual(&self, state: &SkinState, residual: &mut Residual) {
-        residual.clear(&self.units);
-        self.add_springs(&state.z, residual);
-        self.add_load(&state.z, residual);
-        self.contacts.add_residual(state, residual);
+        self.linearise(state, residual, &mut NoTangent);
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
-        let z = &state.z;
-        self.for_springs(|row, column, value| matrix.add(row, column, value));
-        let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
-        matrix.add(at + 1, self.layout.load(), 1.0);
-        matrix.add(at + 2, self.layout.load(), arm.x);
-        matrix.add(at + 2, at + 2, -z[self.layout.load()] * arm.y);
-        self.contacts.add_tangent(state, matrix);
+        self.linearise(state, &mut Residual::new(self.size()), matrix);
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {

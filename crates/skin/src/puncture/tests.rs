@@ -1,4 +1,4 @@
-//! What only the inside of the model shows: its tangent, its energy balance, the limit of `Auto`.
+//! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
 use std::collections::HashSet;
 
@@ -47,7 +47,7 @@ fn path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     )
 }
 
-/// The same where all scales feel each other, with rotations.
+/// A chain of which all scales feel each other, with rotations.
 fn coupled_path(design: &Design, law: ContactLaw, load_position: f64) -> Path<Chain> {
     let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
     path_on(&stiffness, design, law, load_position)

@@ -4,13 +4,12 @@
 //! ([`FarField`]): the scales of that part are not solved for. As contact spreads the row grows, at the point of the path where it
 //! has to.
 
-use geometry::{Corner, Vec2};
+use geometry::{Corner, OutOfRange, Vec2};
 use solver::{Change, Event};
 use substrate::{FarField, RowStiffness};
 
 use super::Rows;
 use super::system::{Chain, Layout};
-use crate::InvalidDesign;
 use crate::contacts::{Contacts, PAIR_FORCES, SkinPoint, SkinState};
 
 /// Scales on each side of the punctured one with which the path of an endless row begins.
@@ -40,7 +39,7 @@ pub(crate) enum Reach {
     Beyond,
 }
 
-/// What lies beyond the ends of the row that is solved for.
+/// The row beyond the ends of the part that is solved for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Surroundings {
     /// How the scales beyond move; `None` if they are taken to be at rest.
@@ -60,7 +59,7 @@ impl Surroundings {
         rows: Rows,
         stiffness: &RowStiffness,
         layout: Layout,
-    ) -> Result<Self, InvalidDesign> {
+    ) -> Result<Self, OutOfRange> {
         let Some(far) = stiffness.far_field() else {
             return Ok(Self { far: None, closing: [STILL; 2], arm: 1.0 });
         };

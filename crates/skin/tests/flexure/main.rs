@@ -1,4 +1,4 @@
-//! What the bending model must show.
+//! Behaviour of the bending model.
 //!
 //! | File | Against |
 //! |---|---|

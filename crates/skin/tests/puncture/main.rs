@@ -1,4 +1,4 @@
-//! What the puncture model must show.
+//! Behaviour of the puncture model.
 //!
 //! | File | Against |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What the outputs mean.
+//! The meaning of the outputs.
 
 use std::collections::{HashMap, HashSet};
 
@@ -106,7 +106,7 @@ fn every_point_of_the_path_has_its_iterations() {
     }
 }
 
-/// What is left of a path that stops is how it began.
+/// Of a path that stops only the values of its beginning are left.
 #[test]
 fn a_path_that_stops_keeps_how_it_began() {
     let solver = Settings { max_points: 20, ..Settings::default() };

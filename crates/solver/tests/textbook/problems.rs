@@ -220,7 +220,7 @@ impl StringOverFloor {
         Self::new(intervals, load, false)
     }
 
-    /// Its left half.
+    /// The left half of the bar.
     pub fn halved(intervals: usize, load: f64) -> Self {
         Self::new(intervals, load, true)
     }

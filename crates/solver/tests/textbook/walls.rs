@@ -27,12 +27,12 @@ impl Walls {
         Self { gaps, shielded: None, constraints, controls, tangents: Arc::default() }
     }
 
-    /// The same, one of the walls shielded by another.
+    /// Walls of which one is shielded by another.
     pub fn shielded(gaps: Vec<fn(f64) -> [f64; 2]>, wall: usize, by: usize) -> Self {
         Self { shielded: Some((wall, by)), ..Self::new(gaps) }
     }
 
-    /// The same, the path measured by the load too.
+    /// Walls, the path measured by the load too.
     pub fn measured_by_the_load(gaps: Vec<fn(f64) -> [f64; 2]>) -> Self {
         let mut walls = Self::new(gaps);
         walls.controls.push(Control { index: walls.load(), scale: 1.0 });

@@ -1,4 +1,4 @@
-//! What a path takes: how many points, and how many Newton iterations.
+//! The work of a path: how many points, and how many Newton iterations.
 //!
 //! A search that converges slowly, or a step that is cut for no reason, still leads to the same
 //! equilibria, and shows here alone. The counts are upper bounds: a change that makes the solver better lowers them.
@@ -28,7 +28,7 @@ fn work<S: System>(system: S, settings: Settings) -> [usize; 2] {
     [points, iterations]
 }
 
-/// That each count is no more than what it once took: less is welcome.
+/// Checks that no count is above that of before: less is welcome.
 #[track_caller]
 fn assert_at_most(counts: &[usize], most: &[usize]) {
     assert!(

@@ -1,5 +1,7 @@
 //! The axes of a grid as they are written: numbers, lists, ranges; their order.
 
+use std::collections::HashSet;
+
 use super::invalid::Problem;
 use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
@@ -32,9 +34,10 @@ fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Prob
         return Err(WrongValue::NotAccepted { found: "[]".to_owned(), expected }.into());
     }
     let mut values = Vec::with_capacity(items.len());
+    let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         let value = parameter.read(item)?;
-        if values.contains(&value) {
+        if !seen.insert(value.key()) {
             return Err(Problem::Twice { value: item.to_string() });
         }
         values.push(value);

@@ -34,6 +34,16 @@ impl Scalar {
         }
     }
 
+    /// A key that two values of one parameter share if they are equal. A number is never `NaN`.
+    pub(crate) fn key(self) -> (u64, &'static str) {
+        match self {
+            // Zero and minus zero are equal.
+            Self::Number(number) => ((number + 0.0).to_bits(), ""),
+            Self::Count(count) => (count as u64, ""),
+            Self::Word(word) => (0, word),
+        }
+    }
+
     /// The value as it is written in a definition: words in quotes.
     pub fn to_toml(self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! What a definition means.
+//! The meaning of a definition.
 
 use sweep::{Setting, Sweep};
 

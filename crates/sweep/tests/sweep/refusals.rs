@@ -1,4 +1,4 @@
-//! What is refused: one line with file, key, value and what would be right.
+//! Refusals: one line with file, key, value and what would be right.
 
 use sweep::{Setting, Sweep};
 
@@ -139,4 +139,15 @@ proptest::proptest! {
             proptest::prop_assert_eq!(error.to_string().lines().count(), 1);
         }
     }
+}
+
+/// A list takes time in proportion to its length: each value is not compared with all before it.
+#[test]
+fn a_long_list_with_a_value_twice_is_refused_at_once() {
+    let numbers = (1..=300_000).map(|k| format!("{k}e-6")).chain(["0.000001".to_owned()]);
+    let list = numbers.collect::<Vec<_>>().join(", ");
+    let start = std::time::Instant::now();
+    let message = all(&[&format!("designs.gap_over_t = [{list}]")]);
+    assert!(message.contains("0.000001"), "{message}");
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
 }

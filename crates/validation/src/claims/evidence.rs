@@ -107,7 +107,7 @@ pub(crate) struct BentStrip {
 pub(crate) struct Balanced {
     /// The best design.
     pub(crate) best: MeasuredDesign,
-    /// Its fitness.
+    /// The fitness of the best design.
     pub(crate) fitness: f64,
     /// The part of the weights that it wins, in percent.
     pub(crate) share: f64,

@@ -1,4 +1,4 @@
-//! Centred differences of whole solutions.
+//! Differences of whole solutions.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -7,46 +7,73 @@ use results::DesignResult;
 use run::Evaluator;
 use sweep::{Case, Measure, Parameter};
 
+/// A direction in which parameters change together.
+pub type Direction = [(&'static Parameter, f64)];
+
 /// Differences of the solutions of designs near one.
 pub struct Differences<'a> {
     case: &'a Case,
-    solved: RefCell<HashMap<(&'static str, i32), DesignResult>>,
+    /// Results by direction and step.
+    solved: RefCell<HashMap<(String, i32), DesignResult>>,
 }
 
-/// The smallest step, as a part of a parameter; others are its multiples.
+/// The smallest step; others are its multiples.
 const STEP: f64 = 5e-5;
 
 /// Steps, as multiples: a short one for designs near a kink, longer ones for derivatives that drown in round-off.
 const STEPS: [i32; 3] = [32, 8, 2];
+
+/// Largest change of a measure, as a part of it, that differences over the whole size of a parameter owe to the tolerances of the
+/// solver and of the search for maxima.
+const NOISE: f64 = 1e-8;
 
 impl<'a> Differences<'a> {
     pub fn of(case: &'a Case) -> Self {
         Self { case, solved: RefCell::default() }
     }
 
-    /// How far a derivative is from the difference that is nearest to it, relative to it. `None` if the measure does not exist.
-    pub fn off(&self, measure: &str, parameter: &'static Parameter, ours: f64) -> Option<f64> {
-        let size = parameter.size(self.case)?;
-        let at = |steps: i32| self.value(measure, parameter, steps);
+    /// How far a derivative along a direction is from the centred difference that is nearest to it, relative to it. `None` if the
+    /// measure does not exist nearby.
+    pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
+        let at = |steps: i32| self.value(measure, along, steps);
         let offs = STEPS.iter().filter_map(|&steps| {
             let difference = |steps: i32| -> Option<f64> {
-                let width = 2.0 * f64::from(steps) * STEP * size;
-                Some((at(steps)? - at(-steps)?) / width)
+                Some((at(steps)? - at(-steps)?) / (2.0 * f64::from(steps) * STEP))
             };
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
-            let difference = fine + (fine - rough) / 3.0;
-            let noise = 1e-8 * at(0)?.abs() / size;
-            Some(((ours - difference).abs() - noise).max(0.0) / ours.abs().max(1e-300))
+            self.distance(measure, fine + (fine - rough) / 3.0, ours)
         });
         offs.reduce(f64::min)
     }
 
-    fn value(&self, measure: &str, parameter: &'static Parameter, steps: i32) -> Option<f64> {
+    /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.
+    pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
+        let at = |steps: i32| self.value(measure, along, steps);
+        let offs = STEPS.iter().filter_map(|&steps| {
+            let difference = |h: i32| -> Option<f64> {
+                let rise = -3.0 * at(0)? + 4.0 * at(h)? - at(2 * h)?;
+                Some(rise / (2.0 * f64::from(h) * STEP))
+            };
+            let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
+            self.distance(measure, fine + (fine - rough) / 3.0, ours)
+        });
+        offs.reduce(f64::min)
+    }
+
+    fn distance(&self, measure: &str, difference: f64, ours: f64) -> Option<f64> {
+        let noise = NOISE * self.value(measure, &[], 0)?.abs();
+        Some(((ours - difference).abs() - noise).max(0.0) / ours.abs().max(1e-300))
+    }
+
+    fn value(&self, measure: &str, along: &Direction, steps: i32) -> Option<f64> {
+        let along = if steps == 0 { &[] } else { along };
+        let key = along.iter().map(|(parameter, rate)| format!("{} {rate:e} ", parameter.key));
         let mut solved = self.solved.borrow_mut();
-        let result = solved.entry((parameter.key, steps)).or_insert_with(|| {
-            let size = parameter.size(self.case).unwrap();
-            let case = parameter.moved(self.case, f64::from(steps) * STEP * size).unwrap();
-            solve(&case)
+        let result = solved.entry((key.collect(), steps)).or_insert_with(|| {
+            let moved = along.iter().try_fold(*self.case, |case, (parameter, rate)| {
+                parameter.moved(&case, f64::from(steps) * STEP * rate)
+            });
+            solve(&moved.unwrap())
         });
         value(result, measure)
     }

@@ -1,0 +1,16 @@
+//! Arguments of `squama check`.
+
+use clap::Args;
+
+use super::Definition;
+
+/// Arguments of `squama check`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama check sweeps/paper.toml
+  squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'")]
+pub struct CheckArguments {
+    #[command(flatten)]
+    pub definition: Definition,
+}

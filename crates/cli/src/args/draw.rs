@@ -1,0 +1,53 @@
+//! Arguments of `squama draw`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Definition;
+
+/// Arguments of `squama draw`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama draw sweeps/paper.toml --design 0417
+  squama draw sweeps/paper.toml --design 0417 --at 0.1,0.4,0.7 --png
+  squama draw sweeps/paper.toml --design 0417,0418 --flexure
+  squama draw sweeps/paper.toml --design 0067,0070,0072 --force 0.1
+  squama draw sweeps/paper.toml --design 0417 --animate
+
+Shows the row at rest and at the critical tilt, or at the displacements u/t of --at; each is solved
+for. Contacts are red, forces between scales are arrows, the bars are the reactions of the
+substrate. With --flexure, the strip where its ends have turned by the angles of --at (degrees).")]
+pub struct DrawArguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Numbers of the designs in the grid of the sweep
+    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', required = true)]
+    pub designs: Vec<String>,
+
+    /// Displacements u/t of the punctured point, or rotations of the ends in degrees
+    #[arg(long, value_name = "VALUES", value_delimiter = ',')]
+    pub at: Vec<f64>,
+
+    /// Puncture forces F* instead of displacements
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', conflicts_with_all = ["at", "flexure", "animate"])]
+    pub force: Vec<f64>,
+
+    /// The strip in bending instead of the puncture
+    #[arg(long)]
+    pub flexure: bool,
+
+    /// An image beside each drawing, if squama is built with --features png
+    #[arg(long)]
+    pub png: bool,
+
+    /// One page that plays the path instead of drawings
+    #[arg(long)]
+    pub animate: bool,
+
+    /// Folder of the drawings [default: results/NAME/drawings]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}

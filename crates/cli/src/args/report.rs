@@ -1,0 +1,23 @@
+//! Arguments of `squama report`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Arguments of `squama report`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama report results/paper
+  squama report results/paper --out paper.html
+
+The page needs no network and no server: open it in a browser.")]
+pub struct ReportArguments {
+    /// Folder of the results of a run
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// The page [default: RESULTS/report.html]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}

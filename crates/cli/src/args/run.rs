@@ -1,0 +1,59 @@
+//! Arguments of `squama run`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Definition, Format, Work};
+
+/// Arguments of `squama run`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama run sweeps/paper.toml
+  squama run sweeps/paper.toml --resume
+  squama run sweeps/paper.toml --set puncture.scales=41 --out results/short-rows
+  squama run sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]' --set name=exponent
+  squama run sweeps/paper.toml --sample 100 --seed 7 --out results/sample
+  squama run sweeps/paper.toml --shard 3/8
+
+Writes designs.csv, a table for each measure, failures.csv and run.toml, from a journal to which
+every design is added as it is done. The tables do not depend on the number of threads, nor on
+how often the run was ended and resumed. The first SIGINT or SIGTERM ends the run once the designs in
+hand are done, the second at once.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
+SIGINT or SIGTERM.")]
+pub struct RunArguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Folder of the results [default: results/NAME, or results/NAME/shards/i-of-N]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Go on with the results that are there, if there are any
+    #[arg(long, conflicts_with = "fresh")]
+    pub resume: bool,
+
+    /// Throw away the results that are there, if there are any
+    #[arg(long)]
+    pub fresh: bool,
+
+    /// Solve a random subset of this many designs
+    #[arg(long, value_name = "DESIGNS")]
+    pub sample: Option<u64>,
+
+    /// Seed of the random subset: the same seed, the same designs
+    #[arg(long, value_name = "SEED", requires = "sample", default_value_t = 0)]
+    pub seed: u64,
+
+    /// Solve one shard: of N, the i-th, that is every N-th design from the i-th on
+    #[arg(long, value_name = "i/N")]
+    pub shard: Option<sweep::Shard>,
+
+    #[command(flatten)]
+    pub work: Work,
+
+    #[command(flatten)]
+    pub format: Format,
+}

@@ -1,0 +1,28 @@
+//! Arguments of `squama validate`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// Arguments of `squama validate`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama validate
+  squama validate --out validation.md
+  squama validate --search sweeps/open-questions.toml
+
+Solves problems with known answers, both sweeps of the paper, and sweeps over what the paper leaves
+open; prints the tables and writes them down. Takes about a minute on two cores. With --search, checks
+the claims on every setting of a sweep over open choices instead, and prints what each reproduces.
+Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
+change it.")]
+pub struct ValidateArguments {
+    /// The page
+    #[arg(long, value_name = "FILE", default_value = "docs/validation.md")]
+    pub out: PathBuf,
+
+    /// A sweep of the paper's designs with further axes: which settings come closest to the claims
+    #[arg(long, value_name = "SWEEP.toml", conflicts_with = "out")]
+    pub search: Option<PathBuf>,
+}

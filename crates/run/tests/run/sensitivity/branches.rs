@@ -1,0 +1,58 @@
+//! The branches of the contact that the designs of these tests end in.
+
+use std::collections::{BTreeSet, HashMap};
+
+use run::Evaluator;
+use skin::ContactChange;
+use sweep::{Case, Measure};
+
+use super::designs::{self, random_case};
+
+/// The branches in which the contacts of a puncture and a bent strip end: a corner on an edge, corners together, a tip on the
+/// neighbour's end, and sides that lie flush.
+fn branches(case: &Case) -> BTreeSet<&'static str> {
+    let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
+    let punctured = solved.puncture.iter().flat_map(|p| &p.events);
+    let punctured = punctured.map(|e| (e.left_scale, e.corner_edge.name(), e.change));
+    let bent = solved.flexure.iter().flat_map(|f| &f.events);
+    let bent = bent.map(|e| (e.left_scale, e.corner_edge.name(), e.change));
+    let mut branches = ends(punctured);
+    branches.extend(ends(bent));
+    branches
+}
+
+fn ends(
+    events: impl Iterator<Item = (Option<i64>, &'static str, ContactChange)>,
+) -> BTreeSet<&'static str> {
+    let mut ends = HashMap::new();
+    for (pair, edge, change) in events {
+        let is_upper = edge.starts_with('T');
+        let on_edge = if edge.ends_with("edge") { "edge" } else { "tip" };
+        let before = ends.get(&(pair, is_upper)).copied();
+        let after = match change {
+            ContactChange::Closed if before.is_some() => Some("flush"),
+            ContactChange::Closed | ContactChange::LeftCorner | ContactChange::HandedOver => {
+                Some(on_edge)
+            }
+            ContactChange::ReachedCorner => Some("corner"),
+            ContactChange::Opened if before == Some("flush") => Some(on_edge),
+            ContactChange::Opened => None,
+        };
+        match after {
+            Some(branch) => ends.insert((pair, is_upper), branch),
+            None => ends.remove(&(pair, is_upper)),
+        };
+    }
+    ends.into_values().collect()
+}
+
+#[test]
+fn scan() {
+    for number in 0..3000 {
+        let case = random_case(number);
+        let found = branches(&case);
+        if found.iter().any(|b| *b != "edge") {
+            println!("{number} {found:?}");
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! The matrix of the derivatives, as a system sees it.
+
+/// A matrix that derivatives are added to.
+pub trait Tangent {
+    /// Replaces a row by zeros.
+    fn clear_row(&mut self, row: usize);
+
+    /// Adds `value` to the entry at (`row`, `column`).
+    fn add(&mut self, row: usize, column: usize, value: f64);
+
+    /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
+    /// constraint.
+    fn add_block<const R: usize, const C: usize>(
+        &mut self,
+        row: usize,
+        column: usize,
+        values: &[[f64; C]; R],
+    ) {
+        for (i, values) in values.iter().enumerate() {
+            for (j, value) in values.iter().enumerate() {
+                self.add(row + i, column + j, *value);
+            }
+        }
+    }
+}
+
+/// A matrix that is not asked for: derivatives added to it are lost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoTangent;
+
+impl Tangent for NoTangent {
+    fn clear_row(&mut self, _row: usize) {}
+
+    fn add(&mut self, _row: usize, _column: usize, _value: f64) {}
+}
