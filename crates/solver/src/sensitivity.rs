@@ -100,13 +100,13 @@ impl<M: Clone> Linearisation<M> {
             *unknown += along * direction;
         }
         let Neighbours { below, above, step } = neighbours;
-        self.turned(system, [below, above], *step, unknowns, turns)
+        self.turned(system, [below, above], *step, &unknowns, turns)
     }
 
     /// The place before and behind it on its path, where the system stays what it is.
     fn moved_along<S: System<Mode = M>>(&mut self, system: &S, step: f64) -> [Moved<M>; 2] {
         let unknowns = self.place.direction.clone();
-        self.turned(system, [system; 2], step, unknowns, true)
+        self.turned(system, [system; 2], step, &unknowns, true)
     }
 
     /// The place with unknowns that change at these rates.
@@ -115,10 +115,10 @@ impl<M: Clone> Linearisation<M> {
         system: &S,
         sides: [&S; 2],
         step: f64,
-        unknowns: Vec<f64>,
+        unknowns: &[f64],
         turns: bool,
     ) -> [Moved<M>; 2] {
-        let states = [-step, step].map(|step| self.place.state.moved(step, &unknowns));
+        let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
         let turning = turns.then(|| self.turning(system, sides, step, &states));
         let direction = |step: f64| match &turning {
             Some(turning) => moved(&self.place.direction, step, turning),

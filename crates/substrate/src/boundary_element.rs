@@ -23,6 +23,7 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{ColRef, Mat, Par, Spec};
 
+mod moving;
 mod rates;
 
 pub use rates::{FootprintChange, row_reactions_and_rates};
@@ -324,21 +325,25 @@ impl CellColumns {
     /// Appends, column by column, the influence of the cells between the `offsets`; negative where
     /// they descend.
     fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
-        let half = self.line.len() / 2;
         for (column, offset) in offsets.enumerate() {
             std::mem::swap(&mut self.last, &mut self.next);
             self.line.evaluate(offset, &mut self.next);
-            if column == 0 {
-                continue;
+            if column > 0 {
+                append_cells(&self.last, &self.next, into);
             }
-            let strip = |j: usize| self.next[j] - self.last[j];
-            into.extend((0..half).map(|k| {
-                let cell = strip(half + k + 1) - strip(half + k);
-                let image = strip(half - k) - strip(half - k - 1);
-                cell + image
-            }));
         }
     }
+}
+
+/// Appends the influence of the cells between two lines of corners, each together with its mirror image in `z`.
+fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
+    let half = last.len() / 2;
+    let strip = |j: usize| next[j] - last[j];
+    into.extend((0..half).map(|k| {
+        let cell = strip(half + k + 1) - strip(half + k);
+        let image = strip(half - k) - strip(half - k - 1);
+        cell + image
+    }));
 }
 
 impl Equations {

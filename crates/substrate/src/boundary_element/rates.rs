@@ -2,8 +2,7 @@
 
 use std::ops::{AddAssign, Mul};
 
-use faer::Mat;
-
+use super::moving::{self, Motion};
 use super::{Equations, Factors, RowReactions, Tractions, Unresolved};
 use crate::Footprint;
 use crate::mesh::Mesh;
@@ -36,8 +35,8 @@ const TIED: f64 = 3.0 * STEP;
 /// dp = G⁻¹ (du − dG p)                                                               (S14)
 /// ```
 ///
-/// on the factors of the tractions themselves. The differentials of matrix, displacements and sums are differences of explicit
-/// functions of the mesh. Where two of the lengths that grade the mesh are equal the rate is that of the side to which the change
+/// on the factors of the tractions themselves. That of the matrix is exact in the motion of the mesh; the motion, displacements and sums are
+/// differences of explicit functions. Where two of the lengths that grade the mesh are equal the rate is that of the side to which the change
 /// leads.
 ///
 /// # Errors
@@ -57,7 +56,7 @@ pub fn row_reactions_and_rates(
     let tractions = factors.solve(mesh.displacements());
     let solved = Solved { footprint, mesh, n, factors, tractions };
     let reactions = solved.mesh.sums(footprint, &solved.tractions);
-    let rates: Vec<_> = changes.iter().map(|change| solved.rate(change)).collect();
+    let rates = solved.rates(changes);
     let finite = [&reactions].into_iter().chain(&rates).all(RowReactions::is_finite);
     if finite { Ok((reactions, rates)) } else { Err(unresolved) }
 }
@@ -72,45 +71,51 @@ struct Solved<'a> {
 }
 
 impl Solved<'_> {
-    fn rate(&self, change: &FootprintChange) -> RowReactions {
-        let mut rate = self.mesh.sums(self.footprint, &self.tractions) * 0.0;
-        let mut right = self.mesh.displacements().map(|zero| zero * 0.0);
-        if change.poisson_ratio != 0.0 {
-            right.shear += -change.poisson_ratio * self.change_with_poisson_ratio();
-        }
+    /// The rates of the reactions for each change.
+    fn rates(&self, changes: &[FootprintChange]) -> Vec<RowReactions> {
+        let mut rates: Vec<_> = changes.iter().map(|change| self.imposed_rates(change)).collect();
+        let motions: Vec<_> =
+            rates.iter_mut().map(|rates| std::mem::take(&mut rates.motion)).collect();
+        let products = moving::products(&self.mesh, self.footprint, &motions, &self.tractions);
+        let of_change = |(rates, product): (ImposedRates, Tractions)| {
+            let ImposedRates { mut sums, displacements, .. } = rates;
+            let right = Tractions {
+                shear: displacements.shear - product.shear,
+                normal: displacements.normal - product.normal,
+                rotation: displacements.rotation - product.rotation,
+            };
+            sums += self.mesh.sums(self.footprint, &self.factors.solve(right));
+            sums
+        };
+        rates.into_iter().zip(products).map(of_change).collect()
+    }
+
+    /// The rates of what is imposed: differences of explicit functions of the mesh.
+    fn imposed_rates(&self, change: &FootprintChange) -> ImposedRates {
+        let mut sums = self.mesh.sums(self.footprint, &self.tractions) * 0.0;
+        let mut displacements = self.mesh.displacements().map(|zero| zero * 0.0);
+        let mut motion = Motion::of(&self.mesh, change.poisson_ratio);
         let Stencil { weights, step } = Stencil::of(self.footprint, change);
         for &(place, weight) in weights {
             let Some(footprint) = self.footprint.moved(change, place * step) else { continue };
-            let mesh = Mesh::row(&footprint, self.mesh.neighbours.len(), self.n);
-            rate += mesh.sums(&footprint, &self.tractions) * (weight / step);
-            let equations = Equations::assemble(&mesh, self.footprint.poisson_ratio());
-            equations.add_defects(&self.tractions, mesh.displacements(), weight / step, &mut right);
+            let (mesh, weight) =
+                (Mesh::row(&footprint, self.mesh.neighbours.len(), self.n), weight / step);
+            sums += mesh.sums(&footprint, &self.tractions) * weight;
+            let there = mesh.displacements();
+            displacements.shear += weight * there.shear;
+            displacements.normal += weight * there.normal;
+            displacements.rotation += weight * there.rotation;
+            motion.add(&mesh, weight);
         }
-        rate += self.mesh.sums(self.footprint, &self.factors.solve(right));
-        rate
-    }
-
-    /// `∂G/∂ν p` of the shear problem, whose matrix is linear in `1/(1 − ν)`.
-    fn change_with_poisson_ratio(&self) -> Mat<f64> {
-        let Equations { shear, normal, .. } = Equations::assemble(&self.mesh, 0.5);
-        let rate = (1.0 - self.footprint.poisson_ratio()).powi(-2);
-        rate * ((shear - normal) * &self.tractions.shear)
+        ImposedRates { sums, displacements, motion }
     }
 }
 
-impl Equations {
-    /// Adds `weight` times `u − G p` of the three problems.
-    fn add_defects(
-        &self,
-        tractions: &Tractions,
-        displacements: Tractions,
-        weight: f64,
-        into: &mut Tractions,
-    ) {
-        into.shear += weight * (displacements.shear - &self.shear * &tractions.shear);
-        into.normal += weight * (displacements.normal - &self.normal * &tractions.normal);
-        into.rotation += weight * (displacements.rotation - &self.rotation * &tractions.rotation);
-    }
+/// The rates of what a footprint imposes on given tractions.
+struct ImposedRates {
+    sums: RowReactions,
+    displacements: Tractions,
+    motion: Motion,
 }
 
 /// How a derivative with respect to the mesh is taken.

@@ -24,8 +24,11 @@ const STEP: f64 = 5e-5;
 const STEPS: [i32; 3] = [32, 8, 2];
 
 /// Largest change of a measure, as a part of it, that differences over the whole size of a parameter owe to the tolerances of the
-/// solver and of the search for maxima.
+/// solver.
 const NOISE: f64 = 1e-8;
+
+/// Part of a largest stiffness to which its search is exact, with some allowance: it ends where three values agree to 1e-10.
+const SEARCHED: f64 = 2e-10;
 
 impl<'a> Differences<'a> {
     pub fn of(case: &'a Case) -> Self {
@@ -41,7 +44,7 @@ impl<'a> Differences<'a> {
                 Some((at(steps)? - at(-steps)?) / (2.0 * f64::from(steps) * STEP))
             };
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
-            self.distance(measure, fine + (fine - rough) / 3.0, ours)
+            self.distance(measure, fine + (fine - rough) / 3.0, ours, f64::from(steps) * STEP)
         });
         offs.reduce(f64::min)
     }
@@ -55,13 +58,15 @@ impl<'a> Differences<'a> {
                 Some(rise / (2.0 * f64::from(h) * STEP))
             };
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
-            self.distance(measure, fine + (fine - rough) / 3.0, ours)
+            self.distance(measure, fine + (fine - rough) / 3.0, ours, f64::from(steps) * STEP)
         });
         offs.reduce(f64::min)
     }
 
-    fn distance(&self, measure: &str, difference: f64, ours: f64) -> Option<f64> {
-        let noise = NOISE * self.value(measure, &[], 0)?.abs();
+    fn distance(&self, measure: &str, difference: f64, ours: f64, step: f64) -> Option<f64> {
+        let is_searched = ["max_stiffness", "compliance"].contains(&measure);
+        let part = NOISE + if is_searched { SEARCHED / step } else { 0.0 };
+        let noise = part * self.value(measure, &[], 0)?.abs();
         Some(((ours - difference).abs() - noise).max(0.0) / ours.abs().max(1e-300))
     }
 

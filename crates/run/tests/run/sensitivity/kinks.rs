@@ -24,7 +24,7 @@ fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
             };
             let along = [(parameter, side)];
             let off = differences.off_one_sided(&derivative.measure, &along, ours * side);
-            assert!(off.unwrap() <= TOLERANCE, "{off:?} {side} {derivative:?}");
+            assert!(off.unwrap() <= TOLERANCE, "{off:?} {side} {derivative:?} {case:?}");
         }
     }
     kinks
