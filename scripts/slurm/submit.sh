@@ -10,10 +10,12 @@ here=$(cd "$(dirname "$0")" && pwd)
 . "$here/sweep.sh"
 
 mkdir -p "$here/log"
+# Slurm puts numbers in the place of what follows a per cent sign in the name of a log.
+log=${here//%/%%}/log
 # The count stands in sweep.sh: within an array, Slurm only tells how many elements were submitted.
 array=$(sbatch --parsable --job-name="$NAME" --array="1-$SHARDS" \
-    --output="$here/log/%A_%a.txt" "$@" "$here/array.sh" "$here")
+    --output="$log/%A_%a.txt" "$@" "$here/array.sh" "$here")
 # After any end: `afterok` would wait forever for a shard that has failed.
 merger=$(sbatch --parsable --job-name="$NAME merge" --dependency="afterany:${array%%;*}" \
-    --output="$here/log/%j_merge.txt" "$@" "$here/merge.sh" "$here")
+    --output="$log/%j_merge.txt" "$@" "$here/merge.sh" "$here")
 echo "$NAME: shards ${array%%;*}, merger ${merger%%;*}, logs in $here/log"

@@ -3,16 +3,21 @@
 mod calibrate;
 mod check;
 mod compare;
+mod completions;
 mod definition;
 mod design;
 mod draw;
 mod export;
+mod init;
+mod man;
 mod merge;
+mod partial;
 mod plot;
 mod rank;
 mod report;
 mod rerun;
 mod run;
+mod selection;
 mod slurm;
 mod status;
 mod validate;
@@ -21,16 +26,21 @@ mod work;
 pub use calibrate::CalibrateArguments;
 pub use check::CheckArguments;
 pub use compare::CompareArguments;
+pub use completions::CompletionsArguments;
 pub use definition::Definition;
 pub use design::DesignArguments;
 pub use draw::DrawArguments;
 pub use export::ExportArguments;
+pub use init::InitArguments;
+pub use man::ManArguments;
 pub use merge::MergeArguments;
+pub use partial::Partial;
 pub use plot::{CurvesArguments, PlotArguments, PlotWhat};
 pub use rank::RankArguments;
 pub use report::ReportArguments;
 pub use rerun::RerunArguments;
 pub use run::RunArguments;
+pub use selection::Selection;
 pub use slurm::SlurmArguments;
 pub use status::StatusArguments;
 pub use validate::ValidateArguments;
@@ -49,10 +59,13 @@ const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVI
     arg_required_else_help = true,
     after_help = "\
 Examples:
-  squama check sweeps/paper.toml                   what would run
-  squama run sweeps/smoke.toml                     a handful of designs, in results/smoke/
-  squama design sweeps/paper.toml --design 0417    one design, with its whole path
-  squama status results/paper                      how far a run is
+  squama init smoke                         a commented definition, in smoke.toml
+  squama check smoke.toml                   what would run
+  squama run smoke.toml                     a handful of designs, in results/smoke/
+  squama design smoke.toml --design 0007    one design, with its whole path
+  squama status results/smoke               how far a run is
+
+A folder of results does where a definition is asked for, and the other way round.
 
 Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk."
 )]
@@ -65,6 +78,8 @@ pub struct Arguments {
 /// The command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Write a commented definition to begin with
+    Init(InitArguments),
     /// Solve every design of a sweep and write the tables
     Run(RunArguments),
     /// Solve some designs of a run again, with other settings
@@ -95,4 +110,8 @@ pub enum Command {
     Calibrate(CalibrateArguments),
     /// Show what squama reproduces: benchmarks, the claims of the paper, sensitivity
     Validate(ValidateArguments),
+    /// Print completions for a shell
+    Completions(CompletionsArguments),
+    /// Write manual pages
+    Man(ManArguments),
 }

@@ -1,12 +1,17 @@
 //! The commands, one file each.
 
+mod audit;
 mod calibrate;
 mod check;
 mod compare;
+mod completions;
+mod derived;
 mod design;
 mod draw;
 mod export;
 mod figure_file;
+mod init;
+mod man;
 mod merge;
 mod plot;
 mod rank;
@@ -14,16 +19,21 @@ mod report;
 mod rerun;
 mod results_folder;
 mod run;
+mod selection;
 mod slurm;
+mod source;
 mod status;
 mod validate;
 
 pub use calibrate::calibrate;
 pub use check::check;
 pub use compare::compare;
+pub use completions::completions;
 pub use design::design;
 pub use draw::draw;
 pub use export::export;
+pub use init::init;
+pub use man::man;
 pub use merge::merge;
 pub use plot::plot;
 pub use rank::rank;
@@ -34,12 +44,7 @@ pub use slurm::slurm;
 pub use status::status;
 pub use validate::validate;
 
-use std::path::{Path, PathBuf};
-
 use ::run::Program;
-use sweep::{InvalidSetting, Setting, Sweep};
-
-use crate::args::Definition;
 
 /// This program.
 const PROGRAM: Program =
@@ -51,16 +56,3 @@ const DONE: u8 = 0;
 const INCOMPLETE: u8 = 1;
 /// Exit code when two runs differ and the exit code is to say so.
 const DIFFERENT: u8 = 1;
-
-fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {
-    definition.settings.iter().map(|text| Setting::parse(text)).collect()
-}
-
-fn read(definition: &Definition) -> anyhow::Result<Sweep> {
-    Ok(Sweep::read(&definition.path, &settings(definition)?)?)
-}
-
-/// Where the results of `sweep` go unless told otherwise.
-fn folder_of(sweep: &Sweep, out: Option<&Path>) -> PathBuf {
-    out.map_or_else(|| Path::new("results").join(sweep.name()), Path::to_owned)
-}

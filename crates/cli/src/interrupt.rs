@@ -1,38 +1,37 @@
-//! Signals that ask a run to end.
+//! Signals that ask a process to end.
+//!
+//! A run that is asked to end finishes the designs in hand and writes its tables; every other command removes what it has
+//! half-written and ends.
 
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 /// A shell adds this to the number of a signal that ended a process.
 const BASE: u8 = 128;
 
-/// Listens to SIGINT and SIGTERM: the first asks the run to end, the second ends the process.
+/// Listens to the signals that ask a process to end.
+#[derive(Clone, Debug, Default)]
 pub struct Interrupt {
+    /// Whether the first signal asks only.
+    asks_first: Arc<AtomicBool>,
     stop: Arc<AtomicBool>,
     signal: Arc<AtomicUsize>,
 }
 
 impl Interrupt {
-    /// Begins to listen.
+    /// Begins to listen. A file that may not grow any more is an error like a full disk, not the end of the process.
     pub fn listen() -> io::Result<Self> {
-        let stop = Arc::new(AtomicBool::new(false));
-        let signal = Arc::new(AtomicUsize::new(0));
-        let asked = Arc::new(AtomicBool::new(false));
-        for number in [SIGINT, SIGTERM] {
-            // In this order, so that the first signal does not meet its own flag.
-            let code = number + i32::from(BASE);
-            flag::register_conditional_shutdown(number, code, Arc::clone(&asked))?;
-            flag::register(number, Arc::clone(&asked))?;
-            let known = usize::try_from(number).unwrap_or_default();
-            flag::register_usize(number, Arc::clone(&signal), known)?;
-            flag::register(number, Arc::clone(&stop))?;
-        }
-        Self::survive_file_limits()?;
-        Ok(Self { stop, signal })
+        let interrupt = Self::default();
+        system::listen(interrupt.clone())?;
+        Ok(interrupt)
+    }
+
+    /// From now on the first signal asks the process to end, and does not end it.
+    pub fn ask_first(&self) {
+        self.asks_first.store(true, Ordering::Relaxed);
     }
 
     /// Set once the run is asked to end.
@@ -45,16 +44,73 @@ impl Interrupt {
         let signal = u8::try_from(self.signal.load(Ordering::Relaxed)).unwrap_or_default();
         (signal > 0).then(|| BASE + signal)
     }
+}
 
-    /// A file that may not grow any more is an error like a full disk, not the end of the process.
-    #[cfg(unix)]
-    pub fn survive_file_limits() -> io::Result<()> {
-        flag::register(signal_hook::consts::SIGXFSZ, Arc::default()).map(|_| ())
+#[cfg(unix)]
+mod system {
+    use std::thread;
+    use std::time::{Duration, Instant};
+
+    use results::exit_without_partial_files;
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXFSZ};
+    use signal_hook::iterator::Signals;
+
+    use super::{Arc, BASE, Interrupt, Ordering, flag, io};
+
+    /// Signals that come within this time of the first are the same request: `timeout` sends one to the process and one to
+    /// its group.
+    const ONE_REQUEST: Duration = Duration::from_secs(1);
+
+    pub fn listen(interrupt: Interrupt) -> io::Result<()> {
+        flag::register(SIGXFSZ, Arc::default())?;
+        let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
+        let mut signals = Signals::new(asking)?;
+        let attend = move || {
+            let mut asked: Option<Instant> = None;
+            for signal in signals.forever() {
+                let is_request = interrupt.asks_first.load(Ordering::Relaxed)
+                    && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
+                if !is_request {
+                    exit_without_partial_files(signal + i32::from(BASE));
+                }
+                asked.get_or_insert_with(Instant::now);
+                let number = usize::try_from(signal).unwrap_or_default();
+                let first = interrupt.signal.compare_exchange(
+                    0,
+                    number,
+                    Ordering::Relaxed,
+                    Ordering::Relaxed,
+                );
+                first.is_ok().then(|| interrupt.stop.store(true, Ordering::Relaxed));
+            }
+        };
+        thread::Builder::new().name("signals".to_owned()).spawn(attend).map(|_| ())
     }
 
-    /// Elsewhere it is an error anyway.
-    #[cfg(not(unix))]
-    pub fn survive_file_limits() -> io::Result<()> {
+    /// Whether whoever started the process wants a signal ignored, as `nohup` does. Only Linux tells.
+    fn is_ignored(signal: i32) -> bool {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+        let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+        mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+
+    use super::{Arc, Interrupt, flag, io};
+
+    pub fn listen(interrupt: Interrupt) -> io::Result<()> {
+        for signal in [SIGINT, SIGTERM] {
+            // In this order, so that the first signal does not meet its own flag.
+            let code = signal + i32::from(super::BASE);
+            flag::register_conditional_shutdown(signal, code, Arc::clone(&interrupt.stop))?;
+            let number = usize::try_from(signal).unwrap_or_default();
+            flag::register_usize(signal, Arc::clone(&interrupt.signal), number)?;
+            flag::register(signal, Arc::clone(&interrupt.stop))?;
+        }
         Ok(())
     }
 }

@@ -4,22 +4,27 @@
 //! |---|---|
 //! | `args` | command-line arguments |
 //! | `commands` | one file per command |
-//! | `interrupt` | signals that ask a run to end |
+//! | `interrupt` | signals that ask a process to end |
 //! | `progress` | the bar on the terminal |
-//! | `print` | text for people: aligned tables, closed pipes |
+//! | `print`, `json` | text for people: aligned tables, closed pipes; the same for programs |
+//! | `templates` | definitions to begin with |
 
 mod args;
 mod commands;
 mod interrupt;
+mod json;
 mod print;
 mod progress;
+mod templates;
 
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::error::{ContextKind, ContextValue};
+use clap::{CommandFactory as _, Parser as _};
 
 use crate::args::{Arguments, Command};
+use crate::interrupt::Interrupt;
 
 /// The input, or the disk, is at fault.
 const BAD_INPUT: u8 = 2;
@@ -30,9 +35,16 @@ fn main() -> ExitCode {
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
+    let interrupt = match Interrupt::listen() {
+        Ok(interrupt) => interrupt,
+        Err(error) => {
+            return refuse(&anyhow::Error::new(error).context("signals cannot be listened to"));
+        }
+    };
     let done = match command {
-        Command::Run(arguments) => commands::run(&arguments),
-        Command::Rerun(arguments) => commands::rerun(&arguments),
+        Command::Init(arguments) => commands::init(&arguments),
+        Command::Run(arguments) => commands::run(&arguments, &interrupt),
+        Command::Rerun(arguments) => commands::rerun(&arguments, &interrupt),
         Command::Status(arguments) => commands::status(&arguments),
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Slurm(arguments) => commands::slurm(&arguments),
@@ -46,6 +58,8 @@ fn main() -> ExitCode {
         Command::Check(arguments) => commands::check(&arguments),
         Command::Calibrate(arguments) => commands::calibrate(&arguments),
         Command::Validate(arguments) => commands::validate(&arguments),
+        Command::Completions(arguments) => commands::completions(&arguments),
+        Command::Man(arguments) => commands::man(&arguments),
     };
     done.map_or_else(|error| refuse(&error), ExitCode::from)
 }
@@ -55,18 +69,39 @@ fn is_help(error: &clap::Error) -> bool {
     error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
 }
 
-/// The fault of the arguments in one line, without the advice that follows it.
+/// The error in the arguments, without the advice that follows it.
 fn one_line(error: &clap::Error) -> anyhow::Error {
+    if let Some(ContextValue::String(found)) = error.get(ContextKind::InvalidSubcommand) {
+        return no_such_command(found);
+    }
     let text = error.to_string();
     let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-    let lines = lines.filter(|line| !line.is_empty() && !line.starts_with("For more information"));
+    // No value is passed in that way, because a number below zero is one.
+    let advice = ["For more information", "tip: to pass"];
+    let lines = lines
+        .filter(|line| !line.is_empty() && !advice.iter().any(|advice| line.starts_with(advice)));
     let lines: Vec<_> = lines.collect();
     let line = lines.join(", ").replace(":, ", ": ");
     anyhow::anyhow!(line.trim_start_matches("error: ").to_owned())
 }
 
+/// The error of a command that does not exist.
+fn no_such_command(found: &str) -> anyhow::Error {
+    let squama = Arguments::command();
+    let known: Vec<_> = squama.get_subcommands().map(clap::Command::get_name).collect();
+    let hint = match sweep::nearest(found, &known) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!("expected one of {}", known.join(", ")),
+    };
+    anyhow::anyhow!("there is no command {found}, {hint}")
+}
+
+/// Tells an error, in a line for each thing that is wrong.
 fn refuse(error: &anyhow::Error) -> ExitCode {
-    // With nowhere left to say it, the exit code says it.
-    let _ = writeln!(std::io::stderr(), "error: {error:#}");
+    for line in format!("{error:#}").lines() {
+        // With nowhere left to say it, the exit code says it.
+        let line = sweep::shortened(line);
+        let _ = writeln!(std::io::stderr(), "error: {}", sweep::visible(&line));
+    }
     ExitCode::from(BAD_INPUT)
 }

@@ -1,14 +1,29 @@
 //! Text for people.
 
 use std::io::{self, ErrorKind, Write as _};
+use std::time::Duration;
+
+use results::VerifiedFolder;
 
 /// Prints `text`. A reader that has seen enough and closed the pipe is no error.
 pub fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(sweep::visible(text).as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
     }
+}
+
+/// A line that says how much of a run the results hold, if they are not the whole.
+pub fn shortfall(results: &VerifiedFolder) -> String {
+    let line = |held| format!("  made from {held}, {}\n", results.path().display());
+    results.shortfall().map_or_else(String::new, line)
+}
+
+/// Says what a person should know besides what was asked for.
+pub fn note(text: &str) {
+    // With nowhere left to say it, the results say it too.
+    let _ = writeln!(io::stderr(), "note: {}", sweep::visible(text));
 }
 
 /// `rows` with their columns aligned, each line indented by two spaces.
@@ -42,6 +57,20 @@ pub fn digits(value: f64) -> String {
     }
 }
 
+/// `value` to six digits, without the zeros at its end.
+pub fn rounded(value: f64) -> String {
+    format!("{value:.5e}").parse().map_or_else(|_| value.to_string(), sweep::number::text)
+}
+
+/// `duration` to the hundredth of a second, or to the second if it is long.
+pub fn time(duration: Duration) -> String {
+    if duration < Duration::from_secs(60) {
+        format!("{:.2} s", duration.as_secs_f64())
+    } else {
+        humantime::format_duration(Duration::from_secs(duration.as_secs())).to_string()
+    }
+}
+
 /// `count` things, in words.
 pub fn counted(count: u64, thing: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
@@ -56,6 +85,12 @@ mod tests {
     fn columns_line_up() {
         let rows = [["a", "1"], ["long", "2"]].map(|row| row.map(str::to_owned));
         assert_eq!(aligned(&rows), "  a     1\n  long  2\n");
+    }
+
+    #[test]
+    fn round_off_is_not_shown() {
+        let numbers = [0.799_999_999_625_268_6, 0.1, 2.0, 8.479_998_7, -1.234_567_8e-9, 1e6];
+        assert_eq!(numbers.map(rounded).join(" "), "0.8 0.1 2 8.48 -1.23457e-9 1000000");
     }
 
     #[test]

@@ -1,50 +1,144 @@
 //! The bar on the terminal.
 
 use std::io::{IsTerminal as _, stderr};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use run::Progress;
+use run::{Progress, WorkMeter};
 
-/// Shows how far a run is: rate, remaining time and failures so far.
+use crate::interrupt::Interrupt;
+use crate::print::time;
+
+/// How often the bar is drawn, and a signal looked for.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// The parts of the bar.
+const PARTS: u64 = 10_000;
+
+/// Said when the first signal has come.
+const ENDING: &str =
+    "ending once the designs in hand are done; a second signal ends at once, --resume goes on";
+
+/// Shows how far a run is: rate, remaining time and failures so far. A thread looks at the run, because a single design
+/// may take a minute.
 pub struct ProgressDisplay {
-    bar: ProgressBar,
-    failed: u64,
+    counts: Arc<Counts>,
+    /// The thread that looks, and what ends it.
+    watcher: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+/// How far the run is.
+#[derive(Debug, Default)]
+struct Counts {
+    work: WorkMeter,
+    designs: AtomicU64,
+    /// Designs that were done before the run began.
+    before: AtomicU64,
+    done: AtomicU64,
+    failed: AtomicU64,
 }
 
 impl ProgressDisplay {
-    /// A bar; none when `quiet` or when nobody watches.
-    pub fn new(quiet: bool) -> Self {
-        let hidden = quiet || !stderr().is_terminal();
-        let bar = if hidden { ProgressBar::hidden() } else { ProgressBar::new(0) };
-        let template = "{wide_bar} {pos}/{len} designs  {per_sec}  {eta} left  {msg}";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        bar.set_message("0 failed");
-        Self { bar, failed: 0 }
+    /// A bar, unless `quiet` or nobody watches; and a word when a signal asks the run to end, unless `quiet`.
+    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
+        let counts = Arc::<Counts>::default();
+        let watcher = (!quiet).then(|| {
+            let (sender, ended) = channel();
+            let (counts, interrupt) = (Arc::clone(&counts), interrupt.clone());
+            (sender, std::thread::spawn(move || watch(&counts, &interrupt, &ended)))
+        });
+        Self { counts, watcher }
     }
 
-    /// Shows the progress of the run.
-    pub fn show(&mut self, progress: Progress, stop: &AtomicBool) {
+    /// Where the run tells of its work.
+    pub fn work(&self) -> &WorkMeter {
+        &self.counts.work
+    }
+
+    /// Takes the progress of the run into account.
+    pub fn show(&self, progress: Progress) {
+        let counts = &self.counts;
         match progress {
             Progress::Begun { designs, done } => {
-                self.bar.set_length(designs);
-                self.bar.set_position(done);
-                self.bar.reset_eta();
+                counts.designs.store(designs, Ordering::Relaxed);
+                counts.before.store(done, Ordering::Relaxed);
             }
             Progress::Done { failed } => {
-                self.failed += u64::from(failed);
-                self.bar.inc(1);
+                counts.failed.fetch_add(u64::from(failed), Ordering::Relaxed);
+                counts.done.fetch_add(1, Ordering::Relaxed);
             }
         }
-        let ending = if stop.load(Ordering::Relaxed) { ", ending" } else { "" };
-        self.bar.set_message(format!("{} failed{ending}", self.failed));
     }
 }
 
 impl Drop for ProgressDisplay {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        if let Some((sender, watcher)) = self.watcher.take() {
+            drop(sender);
+            // The bar is all that a watcher that has ended badly leaves unfinished.
+            let _ = watcher.join();
+        }
+    }
+}
+
+/// Draws the bar until the run has `ended`.
+fn watch(counts: &Counts, interrupt: &Interrupt, ended: &Receiver<()>) {
+    let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
+        bar.set_style(style);
+    }
+    let begun = Instant::now();
+    let mut is_ending = false;
+    while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
+        if interrupt.exit_code().is_some() && !is_ending {
+            is_ending = true;
+            bar.suspend(|| eprintln!("{ENDING}"));
+        }
+        let share = counts.work.share();
+        bar.set_position((share * PARTS as f64) as u64);
+        bar.set_message(counts.text(share, begun.elapsed()));
+    }
+    bar.finish_and_clear();
+}
+
+impl Counts {
+    /// How far a run is that has done `share` of its work in `elapsed`.
+    fn text(&self, share: f64, elapsed: Duration) -> String {
+        let [designs, before, done, failed] =
+            [&self.designs, &self.before, &self.done, &self.failed]
+                .map(|count| count.load(Ordering::Relaxed));
+        let rate = done as f64 / elapsed.as_secs_f64();
+        let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
+        let left = left(share, elapsed).map_or(String::new(), |left| format!("  {left} left"));
+        format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
+    }
+}
+
+/// The time that the rest of the work takes if it goes on as it has begun.
+fn left(share: f64, elapsed: Duration) -> Option<String> {
+    let left = elapsed.as_secs_f64() * (1.0 - share) / share;
+    Duration::try_from_secs_f64(left.ceil()).ok().map(time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_the_work_and_not_the_designs() {
+        let counts = Counts::default();
+        counts.designs.store(12, Ordering::Relaxed);
+        counts.before.store(2, Ordering::Relaxed);
+        let text = |share, seconds| counts.text(share, Duration::from_secs(seconds));
+        assert_eq!(text(0.0, 3), "2/12 designs  0 failed");
+        counts.done.store(8, Ordering::Relaxed);
+        counts.failed.store(1, Ordering::Relaxed);
+        // Ten of twelve designs, but a tenth of the work.
+        assert_eq!(text(0.1, 20), "10/12 designs  3m left  1 failed");
+        assert_eq!(text(0.5, 2), "10/12 designs  4/s  2.00 s left  1 failed");
     }
 }

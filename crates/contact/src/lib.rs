@@ -18,6 +18,7 @@
 //! | [`Level`], [`Corners`] | the two corners that may meet at the tops or at the bases of a pair |
 //! | [`CornerContact`], [`Force`], [`Transition`] | the state of their contact (open, on an edge, corner on corner, flush), and how it changes |
 //! | [`CornerResponse`], [`Equation`] | what a contact adds to a system: forces, conditions, derivatives |
+//! | [`ContactStiffness`] | the symmetric stiffness of a contact, for questions of stability |
 //! | [`overlaps`], [`overlap_polygon`], [`Overlap`] | scales that overlap, for the audit of final states and for drawings |
 //!
 //! ```
@@ -42,6 +43,7 @@ mod gap;
 mod law;
 mod overlap;
 mod response;
+mod stiffness;
 #[cfg(test)]
 mod tests;
 
@@ -51,3 +53,4 @@ pub use gap::{CornerEdge, Gap, Pair, Pose};
 pub use law::{Approach, ContactLaw, Law};
 pub use overlap::{Overlap, overlap_polygon, overlaps};
 pub use response::{COORDINATES, CornerResponse, Equation};
+pub use stiffness::ContactStiffness;

@@ -11,7 +11,7 @@ use crate::law::ContactLaw;
 pub const COORDINATES: usize = 6;
 
 /// Indices of the rotations of the two scales among the coordinates.
-const ROTATIONS: [usize; 2] = [2, 5];
+pub(crate) const ROTATIONS: [usize; 2] = [2, 5];
 
 /// The value of an equation and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -179,13 +179,13 @@ impl CornerEdge {
 }
 
 /// Two corners at or near each other, and the directions at them.
-struct Together {
+pub(crate) struct Together {
     /// `D = P − Q`.
     apart: Vec2,
     /// From the node of its scale to each corner, turned.
-    arms: [Vec2; 2],
+    pub(crate) arms: [Vec2; 2],
     /// `m` of the contact itself and of its partner.
-    normals: [Vec2; 2],
+    pub(crate) normals: [Vec2; 2],
     /// The rotation with which each normal turns.
     turns: [usize; 2],
     /// `s` of the contact itself, times `σ`.
@@ -193,7 +193,7 @@ struct Together {
 }
 
 impl Together {
-    fn new(corners: &Corners, [own, partner]: [CornerEdge; 2]) -> Self {
+    pub(crate) fn new(corners: &Corners, [own, partner]: [CornerEdge; 2]) -> Self {
         let Corners { level, pair, poses } = *corners;
         let [left, right] = poses;
         let [p, q] = level.corners();
@@ -210,7 +210,7 @@ impl Together {
     }
 
     /// Component of a vector along the edge, beyond its end.
-    fn overrun(&self, v: Vec2) -> f64 {
+    pub(crate) fn overrun(&self, v: Vec2) -> f64 {
         v.dot(&self.beyond)
     }
 
@@ -277,7 +277,7 @@ impl Together {
     }
 
     /// `∂D` for a coordinate of the pair.
-    fn apart_slope(&self, coordinate: usize) -> Vec2 {
+    pub(crate) fn apart_slope(&self, coordinate: usize) -> Vec2 {
         match coordinate {
             0 => Vec2::x(),
             1 => Vec2::y(),
@@ -301,15 +301,15 @@ impl Together {
 }
 
 /// The law along the direction of a force `f`: `δ f/|f| = h f`, and `d(h f) = h df + (h'/|f|) (f·df) f`.
-struct Secant {
+pub(crate) struct Secant {
     /// `h = δ/|f|`.
-    compliance: f64,
+    pub(crate) compliance: f64,
     /// `h'/|f|`.
-    growth: f64,
+    pub(crate) growth: f64,
 }
 
 impl Secant {
-    fn new(law: &ContactLaw, f: Vec2) -> Self {
+    pub(crate) fn new(law: &ContactLaw, f: Vec2) -> Self {
         let force = f.norm();
         if force == 0.0 {
             return Self { compliance: law.approach(0.0).slope, growth: 0.0 };

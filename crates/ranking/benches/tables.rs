@@ -6,7 +6,7 @@ mod samples;
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use ranking::{Ranking, TetrahedralGrid, Weights, compare, write_ranking};
+use ranking::{Ranking, TetrahedralGrid, compare, write_ranking};
 use results::Results;
 use samples::{Criteria, write_results};
 
@@ -27,7 +27,7 @@ fn tables(c: &mut Criterion) {
             b.iter(|| {
                 let results = Results::read(&path(run)).expect("results");
                 let ranking = Ranking::new(&results, grid).expect("a ranking");
-                write_ranking(&path("out"), &ranking, Weights::BALANCED).expect("writable")
+                write_ranking(&path("out"), &ranking).expect("writable")
             });
         });
     }

@@ -25,11 +25,22 @@ pub struct Comparison<'r> {
     second: &'r Results,
     tolerance: f64,
     matching: Matching,
-    /// Columns of both, with their places in the one and in the other.
-    places: Vec<[usize; 2]>,
+    places: Vec<ComparedColumn>,
     /// The differences in each column that both runs have.
     pub columns: Vec<ColumnDifference>,
 }
+
+/// A column of both runs.
+#[derive(Clone, Copy, Debug)]
+struct ComparedColumn {
+    /// Its places in the one and in the other.
+    places: [usize; 2],
+    /// The largest difference that rounding may make of a zero.
+    noise: f64,
+}
+
+/// The share of the largest value of its column that rounding may make of a zero.
+const ROUND_OFF: f64 = 1e-14;
 
 /// Runs that cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -132,9 +143,10 @@ impl<'a> Difference<'a> {
         Some([first?, second?])
     }
 
-    fn is_within(&self, tolerance: f64) -> bool {
+    fn is_within(&self, tolerance: f64, noise: f64) -> bool {
         let [first, second] = self.texts();
-        first == second || self.numbers().is_some_and(|pair| relative(pair) <= tolerance)
+        let is_small = |pair| relative(pair) <= tolerance || absolute(pair) <= noise;
+        first == second || self.numbers().is_some_and(is_small)
     }
 }
 
@@ -153,7 +165,8 @@ pub(crate) fn relative([first, second]: [f64; 2]) -> f64 {
 }
 
 /// Compares two runs. Designs are the same if their parameters are, whatever their numbers; values
-/// are the same if they differ by at most `tolerance`, relative to the larger.
+/// are the same if they differ by at most `tolerance`, relative to the larger. Unless `tolerance` is 0,
+/// what is below 10⁻¹⁴ of the largest value of its column counts as zero.
 ///
 /// # Errors
 /// If the designs of a run cannot be told apart by what the other one knows.
@@ -169,13 +182,19 @@ pub fn compare<'r>(
     };
     let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
     let mut comparison =
-        Comparison { first, second, tolerance, matching, places, columns: Vec::new() };
+        Comparison { first, second, tolerance, matching, places: Vec::new(), columns: Vec::new() };
+    comparison.places = places.iter().map(|&places| comparison.compared(places)).collect();
     let places = comparison.places.par_iter();
-    comparison.columns = places.map(|&columns| comparison.column(columns)).collect();
+    comparison.columns = places.map(|&column| comparison.column(column)).collect();
     Ok(comparison)
 }
 
 impl Comparison<'_> {
+    /// The largest relative difference of values that count as the same.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
     /// Designs that both runs have.
     pub fn matched(&self) -> usize {
         self.matching.pairs.len()
@@ -205,7 +224,15 @@ impl Comparison<'_> {
         Difference { first: self.first, second: self.second, rows, columns }
     }
 
-    fn column(&self, columns: [usize; 2]) -> ColumnDifference {
+    fn compared(&self, places: [usize; 2]) -> ComparedColumn {
+        let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, places));
+        let sizes = cells.filter_map(|cell| cell.numbers()).flatten().map(f64::abs);
+        let largest = if self.tolerance > 0.0 { sizes.fold(0.0, f64::max) } else { 0.0 };
+        ComparedColumn { places, noise: ROUND_OFF * largest }
+    }
+
+    fn column(&self, compared: ComparedColumn) -> ColumnDifference {
+        let columns = compared.places;
         let name = self.first.header()[columns[0]].clone();
         let mut column = ColumnDifference { name, ..ColumnDifference::default() };
         let mut numbers = Vec::new();
@@ -217,7 +244,8 @@ impl Comparison<'_> {
                 ["", _] => column.only_second += 1,
                 _ => {
                     column.compared += 1;
-                    column.differing += usize::from(!cell.is_within(self.tolerance));
+                    column.differing +=
+                        usize::from(!cell.is_within(self.tolerance, compared.noise));
                     column.add(&cell);
                     numbers.extend(cell.numbers());
                 }
@@ -230,10 +258,13 @@ impl Comparison<'_> {
     /// Every cell that differs.
     fn differences(&self) -> impl Iterator<Item = Difference<'_>> {
         let cells = move |rows: [usize; 2]| {
-            self.places.iter().map(move |&columns| self.cell(rows, columns))
+            let cell = move |column: &ComparedColumn| {
+                let cell = self.cell(rows, column.places);
+                (!cell.is_within(self.tolerance, column.noise)).then_some(cell)
+            };
+            self.places.iter().filter_map(cell)
         };
-        let cells = self.matching.pairs.iter().flat_map(move |&rows| cells(rows));
-        cells.filter(|cell| !cell.is_within(self.tolerance))
+        self.matching.pairs.iter().flat_map(move |&rows| cells(rows))
     }
 
     /// Writes what differs to `folder`: column by column, and cell by cell. Returns the names of the

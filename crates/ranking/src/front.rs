@@ -2,8 +2,44 @@
 
 use std::cmp::Ordering;
 
-/// A point as its four criteria, larger being better.
-pub(crate) type Criteria = [f64; 4];
+use crate::weights::Criteria;
+
+/// A point of four coordinates, larger being better.
+type Quadruple = [f64; 4];
+
+/// Marks which of `points`, each with `count` criteria, no other dominates.
+pub(crate) fn front_of(points: &[Criteria], count: usize) -> Vec<bool> {
+    if count > 4 {
+        return sifted(points);
+    }
+    // Criteria beyond the last are 0 for all and tell nothing apart.
+    let four = |point: &Criteria| [point[0], point[1], point[2], point[3]];
+    pareto_front(&points.iter().map(four).collect::<Vec<_>>())
+}
+
+/// Marks which of `points` no other dominates, whatever their dimension: each is compared with those before it, in
+/// the order in which they may dominate each other, that are on the front themselves.
+fn sifted(points: &[Criteria]) -> Vec<bool> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| compare(&points[b], &points[a]));
+    let mut front: Vec<usize> = Vec::new();
+    for point in order {
+        if !front.iter().any(|&other| dominates(&points[other], &points[point])) {
+            front.push(point);
+        }
+    }
+    let mut on_front = vec![false; points.len()];
+    for point in front {
+        on_front[point] = true;
+    }
+    on_front
+}
+
+/// Whether a point is at least as good as another in every coordinate, and better in one (R6).
+fn dominates(p: &[f64], q: &[f64]) -> bool {
+    let pairs = || p.iter().zip(q);
+    pairs().all(|(p, q)| p >= q) && pairs().any(|(p, q)| p > q)
+}
 
 /// Marks which of `points` no other dominates. Coordinates are finite, larger is better.
 ///
@@ -19,7 +55,7 @@ pub(crate) type Criteria = [f64; 4];
 /// point of the earlier half above them in the other three coordinates: a sweep along the second,
 /// with the best fourth for every third in a tree of prefix maxima. That takes `O(n log² n)`,
 /// however many points the front has (Kung, Luccio and Preparata 1975, doi 10.1145/321906.321910).
-pub fn pareto_front(points: &[Criteria]) -> Vec<bool> {
+pub fn pareto_front(points: &[Quadruple]) -> Vec<bool> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| compare(&points[b], &points[a]));
     let groups: Vec<&[usize]> = order.chunk_by(|&a, &b| points[a] == points[b]).collect();
@@ -40,7 +76,7 @@ pub fn pareto_front(points: &[Criteria]) -> Vec<bool> {
 }
 
 /// By the first coordinate that differs; zeros of either sign are equal.
-fn compare(a: &Criteria, b: &Criteria) -> Ordering {
+fn compare(a: &[f64], b: &[f64]) -> Ordering {
     let by_coordinate = a.iter().zip(b).map(|(a, b)| (a + 0.0).total_cmp(&(b + 0.0)));
     by_coordinate.fold(Ordering::Equal, Ordering::then)
 }
@@ -130,12 +166,7 @@ mod tests {
 
     use super::*;
 
-    fn dominates(p: &Criteria, q: &Criteria) -> bool {
-        let pairs = || p.iter().zip(q);
-        pairs().all(|(p, q)| p >= q) && pairs().any(|(p, q)| p > q)
-    }
-
-    fn by_definition(points: &[Criteria]) -> Vec<bool> {
+    fn by_definition(points: &[Quadruple]) -> Vec<bool> {
         points.iter().map(|q| !points.iter().any(|p| dominates(p, q))).collect()
     }
 
@@ -156,7 +187,7 @@ mod tests {
             // Few values, so that ties in some coordinates and equal points are common.
             points in prop::collection::vec(prop::array::uniform4(-1_i32..6), 0..120),
         ) {
-            let points: Vec<Criteria> = points.iter().map(|p| p.map(f64::from)).collect();
+            let points: Vec<Quadruple> = points.iter().map(|p| p.map(f64::from)).collect();
             prop_assert_eq!(pareto_front(&points), by_definition(&points));
         }
 
@@ -165,6 +196,18 @@ mod tests {
             points in prop::collection::vec(prop::array::uniform4(-1.0_f64..1.0), 0..200),
         ) {
             prop_assert_eq!(pareto_front(&points), by_definition(&points));
+        }
+
+        #[test]
+        fn of_more_criteria_than_four_too(
+            points in prop::collection::vec(prop::array::uniform8(-1_i32..3), 0..60),
+            count in 5_usize..9,
+        ) {
+            let cut = |p: &[i32; 8]| std::array::from_fn(|c| if c < count { f64::from(p[c]) } else { 0.0 });
+            let points: Vec<Criteria> = points.iter().map(cut).collect();
+            let beaten = |q: &Criteria| points.iter().any(|p| dominates(p, q));
+            let expected: Vec<bool> = points.iter().map(|q| !beaten(q)).collect();
+            prop_assert_eq!(front_of(&points, count), expected);
         }
     }
 }

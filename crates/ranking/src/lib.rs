@@ -1,12 +1,16 @@
 //! Rankings: what is made of the results of a run.
 //!
-//! Four criteria are rescaled, weighted and multiplied; the best design is found for one set of
-//! weights, for all of them, and without any. Two runs are compared design by design.
+//! The designs that meet all requirements are ranked: criteria are rescaled, weighted and put together; the best design is
+//! found for one set of weights, for all of them, and without any. Two runs are compared design by design.
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`CRITERIA`], [`Weights`] | what is good, and how much each counts |
+//! | [`Preferences`] | what a ranking goes by, as `ranking.toml` has it |
+//! | [`Requirement`], [`Relation`] | a bound that a column must keep |
+//! | [`CRITERIA`], [`Criterion`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
 //! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
+//! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
+//! | [`check_comparable`] | whether criteria can be compared between designs |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
@@ -27,19 +31,32 @@
 //! ```
 
 mod compare;
-mod criteria;
+mod criterion;
+mod filter;
 mod front;
+mod incomparable;
+mod preferences;
 mod ranking;
+mod requirement;
+mod scale;
 mod tetrahedral_grid;
+mod unmet;
+mod weights;
 
 pub use compare::{
     ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
     comparison_columns, difference_columns, rank_correlation, write_comparison,
 };
-pub use criteria::{CRITERIA, Criterion, InvalidWeights, Weights};
+pub use criterion::{CRITERIA, Criterion, Goal, InvalidCriterion};
 pub use front::pareto_front;
+pub use incomparable::{Incomparable, check_comparable};
+pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
-    InvalidRanking, LeftOut, RankedDesign, Ranking, pareto_columns, quaternary_columns,
-    ranking_columns, winner_columns, write_ranking,
+    InvalidRanking, RankedDesign, Ranking, pareto_columns, quaternary_columns, ranking_columns,
+    winner_columns, write_ranking, write_unmet,
 };
+pub use requirement::{InvalidRequirement, Relation, Requirement};
+pub use scale::{Scale, UnknownScale};
 pub use tetrahedral_grid::{InvalidResolution, Steps, TetrahedralGrid};
+pub use unmet::{Unmet, UnmetRequirement};
+pub use weights::{InvalidWeights, MOST_CRITERIA, Weights};

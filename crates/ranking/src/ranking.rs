@@ -1,100 +1,74 @@
 //! The ranking of designs: by weighted fitness, for all weights, and without any.
 
 mod columns;
+mod contender;
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use rayon::prelude::*;
+use results::round_off::ROUND_OFF;
 use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
 
-use crate::criteria::{CRITERIA, Weights};
-use crate::front::{Criteria, pareto_front};
+use crate::criterion::Criterion;
+use crate::incomparable::Incomparable;
+use crate::preferences::Preferences;
 use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
+use crate::unmet::Unmet;
+use crate::weights::Weights;
 pub use columns::{pareto_columns, quaternary_columns, ranking_columns, winner_columns};
+use contender::{Contender, LeftOut};
+
+/// The number of criteria whose weights fill a tetrahedron.
+const FOUR: usize = 4;
 
 /// The designs of a run that can be ranked, with what is known of each whatever the weights.
 #[derive(Clone, Debug)]
 pub struct Ranking<'r> {
     results: &'r Results,
+    preferences: Preferences,
     grid: TetrahedralGrid,
     candidates: Vec<Contender>,
-    /// The candidate that is best at each node of the grid.
+    /// The candidate that is best at each node of the grid; none unless there are four criteria.
     winners: Vec<usize>,
-    left_out: BTreeMap<LeftOut, usize>,
-}
-
-/// A design that can be ranked.
-#[derive(Clone, Debug)]
-pub(crate) struct Contender {
-    /// The row of the design in the results.
-    pub row: usize,
-    /// The values that the criteria are made from.
-    pub values: Criteria,
-    /// The criteria, larger being better (R1).
-    criteria: Criteria,
-    /// The criteria from 0, the worst, to 1, the best.
-    pub rescaled: Criteria,
-    logs: Criteria,
-    /// Whether no other design beats it in every criterion.
-    pub on_front: bool,
-    /// Nodes of the grid of weights at which it is the best, and their part of the tetrahedron.
-    pub nodes: u64,
-    won: u64,
-}
-
-/// The reason why a design is not ranked: the first of these that holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum LeftOut {
-    /// The design leaves the substrate exposed.
-    Exposed,
-    /// A criterion (its place among [`CRITERIA`]) has no value.
-    Missing(usize),
-    /// A criterion that is an inverse cannot be formed.
-    NotPositive(usize),
-}
-
-impl std::fmt::Display for LeftOut {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Exposed => f.write_str("coverage is 0"),
-            Self::Missing(c) => write!(f, "no {}", CRITERIA[*c].column),
-            Self::NotPositive(c) => write!(f, "{} is not above 0", CRITERIA[*c].column),
-        }
-    }
+    left_out: Vec<(String, usize)>,
 }
 
 /// Results that hold no design to rank.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidRanking {
     /// The results cannot be read.
     #[error(transparent)]
     Results(#[from] InvalidResults),
     /// Every design is left out.
-    #[error("{file}: no design can be ranked ({reasons}), expected one with all of {}", columns())]
+    #[error("{file}: no design can be ranked ({reasons}), expected one with all of {columns}")]
     Nothing {
         /// The table.
         file: String,
         /// The number of designs that are left out for each reason.
         reasons: String,
+        /// The columns of the criteria.
+        columns: String,
     },
-}
-
-fn columns() -> String {
-    CRITERIA.each_ref().map(|criterion| criterion.column).join(", ")
+    /// No design meets the requirements.
+    #[error("no design meets all requirements")]
+    Unmet(Unmet),
+    /// Designs are not measured alike.
+    #[error(transparent)]
+    Incomparable(#[from] Incomparable),
 }
 
 /// A design at some weights: a row of the tables.
 #[derive(Clone, Copy, Debug)]
 pub struct RankedDesign<'a> {
-    pub(crate) results: &'a Results,
-    pub(crate) candidate: &'a Contender,
+    results: &'a Results,
+    candidate: &'a Contender,
+    count: usize,
     whole: u64,
     /// The weights.
     pub weights: Weights,
-    /// The fitness `f` (R3).
+    /// The fitness `f` (R3, R8).
     pub fitness: f64,
-    /// Place in the ranking by these weights, from 1.
+    /// Place in the ranking by these weights, from 1. Designs that are equal but for round-off share their place.
     pub rank: usize,
 }
 
@@ -109,14 +83,14 @@ impl<'a> RankedDesign<'a> {
         self.results.design(self.candidate.row)
     }
 
-    /// The values that its criteria are made from, in the order of [`CRITERIA`].
-    pub fn values(&self) -> [f64; 4] {
-        self.candidate.values
+    /// The values that its criteria are made from, in the order of the criteria.
+    pub fn values(&self) -> &'a [f64] {
+        &self.candidate.values[..self.count]
     }
 
-    /// The criteria of the design, larger being better (R1), in the order of [`CRITERIA`].
-    pub fn criteria(&self) -> [f64; 4] {
-        self.candidate.criteria
+    /// The criteria of the design, larger being better (R1).
+    pub fn criteria(&self) -> &'a [f64] {
+        &self.candidate.criteria[..self.count]
     }
 
     /// The part of the tetrahedron of weights in which the design is the best.
@@ -130,32 +104,48 @@ impl<'a> RankedDesign<'a> {
     }
 
     /// The criteria of the design from 0, the worst of the designs that are ranked, to 1, the best.
-    pub fn rescaled(&self) -> [f64; 4] {
-        self.candidate.rescaled
+    pub fn rescaled(&self) -> &'a [f64] {
+        &self.candidate.rescaled[..self.count]
     }
 }
 
 impl<'r> Ranking<'r> {
-    /// The designs of `results` that have every criterion; for all weights on `grid`.
+    /// The designs of `results` that have every criterion of the paper; for all weights on `grid`.
     ///
     /// # Errors
     /// If a column is missing, a cell is no number, or no design remains.
     pub fn new(results: &'r Results, grid: TetrahedralGrid) -> Result<Self, InvalidRanking> {
-        let (rows, left_out) = sort_out(results)?;
+        Self::by(results, Preferences::paper(), grid)
+    }
+
+    /// The designs of `results` that meet the requirements and have every criterion of `preferences`; for all weights on
+    /// `grid`, if there are four criteria.
+    ///
+    /// # Errors
+    /// If a column is missing, a cell is no number, no design meets the requirements, or none remains.
+    pub fn by(
+        results: &'r Results,
+        preferences: Preferences,
+        grid: TetrahedralGrid,
+    ) -> Result<Self, InvalidRanking> {
+        let (rows, reasons) = contender::sort_out(results, &preferences)?;
+        let unmet: usize = reasons.iter().filter(|(why, _)| why.is_unmet()).map(|(_, n)| n).sum();
+        if unmet > 0 && unmet == results.len() {
+            return Err(InvalidRanking::Unmet(Unmet::of(results, &preferences.requirements)?));
+        }
+        let words = |(why, count): (LeftOut, usize)| (why.in_words(&preferences), count);
+        let left_out: Vec<_> = reasons.into_iter().map(words).collect();
         if rows.is_empty() {
-            let reasons: Vec<_> = left_out.iter().map(|(why, n)| format!("{n}: {why}")).collect();
-            let reasons = reasons.join("; ");
-            return Err(InvalidRanking::Nothing { file: results.file(), reasons });
+            return Err(nothing(results, &preferences, &left_out));
         }
-        let mut candidates = candidates(&rows);
-        let nodes: Vec<Steps> = grid.nodes().collect();
-        let winners: Vec<usize> =
-            nodes.par_iter().map(|&steps| best(&candidates, Weights::at(grid, steps))).collect();
-        for (&winner, &steps) in winners.iter().zip(&nodes) {
-            candidates[winner].nodes += 1;
-            candidates[winner].won += TetrahedralGrid::cell(steps);
-        }
-        Ok(Self { results, grid, candidates, winners, left_out })
+        let mut candidates = contender::contenders(&rows, &preferences);
+        let winners = winners(&mut candidates, grid, preferences.criteria.len());
+        Ok(Self { results, preferences, grid, candidates, winners, left_out })
+    }
+
+    /// What the ranking goes by.
+    pub fn preferences(&self) -> &Preferences {
+        &self.preferences
     }
 
     /// The number of designs that are ranked.
@@ -170,29 +160,34 @@ impl<'r> Ranking<'r> {
     }
 
     /// The number of designs that are left out for each reason.
-    pub fn left_out(&self) -> &BTreeMap<LeftOut, usize> {
+    pub fn left_out(&self) -> &[(String, usize)] {
         &self.left_out
     }
 
-    /// Criteria (places among [`CRITERIA`]) in which all designs are equal, so that they do not
-    /// tell them apart.
+    /// Criteria, by their places, in which all designs are equal but for round-off, so that they do not tell them apart.
     pub fn ties(&self) -> Vec<usize> {
-        let first = self.candidates[0].criteria;
-        let equal = |c: &usize| self.candidates.iter().all(|other| other.criteria[*c] == first[*c]);
-        (0..CRITERIA.len()).filter(equal).collect()
+        let equal = |c: &usize| self.candidates.iter().all(|other| other.rescaled[*c] == 1.0);
+        (0..self.preferences.criteria.len()).filter(equal).collect()
     }
 
-    /// All designs by fitness, the best first; equal ones in the order of their numbers.
+    /// All designs by fitness, the best first; those that are equal but for round-off in the order of their numbers.
     pub fn by_fitness(&self, weights: Weights) -> Vec<RankedDesign<'_>> {
-        let mut order: Vec<_> = self
-            .candidates
-            .iter()
-            .map(|candidate| (weights.log_fitness(&candidate.logs), candidate))
-            .collect();
+        let scored = self.candidates.iter().enumerate();
+        let mut order: Vec<_> = scored.map(|(k, c)| (weights.score(&c.terms), k)).collect();
         // Stable, and candidates stand in the order of their numbers.
         order.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let ranked = order.into_iter().enumerate();
-        ranked.map(|(i, (_, candidate))| self.ranked(candidate, weights, i + 1)).collect()
+        let mut ranked = Vec::with_capacity(order.len());
+        let mut rest = order.as_mut_slice();
+        while let Some(&(best, _)) = rest.first() {
+            let equal = rest.partition_point(|(score, _)| is_as_good(*score, best));
+            let (equals, others) = rest.split_at_mut(equal);
+            equals.sort_by_key(|(_, candidate)| *candidate);
+            let place = ranked.len() + 1;
+            let design = |(_, k): &(f64, usize)| self.ranked(&self.candidates[*k], weights, place);
+            ranked.extend(equals.iter().map(design));
+            rest = others;
+        }
+        ranked
     }
 
     /// The best design by `weights`.
@@ -200,20 +195,41 @@ impl<'r> Ranking<'r> {
         self.ranked(&self.candidates[best(&self.candidates, weights)], weights, 1)
     }
 
+    /// The number of other designs that are as good as the best one by `weights`, but for round-off.
+    pub fn equals(&self, weights: Weights) -> usize {
+        let scores = || self.candidates.iter().map(|candidate| weights.score(&candidate.terms));
+        let largest = scores().fold(f64::NEG_INFINITY, f64::max);
+        scores().filter(|score| is_as_good(*score, largest)).count() - 1
+    }
+
     /// The designs that no other beats in every criterion, in the order of their numbers.
     pub fn front(&self) -> Vec<RankedDesign<'_>> {
         let front = self.candidates.iter().filter(|candidate| candidate.on_front);
-        front.map(|candidate| self.ranked(candidate, Weights::BALANCED, 0)).collect()
+        front.map(|candidate| self.ranked(candidate, self.preferences.weights, 0)).collect()
     }
 
-    /// The designs that are best for some weights of the grid, the largest share first.
+    /// The knee of the front: of its designs the one whose criteria, each rescaled from 0, the worst of the front, to 1, the
+    /// best, have the largest sum (R9), the first of equal ones. `None` for a front of fewer than three designs, or of one
+    /// criterion.
+    pub fn knee(&self) -> Option<RankedDesign<'_>> {
+        let front: Vec<_> = self.candidates.iter().filter(|candidate| candidate.on_front).collect();
+        if front.len() < 3 || self.preferences.criteria.len() < 2 {
+            return None;
+        }
+        let sums = contender::sums_of_rescaled(&front);
+        let largest = sums.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let knee = sums.iter().position(|sum| is_as_good(*sum, largest))?;
+        Some(self.ranked(front[knee], self.preferences.weights, 0))
+    }
+
+    /// The designs that are best for some weights of the grid, the largest share first; none unless there are four criteria.
     pub fn winners(&self) -> Vec<RankedDesign<'_>> {
         let mut winners: Vec<_> = self.candidates.iter().filter(|c| c.nodes > 0).collect();
         winners.sort_by_key(|candidate| std::cmp::Reverse(candidate.won));
         winners.into_iter().map(|winner| self.ranked(winner, Weights::BALANCED, 0)).collect()
     }
 
-    /// The best design at every node of the grid of weights.
+    /// The best design at every node of the grid of weights; none unless there are four criteria.
     pub fn quaternary(&self) -> Vec<RankedDesign<'_>> {
         let at = |(steps, &winner): (Steps, &usize)| {
             self.ranked(&self.candidates[winner], Weights::at(self.grid, steps), 1)
@@ -227,112 +243,121 @@ impl<'r> Ranking<'r> {
         weights: Weights,
         rank: usize,
     ) -> RankedDesign<'a> {
-        let fitness = weights.log_fitness(&candidate.logs).exp();
-        let whole = self.grid.whole();
-        RankedDesign { results: self.results, candidate, whole, weights, fitness, rank }
+        let fitness = self.preferences.scale.fitness(weights.score(&candidate.terms));
+        let (whole, count) = (self.grid.whole(), self.preferences.criteria.len());
+        RankedDesign { results: self.results, candidate, count, whole, weights, fitness, rank }
     }
 }
 
-/// A row that can be ranked: its values, and the criteria that they make.
-struct Eligible {
-    row: usize,
-    values: Criteria,
-    criteria: Criteria,
+fn nothing(
+    results: &Results,
+    preferences: &Preferences,
+    left_out: &[(String, usize)],
+) -> InvalidRanking {
+    let reasons: Vec<_> = left_out.iter().map(|(why, n)| format!("{n}: {why}")).collect();
+    let columns: Vec<&str> =
+        preferences.criteria.iter().map(|c: &Criterion| c.column.as_ref()).collect();
+    let (reasons, columns) = (reasons.join("; "), columns.join(", "));
+    InvalidRanking::Nothing { file: results.file(), reasons, columns }
 }
 
-/// The rows that can be ranked, and why the others cannot.
-type SortedOut = (Vec<Eligible>, BTreeMap<LeftOut, usize>);
-
-fn sort_out(results: &Results) -> Result<SortedOut, InvalidResults> {
-    let mut columns = [0; 4];
-    for (column, criterion) in columns.iter_mut().zip(&CRITERIA) {
-        *column = results.column(criterion.column)?;
+/// The candidate that is best at each node of the grid, once each knows how much it wins.
+fn winners(candidates: &mut [Contender], grid: TetrahedralGrid, criteria: usize) -> Vec<usize> {
+    if criteria != FOUR {
+        return Vec::new();
     }
-    let (mut rows, mut left_out) = (Vec::new(), BTreeMap::new());
-    for row in 0..results.len() {
-        let mut values = [None; 4];
-        for (value, column) in values.iter_mut().zip(columns) {
-            *value = results.number(row, column)?;
-        }
-        match eligible(row, values) {
-            Ok(eligible) => rows.push(eligible),
-            Err(why) => *left_out.entry(why).or_insert(0) += 1,
-        }
+    let nodes: Vec<Steps> = grid.nodes().collect();
+    let contest = |&steps: &Steps| best(candidates, Weights::at(grid, steps));
+    let winners: Vec<usize> = nodes.par_iter().map(contest).collect();
+    for (&winner, &steps) in winners.iter().zip(&nodes) {
+        candidates[winner].nodes += 1;
+        candidates[winner].won += TetrahedralGrid::cell(steps);
     }
-    Ok((rows, left_out))
+    winners
 }
 
-/// A row that has every value, with its criteria (R1).
-fn eligible(row: usize, found: [Option<f64>; 4]) -> Result<Eligible, LeftOut> {
-    if found[0].is_some_and(|coverage| coverage <= 0.0) {
-        return Err(LeftOut::Exposed);
-    }
-    let (mut values, mut criteria) = ([0.0; 4], [0.0; 4]);
-    for (c, criterion) in CRITERIA.iter().enumerate() {
-        values[c] = found[c].ok_or(LeftOut::Missing(c))?;
-        criteria[c] = if criterion.inverse { values[c].recip() } else { values[c] };
-        if criterion.inverse && !(values[c] > 0.0 && criteria[c].is_finite()) {
-            return Err(LeftOut::NotPositive(c));
-        }
-    }
-    Ok(Eligible { row, values, criteria })
+/// Whether a score is as good as the best one, but for round-off. Scores are logarithms, or parts of 1.
+fn is_as_good(score: f64, best: f64) -> bool {
+    score >= best - ROUND_OFF
 }
 
-fn candidates(rows: &[Eligible]) -> Vec<Contender> {
-    let criteria: Vec<Criteria> = rows.iter().map(|eligible| eligible.criteria).collect();
-    let front = pareto_front(&criteria);
-    let spans: [_; 4] = std::array::from_fn(|c| span(criteria.iter().map(|values| values[c])));
-    let candidate = |(&Eligible { row, values, criteria }, on_front): (&Eligible, bool)| {
-        let rescaled: Criteria = std::array::from_fn(|c| rescaled(criteria[c], spans[c]));
-        let logs = rescaled.map(f64::ln);
-        Contender { row, values, criteria, rescaled, logs, on_front, nodes: 0, won: 0 }
-    };
-    rows.iter().zip(front).map(candidate).collect()
-}
-
-fn span(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-}
-
-/// A value from 0 at the smallest to 1 at the largest (R2); 1 if all are equal, so that they do
-/// not count.
-fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
-    if high > low { (value - low) / (high - low) } else { 1.0 }
-}
-
-/// The candidate of the largest fitness, the first of equal ones.
+/// The candidate of the largest fitness, of those that are equal but for round-off the first.
 fn best(candidates: &[Contender], weights: Weights) -> usize {
-    let mut best = (0, f64::NEG_INFINITY);
+    let (mut largest, mut first) = (f64::NEG_INFINITY, (0, f64::NEG_INFINITY));
     for (i, candidate) in candidates.iter().enumerate() {
-        let fitness = weights.log_fitness(&candidate.logs);
-        if fitness > best.1 {
-            best = (i, fitness);
+        let score = weights.score(&candidate.terms);
+        if score > largest {
+            largest = score;
+            if !is_as_good(first.1, largest) {
+                first = (i, score);
+            }
         }
     }
-    best.0
+    let is_equal = |c: &Contender| is_as_good(weights.score(&c.terms), largest);
+    // What was the first before the largest came may be off by a little less than what counts.
+    if is_as_good(first.1, largest) {
+        first.0
+    } else {
+        candidates.iter().position(is_equal).unwrap_or(0)
+    }
 }
 
-/// Writes the tables of `ranking`, with the ranking itself by `weights`, to `folder`; returns their
-/// names.
+/// Writes the tables of `ranking`, with the ranking itself by its weights, and what it goes by, to `folder`; returns the
+/// names of the files. Without four criteria there are no tables for all weights.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
 pub fn write_ranking(
     folder: &Path,
     ranking: &Ranking<'_>,
-    weights: Weights,
-) -> Result<[&'static str; 4], OutputError> {
+) -> Result<Vec<&'static str>, OutputError> {
     let folder = RunFolder::new(folder);
     folder.make()?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
     let format = ranking.results.format();
-    let rows = ranking.by_fitness(weights);
-    write_rows(&folder, by_fitness, format, &ranking_columns(&parameters), rows)?;
-    write_rows(&folder, pareto, format, &pareto_columns(&parameters), ranking.front())?;
-    write_rows(&folder, winners, format, &winner_columns(&parameters), ranking.winners())?;
-    let rows = ranking.quaternary();
-    write_rows(&folder, quaternary, format, &quaternary_columns(&parameters), rows)?;
+    let (parameters, preferences) = (&parameters, &ranking.preferences);
+    let rows = ranking.by_fitness(preferences.weights);
+    write_rows(&folder, by_fitness, format, &ranking_columns(parameters, preferences), rows)?;
+    write_rows(&folder, pareto, format, &pareto_columns(parameters, preferences), ranking.front())?;
+    folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
+    let mut files = vec![by_fitness, pareto, RunFolder::PREFERENCES];
+    if preferences.criteria.len() == FOUR {
+        write_rows(
+            &folder,
+            winners,
+            format,
+            &winner_columns(parameters, preferences),
+            ranking.winners(),
+        )?;
+        write_rows(
+            &folder,
+            quaternary,
+            format,
+            &quaternary_columns(parameters, preferences),
+            ranking.quaternary(),
+        )?;
+        files.splice(2..2, [winners, quaternary]);
+    } else {
+        for file in [winners, quaternary] {
+            folder.remove(file);
+        }
+    }
     folder.sync();
-    Ok(RunFolder::RANKING)
+    Ok(files)
+}
+
+/// Writes what a ranking that no design meets goes by to `folder`, and takes an earlier ranking away; returns the name of the
+/// file.
+///
+/// # Errors
+/// If the folder or the disk does not take it.
+pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
+    let folder = RunFolder::new(folder);
+    folder.make()?;
+    for file in RunFolder::RANKING {
+        folder.remove(file);
+    }
+    folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
+    Ok(RunFolder::PREFERENCES)
 }

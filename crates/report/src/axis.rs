@@ -1,10 +1,8 @@
 //! Axes of charts: a range of values, linear or logarithmic, with ticks at round numbers.
 //!
-//! Figures draw these axes, and the page of a sweep hands them to its charting library, so that both have the same ticks.
+//! Figures draw these axes, and the scripts of the page draw them too, so that both have the same ticks.
 
 use serde_json::{Value, json};
-
-use crate::label;
 
 /// The spacing of the values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,11 +47,23 @@ impl ChartAxis {
         }
     }
 
-    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end.
+    /// Fits a linear axis to `values` and zero.
+    pub(crate) fn spanning(label: &str, values: impl Iterator<Item = f64>) -> Self {
+        let (low, high) = ends(values.chain(std::iter::once(0.0)));
+        Self::linear(label, low, high)
+    }
+
+    /// Creates a linear axis with 5 % of its length beyond each end; zero stays an end, unless all values are zero.
     pub(crate) fn linear(label: &str, low: f64, high: f64) -> Self {
-        let air = 0.05 * if high > low { high - low } else { 1.0 };
+        let size = low.abs().max(high.abs());
+        // Values that are equal but for round-off have an axis too.
+        let air = match high - low {
+            span if span > 1e-9 * size => 0.05 * span,
+            _ if size > 0.0 => 0.05 * size,
+            _ => 0.05,
+        };
         let below = if low == 0.0 { low } else { low - air };
-        let above = if high == 0.0 { high } else { high + air };
+        let above = if high == 0.0 && low < 0.0 { high } else { high + air };
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
@@ -79,30 +89,16 @@ impl ChartAxis {
         }
     }
 
-    /// Returns the axis as the charting library of the page takes it: type, range, and labelled and minor ticks.
-    pub(crate) fn to_plotly(&self) -> Value {
-        let (kind, range) = match self.scale {
-            AxisScale::Linear => ("linear", [self.low, self.high]),
-            AxisScale::Log => ("log", [self.low.log10(), self.high.log10()]),
+    /// Returns the axis as the scripts of the page take it: the kind of scale, the ends, and the ticks.
+    pub(crate) fn to_json(&self) -> Value {
+        let scale = match self.scale {
+            AxisScale::Linear => "linear",
+            AxisScale::Log => "log",
         };
-        let (mut values, mut texts, mut minor) = (Vec::new(), Vec::new(), Vec::new());
-        for tick in self.ticks(PAGE_TICKS) {
-            match tick.label {
-                Some(text) => {
-                    values.push(tick.value);
-                    texts.push(label::html(&text));
-                }
-                None => minor.push(tick.value),
-            }
-        }
-        json!({
-            "type": kind,
-            "range": range,
-            "tickmode": "array",
-            "tickvals": values,
-            "ticktext": texts,
-            "minor": {"ticks": "inside", "tickmode": "array", "tickvals": minor},
-        })
+        let ticks = self.ticks(PAGE_TICKS);
+        let tick = |tick: &Tick| json!({"value": tick.value, "label": tick.label});
+        let ticks: Vec<_> = ticks.iter().map(tick).collect();
+        json!({"scale": scale, "low": self.low, "high": self.high, "ticks": ticks})
     }
 
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
@@ -113,10 +109,10 @@ impl ChartAxis {
         // A small count: the axis has few steps.
         let first = (self.low / step - 1e-9).ceil() as i64;
         let last = (self.high / step + 1e-9).floor() as i64;
-        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+        let ends = self.low.abs().max(self.high.abs());
         let tick = |k: i64| {
             let value = k as f64 * step;
-            Tick { value, label: Some(minus(&format!("{value:.decimals$}"))) }
+            Tick { value, label: Some(linear_label(value, step, ends)) }
         };
         (first..=last).map(tick).collect()
     }
@@ -131,10 +127,11 @@ impl ChartAxis {
             _ => false,
         };
         let digits = if decades > 7.0 { 1 } else { 9 };
+        let decimal = first >= -2 && last <= 4;
         let all = (first..=last).flat_map(|decade| (1..=digits).map(move |digit| (decade, digit)));
         all.map(|(decade, digit)| {
             let value = f64::from(digit) * 10f64.powi(decade);
-            let label = labelled(decade, digit).then(|| power(decade, digit));
+            let label = labelled(decade, digit).then(|| power(decade, digit, decimal));
             Tick { value, label }
         })
         .filter(|tick| self.place(tick.value).is_some())
@@ -142,15 +139,26 @@ impl ChartAxis {
     }
 }
 
-/// Formats `digit · 10^decade`, in full from 0.01 to 1000.
-fn power(decade: i32, digit: i32) -> String {
-    match decade {
-        0..=3 => format!("{}", f64::from(digit) * 10f64.powi(decade)),
-        -2..0 => {
-            let decimals = usize::try_from(-decade).unwrap_or(0);
-            format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade))
-        }
-        _ if digit == 1 => format!("10^{{{}}}", minus(&decade.to_string())),
+/// Formats a tick of a linear axis: in full where that is short, otherwise with the power of ten of the larger end.
+fn linear_label(value: f64, step: f64, ends: f64) -> String {
+    let decade = ends.log10().floor();
+    if (-3.0..5.0).contains(&decade) {
+        let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+        return minus(&format!("{value:.decimals$}"));
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let decimals = (decade - (step.log10() + 1e-9).floor()).max(0.0) as usize;
+    minus(&format!("{:.decimals$}·10^{{{decade}}}", value / 10f64.powf(decade)))
+}
+
+/// Formats `digit · 10^decade`: in full or as a power, as all ticks of its axis.
+fn power(decade: i32, digit: i32, decimal: bool) -> String {
+    let decimals = usize::try_from(-decade).unwrap_or(0);
+    match digit {
+        _ if decimal => format!("{:.decimals$}", f64::from(digit) * 10f64.powi(decade)),
+        1 => format!("10^{{{}}}", minus(&decade.to_string())),
         _ => format!("{digit}·10^{{{}}}", minus(&decade.to_string())),
     }
 }
@@ -181,24 +189,41 @@ mod tests {
     fn ticks_are_round_numbers() {
         assert_eq!(labels(&ChartAxis::fit("", [0.1, 1.0].into_iter())), "0.0 0.2 0.4 0.6 0.8 1.0");
         assert_eq!(labels(&ChartAxis::fit("", [-3.0, 4.0].into_iter())), "−2 0 2 4");
+        let small = ChartAxis::fit("", [0.0, 6e-5].into_iter());
+        assert_eq!(labels(&small), "0 2·10^{−5} 4·10^{−5} 6·10^{−5}");
+    }
+
+    #[test]
+    fn equal_values_have_an_axis_with_ticks() {
+        for value in [0.0, 1.0, -2.0, 1e-7, 3e12] {
+            for other in [value, value * (1.0 + 1e-15)] {
+                let axis = ChartAxis::fit("", [value, other].into_iter());
+                assert!(axis.place(value).is_some(), "{value}");
+                assert!((1..12).contains(&axis.ticks(5).len()), "{value}: {:?}", axis.ticks(5));
+            }
+        }
     }
 
     #[test]
     fn the_page_has_the_same_ticks() {
-        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter()).to_plotly();
-        let texts = "10<sup>−6</sup> 10<sup>−4</sup> 0.01 1 100 10<sup>4</sup>";
-        assert_eq!(axis["ticktext"], serde_json::json!(texts.split(' ').collect::<Vec<_>>()));
-        assert_eq!(axis["tickvals"][0], 1e-6);
-        assert_eq!(axis["minor"]["tickvals"][0], 1e-5);
-        let [low, high] = [0, 1].map(|k| axis["range"][k].as_f64().unwrap());
-        assert!(low < -6.0 && high > 4.0, "{low} {high}");
+        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter());
+        let json = axis.to_json();
+        let page: Vec<_> =
+            json["ticks"].as_array().unwrap().iter().filter_map(|t| t["label"].as_str()).collect();
+        assert_eq!(page.join(" "), labels(&axis));
+        assert_eq!(
+            (json["scale"].as_str(), json["ticks"][0]["value"].as_f64()),
+            (Some("log"), Some(1e-6))
+        );
+        let [low, high] = ["low", "high"].map(|end| json[end].as_f64().unwrap());
+        assert!(low < 1e-6 && high > 1e4, "{low} {high}");
     }
 
     #[test]
     fn decades_have_a_logarithmic_axis() {
         assert_eq!(
             labels(&ChartAxis::fit("", [1e-6, 1e4].into_iter())),
-            "10^{−6} 10^{−4} 0.01 1 100 10^{4}"
+            "10^{−6} 10^{−4} 10^{−2} 10^{0} 10^{2} 10^{4}"
         );
         assert_eq!(labels(&ChartAxis::fit("", [0.025, 1.0].into_iter())), "0.05 0.1 0.2 0.5 1");
     }

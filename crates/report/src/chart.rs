@@ -2,7 +2,7 @@
 
 use crate::axis::ChartAxis;
 use crate::label::{Anchor, label, upright, width};
-use crate::palette::{FAINT, GRID, INK, Mark, slant_color};
+use crate::palette::{FAINT, GRID, INK, SlantPalette};
 use crate::svg::{Element, Spot, line};
 
 /// Size of tick labels, px.
@@ -130,8 +130,17 @@ impl ChartPanel<'_> {
     /// Returns the label of the y axis beside the panel, `away` px from it.
     pub(crate) fn y_name(&self, away: f64) -> Element {
         let spot = [self.area.left - away, self.area.center()[1]];
-        let size = fitting(&self.y.label, 1.1 * self.area.height);
-        upright(&self.y.label, spot, size).with("fill", INK)
+        let name = self.short_name();
+        upright(name, spot, fitting(name, self.area.height)).with("fill", INK)
+    }
+}
+
+impl ChartPanel<'_> {
+    /// Returns the label of the y axis, without the formula behind its symbol where that is taller than the panel.
+    fn short_name(&self) -> &str {
+        let label = &self.y.label;
+        let is_long = width(label, NAME) > self.area.height;
+        label.split(" = ").next().filter(|_| is_long).unwrap_or(label)
     }
 }
 
@@ -141,12 +150,19 @@ fn fitting(label: &str, room: f64) -> f64 {
 }
 
 /// Returns the mark of a design of a slant, filled or open.
-pub(crate) fn mark(slant_deg: f64, at: Spot, radius: f64, filled: bool) -> Element {
-    let color = slant_color(slant_deg);
+pub(crate) fn mark(
+    palette: &SlantPalette,
+    slant_deg: f64,
+    at: Spot,
+    radius: f64,
+    filled: bool,
+) -> Element {
+    let color = palette.color(slant_deg);
     let fill = if filled { color.as_str() } else { "#fff" };
     let edge = if filled { "#fff" } else { color.as_str() };
     let stroke = if filled { 0.5 } else { 1.3 };
-    Mark::of(slant_deg)
+    palette
+        .mark(slant_deg)
         .draw(at, radius)
         .with("fill", fill)
         .with("stroke", edge)
@@ -154,13 +170,13 @@ pub(crate) fn mark(slant_deg: f64, at: Spot, radius: f64, filled: bool) -> Eleme
 }
 
 /// Returns the slants with their marks, in one line.
-pub(crate) fn slant_legend(slants: &[f64], [x, y]: Spot) -> Element {
+pub(crate) fn slant_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
     let mut legend = Element::group("legend").containing([name]);
     let mut left = x + 64.0;
-    for &slant in slants {
+    for &slant in palette.slants() {
         let text = format!("{slant}°");
-        legend.add(mark(slant, [left, y], 4.5, true));
+        legend.add(mark(palette, slant, [left, y], 4.5, true));
         legend.add(label(&text, [left + 9.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK));
         left += 28.0 + width(&text, 12.0);
     }

@@ -1,4 +1,5 @@
-//! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event.
+//! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event, a ring where the surface of the
+//! substrate first folds over.
 
 use skin::Design;
 use skin::flexure::Flexure;
@@ -9,8 +10,8 @@ use crate::chart::{Area, ChartPanel};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
-use crate::palette::{INK, shaded, slant_color};
-use crate::svg::{Element, Spot, line, polyline};
+use crate::palette::{INK, RED, SlantPalette, shaded};
+use crate::svg::{Element, Spot, circle, line, polyline};
 
 const WIDTH: f64 = 760.0;
 /// Room for the axes, px: left, right, below.
@@ -18,6 +19,8 @@ const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
 /// Where the first line of the legend stands, px.
 const LEGEND: f64 = 56.0;
+/// Least distance between crosses, px.
+const CROSS: f64 = 5.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 
@@ -45,6 +48,7 @@ struct Curve {
     dashes: &'static str,
     points: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
+    rings: Vec<[f64; 2]>,
 }
 
 /// Returns the curves of `designs` as figures: those for which there are paths.
@@ -55,7 +59,8 @@ pub fn curves(name: &str, designs: &[DesignCurves]) -> Vec<Figure> {
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
     ];
-    candidates.into_iter().filter_map(|(name, svg)| Some(Figure { name, svg: svg? })).collect()
+    let drawn = candidates.into_iter();
+    drawn.filter_map(|(name, svg)| Some(Figure { name: name.to_owned(), svg: svg? })).collect()
 }
 
 /// The texts of a kind of figure.
@@ -70,7 +75,7 @@ const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
     x: "displacement $u^*$ = $u/t$, dimensionless",
     y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
-    note: "× a contact closes, opens or passes a corner",
+    note: "× a contact closes, opens or passes a corner;  ○ the surface folds over",
 };
 const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
@@ -91,18 +96,19 @@ const FLEXURE_ENERGY: FigureText = FigureText {
     note: "solid: bending, dashed: axial, dotted: contacts",
 };
 
-fn puncture(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 2]> {
+fn puncture(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 3]> {
     let puncture = solved.puncture?;
     let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
     let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
-    Some([points.collect(), events.collect()])
+    let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
+    Some([points.collect(), events.collect(), fold.into_iter().collect()])
 }
 
-fn flexure(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 2]> {
+fn flexure(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 3]> {
     let flexure = solved.flexure?;
     let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
     let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
-    Some([points.collect(), events.collect()])
+    Some([points.collect(), events.collect(), Vec::new()])
 }
 
 /// The energies of each design, the dashes of each.
@@ -125,8 +131,8 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     ])
 }
 
-/// Points and crosses of a curve; `None` where there is none.
-type CurveValues = fn(&DesignCurves) -> Option<[Vec<[f64; 2]>; 2]>;
+/// Points, crosses and rings of a curve; `None` where there is none.
+type CurveValues = fn(&DesignCurves) -> Option<[Vec<[f64; 2]>; 3]>;
 
 fn one_panel(
     name: &str,
@@ -161,17 +167,23 @@ fn one_panel(
 
 /// Returns a curve for each design, darker and with other dashes where slants repeat.
 fn curves_of(designs: &[DesignCurves], values: CurveValues) -> Vec<Curve> {
+    let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
-        let Some([points, crosses]) = values(solved) else { continue };
+        let Some([points, crosses, rings]) = values(solved) else { continue };
         let slant = solved.design.slant_deg;
         let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
-        let color = shaded(&slant_color(slant), SHADES[before % SHADES.len()]);
+        let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
         let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
-        curves.push(Curve { name, color, dashes, points, crosses });
+        curves.push(Curve { name, color, dashes, points, crosses, rings });
     }
     curves
+}
+
+/// Returns the colours of the slants of some designs.
+fn palette(designs: &[DesignCurves]) -> SlantPalette {
+    SlantPalette::new(designs.iter().map(|solved| solved.design.slant_deg))
 }
 
 /// Fits axes to points, both from zero.
@@ -199,10 +211,24 @@ fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
         .at("stroke-width", 1.8)
         .with("stroke-dasharray", curve.dashes)
         .with("stroke-linejoin", "round");
-    let crosses = spots(&curve.crosses).into_iter().flat_map(|[x, y]| {
-        [1.0, -1.0].map(|s| line([x - 3.8, y - 3.8 * s], [x + 3.8, y + 3.8 * s], INK, 1.1))
+    let crosses = apart(spots(&curve.crosses)).into_iter().flat_map(|[x, y]| {
+        [1.0, -1.0].map(|s| line([x - 3.0, y - 3.0 * s], [x + 3.0, y + 3.0 * s], INK, 0.8))
     });
-    Element::group("curve").containing([path]).containing(crosses)
+    let ring =
+        |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
+    let rings = spots(&curve.rings).into_iter().map(ring);
+    Element::group("curve").containing([path]).containing(crosses).containing(rings)
+}
+
+/// Returns spots without those that stand on the one before: crosses would bury a steep path.
+fn apart(spots: Vec<Spot>) -> Vec<Spot> {
+    let mut kept: Vec<Spot> = Vec::new();
+    for [x, y] in spots {
+        if kept.last().is_none_or(|last| (x - last[0]).hypot(y - last[1]) > CROSS) {
+            kept.push([x, y]);
+        }
+    }
+    kept
 }
 
 fn legend(curve: &Curve, y: f64) -> Element {
@@ -223,13 +249,15 @@ fn panels(
     if solved.is_empty() {
         return None;
     }
+    let palette = palette(designs);
     let columns = columns(solved.len()).min(3);
     let [w, h] = ENERGY_PANEL;
     let mut inside = vec![label(text.note, [20.0, 48.0], 12.0, Anchor::Start).with("fill", INK)];
     for (k, (design, energies)) in solved.iter().enumerate() {
         let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
         let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
-        inside.extend(energies_of(text, design, energies, area));
+        let color = palette.color(design.design.slant_deg);
+        inside.extend(energies_of(text, (design, &color), energies, area));
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
@@ -241,7 +269,7 @@ fn panels(
 /// Returns the energies of one design.
 fn energies_of(
     text: &FigureText,
-    solved: &DesignCurves,
+    (solved, color): (&DesignCurves, &str),
     energies: &Energies,
     area: Area,
 ) -> Vec<Element> {
@@ -251,10 +279,11 @@ fn energies_of(
     let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),
-        color: slant_color(solved.design.slant_deg),
+        color: color.to_owned(),
         dashes,
         points: points.clone(),
         crosses: Vec::new(),
+        rings: Vec::new(),
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
     [panel.frame(), panel.x_name(), panel.y_name(58.0)].into_iter().chain(curves).collect()

@@ -1,8 +1,11 @@
 //! The table of a sweep, column by column.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use results::Results;
+use results::columns::parameter_of;
+
+use crate::palette::SlantPalette;
 
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -59,6 +62,49 @@ impl Designs {
     /// Returns the numbers of a column, where there are any.
     pub(crate) fn numbers(&self, column: &str) -> impl Iterator<Item = f64> {
         (0..self.count).filter_map(move |row| self.number(column, row))
+    }
+
+    /// Returns the varied parameters besides gap, aspect ratio and slant, as their columns.
+    pub(crate) fn further_axes(&self) -> Vec<&str> {
+        const KNOWN: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
+        let headers = self.headers.iter().map(String::as_str);
+        let further = headers.filter(|name| parameter_of(name).is_some() && !KNOWN.contains(name));
+        further.filter(|name| self.texts(name).len() > 1).collect()
+    }
+
+    /// Returns the designs apart by their further axes, each part with those axes and their values; one part without
+    /// any if there are none.
+    pub(crate) fn parts(&self) -> Vec<(Vec<(&str, &str)>, Self)> {
+        let axes = self.further_axes();
+        let values = |row| axes.iter().map(|axis| (*axis, self.text(axis, row))).collect();
+        let mut parts: Vec<(Vec<(&str, &str)>, Vec<usize>)> = Vec::new();
+        for row in 0..self.count {
+            let own: Vec<_> = values(row);
+            match parts.iter_mut().find(|(other, _)| *other == own) {
+                Some((_, rows)) => rows.push(row),
+                None => parts.push((own, vec![row])),
+            }
+        }
+        parts.into_iter().map(|(values, rows)| (values, self.only(&rows))).collect()
+    }
+
+    /// Returns the designs in some rows.
+    fn only(&self, rows: &[usize]) -> Self {
+        let column = |header: &String| {
+            let cells = rows.iter().map(|&row| self.text(header, row).to_owned());
+            (header.clone(), cells.collect())
+        };
+        Self::new(self.headers.iter().map(column))
+    }
+
+    /// Returns the different texts of a column.
+    fn texts(&self, column: &str) -> BTreeSet<&str> {
+        (0..self.count).map(|row| self.text(column, row)).collect()
+    }
+
+    /// Returns the colours and marks of the slants.
+    pub(crate) fn palette(&self) -> SlantPalette {
+        SlantPalette::new(self.numbers("slant_deg"))
     }
 
     /// Returns the different numbers of a column, sorted.

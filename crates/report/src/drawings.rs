@@ -5,6 +5,7 @@ mod bodies;
 mod contacts;
 mod row;
 mod strip;
+mod surface;
 mod view;
 
 pub use bodies::overlaps;

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
 
-use results::{CsvFormat, OutputError, RunFolder, words};
+use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
 use sweep::reason;
 
 use sheet::{Guide, Sheet};
@@ -32,6 +32,9 @@ pub struct Exported {
 /// Tables that do not become a workbook.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
+    /// A table is not as its run has written it.
+    #[error(transparent)]
+    Folder(#[from] InvalidFolder),
     /// The folder has no table of designs.
     #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
     NoDesigns {
@@ -75,10 +78,9 @@ pub enum ExportError {
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
 /// not take the workbook.
-pub fn export(results: &Path, file: &Path) -> Result<Exported, ExportError> {
+pub fn export(results: &VerifiedFolder, file: &Path) -> Result<Exported, ExportError> {
     let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
-    let results = &RunFolder::new(results);
     if !results.holds(RunFolder::DESIGNS) {
         return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
     }
@@ -94,7 +96,11 @@ fn has_extension(file: &Path) -> bool {
     file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xlsx"))
 }
 
-fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported, ExportError> {
+fn write(
+    results: &VerifiedFolder,
+    folder: &RunFolder,
+    name: &str,
+) -> Result<Exported, ExportError> {
     let failed = |error: XlsxError| match error {
         XlsxError::IoError(error) => OutputError::file(&folder.file(name), &error).into(),
         error => unwritable(folder, name, &error.to_string()),
@@ -107,8 +113,12 @@ fn write(results: &RunFolder, folder: &RunFolder, name: &str) -> Result<Exported
     let mut tables = Vec::new();
     for file in RunFolder::tables().filter(|file| results.holds(file)) {
         let table = file.trim_end_matches(".csv").to_owned();
-        let rows = copy(&results.file(&file), &table, &mut workbook, &mut guide, &failed)?;
+        let source = (results.path().join(&file), results.file(&file)?);
+        let rows = copy(source, &table, &mut workbook, &mut guide, &failed)?;
         tables.push((table, rows));
+    }
+    if let Some(held) = results.shortfall() {
+        guide.note(&format!("made from {held}")).map_err(failed)?;
     }
     workbook.push_worksheet(guide.finish().map_err(failed)?);
     workbook.save_to_writer(&mut file).map_err(failed)?;
@@ -123,22 +133,22 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// Makes a sheet of the table in the file `path`; returns how many rows it has.
+/// Makes a sheet of the table in a file with its path; returns how many rows it has.
 fn copy(
-    path: &Path,
+    (path, file): (PathBuf, File),
     table: &str,
     workbook: &mut Workbook,
     guide: &mut Guide,
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<u32, ExportError> {
-    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
-    let (format, mut csv) = open(path).map_err(|error| unreadable(reason(&error)))?;
+    let unreadable = |reason| ExportError::Unreadable { file: path.clone(), reason };
+    let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let mut sheet = Sheet::new(workbook, table, format, &header).map_err(failed)?;
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         if sheet.rows() == ROWS {
-            return Err(ExportError::TooManyRows { file: path.to_owned() });
+            return Err(ExportError::TooManyRows { file: path });
         }
         sheet.add(&row).map_err(failed)?;
     }
@@ -148,8 +158,8 @@ fn copy(
     Ok(rows)
 }
 
-fn open(path: &Path) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
-    let mut file = BufReader::new(File::open(path)?);
+fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {
+    let mut file = BufReader::new(file);
     let (format, start) = CsvFormat::of(file.fill_buf()?);
     file.consume(start);
     Ok((format, format.reader(file)))

@@ -17,7 +17,7 @@ use crate::svg::{Element, document};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name, without an extension.
-    pub name: &'static str,
+    pub name: String,
     /// The drawing, as SVG.
     pub svg: String,
 }
@@ -42,35 +42,64 @@ pub(crate) const COMPLIANCE: Quantity = Quantity {
     label: "flexural compliance $C_f^*$ = $C_f E_m I_m/t$, dimensionless",
 };
 
-/// Draws every figure for which the table has values; the Pareto front and the best designs for all weights
+/// Parts into which figures are divided, at most.
+const PARTS: usize = 24;
+
+/// Draws every figure for which the table has values; the Pareto fronts and the best designs for all weights
 /// if they can be ranked.
+///
+/// A sweep with more axes than gap, aspect ratio and slant has figures for each value of those, up to 24; the name of a figure
+/// and its title say which.
 pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
+    let parts = designs.parts();
+    let part = |(values, part): &(Vec<(&str, &str)>, Designs)| {
+        let all = of_part(&title(name, values), part).into_iter();
+        all.map(|(file, svg)| Figure { name: file_name(file, values), svg }).collect::<Vec<_>>()
+    };
+    let mut figures: Vec<Figure> = parts.iter().take(PARTS).flat_map(part).collect();
+    if let Some(ranking) = ranking {
+        let fronts = pareto::figure(name, designs, ranking);
+        figures.extend(fronts.map(|svg| Figure { name: "pareto-fronts-pairwise".to_owned(), svg }));
+        let svg = quaternary::figure(name, designs, ranking);
+        figures.push(Figure { name: "best-designs-by-weights-tetrahedron".to_owned(), svg });
+    }
+    figures
+}
+
+/// Returns the title of the figures of a part.
+fn title(name: &str, values: &[(&str, &str)]) -> String {
+    let words = values.iter().map(|(axis, value)| format!(", {} {value}", in_words(axis)));
+    name.to_owned() + &words.collect::<String>()
+}
+
+/// Returns the name of a figure of a part.
+fn file_name(file: &str, values: &[(&str, &str)]) -> String {
+    let part = values.iter().map(|(axis, value)| format!("-{}-{value}", axis.replace('_', "-")));
+    file.to_owned() + &part.collect::<String>()
+}
+
+/// Returns the column of a parameter in words.
+pub(crate) fn in_words(axis: &str) -> String {
+    axis.replace("_over_t", "/t").replace('_', " ")
+}
+
+/// Draws the figures of designs that differ in gap, aspect ratio and slant.
+fn of_part(name: &str, designs: &Designs) -> Vec<(&'static str, String)> {
     let multiples = [
         ("critical-force-by-gap-aspect-slant", FORCE, None),
         ("penetration-by-gap-aspect-slant", PENETRATION, None),
         ("compliance-by-gap-aspect-slant", COMPLIANCE, Some("flexure_contact")),
     ];
-    let mut figures: Vec<Figure> = multiples
+    let mut figures: Vec<_> = multiples
         .into_iter()
         .filter(|(_, quantity, _)| designs.has(quantity.column))
-        .map(|(file, quantity, filled)| Figure {
-            name: file,
-            svg: multiples::figure(name, designs, quantity, filled),
-        })
+        .map(|(file, quantity, filled)| (file, multiples::figure(name, designs, quantity, filled)))
         .collect();
     if designs.has(FORCE.column) {
-        let svg = stiffness::figure(name, designs);
-        figures.push(Figure { name: "stiffness-against-critical-force", svg });
+        figures.push(("stiffness-against-critical-force", stiffness::figure(name, designs)));
     }
     if designs.has(COVERAGE.column) {
-        let svg = coverage::figure(name, designs);
-        figures.push(Figure { name: "coverage-maps-by-slant", svg });
-    }
-    if let Some(ranking) = ranking {
-        let pareto = pareto::figure(name, designs, ranking);
-        figures.extend(pareto.map(|svg| Figure { name: "pareto-front-pairwise", svg }));
-        let svg = quaternary::figure(name, designs, ranking);
-        figures.push(Figure { name: "best-designs-by-weights-tetrahedron", svg });
+        figures.push(("coverage-maps-by-slant", coverage::figure(name, designs)));
     }
     figures
 }

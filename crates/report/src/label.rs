@@ -56,17 +56,6 @@ pub(crate) fn plain(source: &str) -> String {
     runs(source).into_iter().map(|run| run.text).collect()
 }
 
-/// Returns `source` as HTML.
-pub(crate) fn html(source: &str) -> String {
-    let run = |run: TextRun| match (run.level, run.italic) {
-        (1, _) => format!("<sup>{}</sup>", run.text),
-        (-1, _) => format!("<sub>{}</sub>", run.text),
-        (_, true) => format!("<i>{}</i>", run.text),
-        _ => run.text,
-    };
-    runs(source).into_iter().map(run).collect()
-}
-
 /// Returns the approximate width of `source`, px.
 pub(crate) fn width(source: &str, size: f64) -> f64 {
     let run =

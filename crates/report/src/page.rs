@@ -1,29 +1,46 @@
 //! The page of a sweep: one self-contained HTML file.
 //!
-//! The scripts of the page draw and rank, but the axes of its charts, the rescaled criteria and the Pareto front come from
-//! here, so that the page cannot differ from figures and tables.
+//! The scripts of the page draw and rank. The axes of its charts and the colours of its marks come from here, so that they
+//! are those of the figures; it ranks as the crate `ranking` does, which `scripts/check-page` holds together.
 
-use ranking::{Ranking, Weights};
-use serde_json::{Map, Value, json};
+mod data;
 
-use crate::axis::ChartAxis;
+use sweep::visible;
+
 use crate::designs::Designs;
-use crate::palette::{Mark, slant_color};
 
 const PAGE: &str = include_str!("../assets/page/page.html");
-const STYLE: &str = include_str!("../assets/page/style.css");
-const PLOTLY: &str = include_str!("../assets/plotly/plotly-gl3d.min.js");
-const LICENCE: &str = include_str!("../assets/plotly/LICENSE");
+/// The styles of the page.
+const STYLES: [&str; 5] = [
+    include_str!("../assets/page/styles/theme.css"),
+    include_str!("../assets/page/styles/layout.css"),
+    include_str!("../assets/page/styles/parts.css"),
+    include_str!("../assets/page/styles/table.css"),
+    include_str!("../assets/page/styles/media.css"),
+];
 /// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 8] = [
-    include_str!("../assets/page/1-designs.js"),
-    include_str!("../assets/page/2-ranking.js"),
-    include_str!("../assets/page/3-charts.js"),
-    include_str!("../assets/page/4-figures.js"),
-    include_str!("../assets/page/5-tetrahedron.js"),
-    include_str!("../assets/page/6-table.js"),
-    include_str!("../assets/page/7-detail.js"),
-    include_str!("../assets/page/8-page.js"),
+const SCRIPTS: [&str; 21] = [
+    include_str!("../assets/page/scripts/designs.js"),
+    include_str!("../assets/page/scripts/elements.js"),
+    include_str!("../assets/page/scripts/ranking.js"),
+    include_str!("../assets/page/scripts/weightings.js"),
+    include_str!("../assets/page/scripts/state.js"),
+    include_str!("../assets/page/scripts/address.js"),
+    include_str!("../assets/page/scripts/lettering.js"),
+    include_str!("../assets/page/scripts/panel.js"),
+    include_str!("../assets/page/scripts/chart.js"),
+    include_str!("../assets/page/scripts/view.js"),
+    include_str!("../assets/page/scripts/figures.js"),
+    include_str!("../assets/page/scripts/tetrahedron.js"),
+    include_str!("../assets/page/scripts/requirements.js"),
+    include_str!("../assets/page/scripts/criteria.js"),
+    include_str!("../assets/page/scripts/filters.js"),
+    include_str!("../assets/page/scripts/table.js"),
+    include_str!("../assets/page/scripts/drawing.js"),
+    include_str!("../assets/page/scripts/detail.js"),
+    include_str!("../assets/page/scripts/compare.js"),
+    include_str!("../assets/page/scripts/summary.js"),
+    include_str!("../assets/page/scripts/page.js"),
 ];
 
 /// A name and its value.
@@ -36,12 +53,10 @@ pub struct Page {
     pub name: String,
     /// The version of the program.
     pub version: String,
-    /// The folder of the results, as commands name it.
+    /// The folder of the results as a word of a shell, for commands to copy.
     pub folder: String,
     /// The designs of the table.
     pub designs: Designs,
-    /// The designs that can be ranked.
-    pub ranking: Vec<RankingEntry>,
     /// The keys of the axes of the grid.
     pub axes: Vec<String>,
     /// The unit and the meaning of each column.
@@ -50,139 +65,41 @@ pub struct Page {
     pub run: Vec<Fact>,
     /// The key, the value and the meaning of each parameter that all designs share.
     pub shared: Vec<[String; 3]>,
-    /// Drawings by the number of their design.
-    pub drawings: Vec<Fact>,
+    /// Designs that were solved again for the page.
+    pub solved: Vec<SolvedDesign>,
+    /// The state that the page opens with, as its address would have it: `require=coverage >= 0.6&weights=40,30,20,10`.
+    pub opening: String,
 }
 
-/// A design that can be ranked, with all that its rank depends on besides the weights.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RankingEntry {
-    /// The row of the design in the table, from 0.
-    pub row: usize,
-    /// The criteria, larger being better.
-    pub criteria: [f64; 4],
-    /// The criteria from 0, the worst of all designs, to 1, the best.
-    pub rescaled: [f64; 4],
-    /// Whether no other design is better in every criterion.
-    pub on_front: bool,
+/// A design that was solved again: its drawing and its curves.
+#[derive(Clone, Debug, Default)]
+pub struct SolvedDesign {
+    /// The number of the design.
+    pub number: String,
+    /// The drawing, as SVG.
+    pub svg: String,
+    /// Displacements and forces along the path of the puncture.
+    pub puncture: Vec<[f64; 2]>,
+    /// Curvatures and moments along the path of bending.
+    pub flexure: Vec<[f64; 2]>,
 }
-
-impl RankingEntry {
-    /// Returns the designs of a ranking, in the order of the table.
-    pub fn all(ranking: &Ranking<'_>) -> Vec<Self> {
-        let ranked = ranking.by_fitness(Weights::BALANCED);
-        let entry = ranked.iter().map(|design| Self {
-            row: design.row(),
-            criteria: design.criteria(),
-            rescaled: design.rescaled(),
-            on_front: design.on_front(),
-        });
-        let mut entries: Vec<Self> = entry.collect();
-        entries.sort_by_key(|entry| entry.row);
-        entries
-    }
-}
-
-/// The columns that charts of the page show along their axes.
-const CHARTED: [&str; 7] = [
-    "gap_over_t",
-    "length_over_t",
-    "critical_force",
-    "penetration",
-    "compliance",
-    "max_stiffness",
-    "secant_stiffness",
-];
 
 impl Page {
     /// Returns the page as HTML that needs no other file.
     pub fn html(&self) -> String {
         let scripts: Vec<_> =
             SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>")).collect();
-        // `</` would end the script that holds the data.
-        let data = self.data().to_string().replace("</", "<\\/");
+        // Neither `</script` nor `<!--` may end or bend the script that holds the data.
+        let data = data::of(self).to_string().replace('<', "\\u003c");
         let parts = [
-            ("{{title}}", escaped(&self.name)),
+            ("{{title}}", escaped(&visible(&self.name))),
             ("{{version}}", escaped(&self.version)),
-            ("{{style}}", STYLE.to_owned()),
-            ("{{licence}}", escaped(LICENCE)),
-            ("{{plotly}}", PLOTLY.to_owned()),
+            ("{{style}}", STYLES.concat()),
             ("{{scripts}}", scripts.join("\n")),
             ("{{data}}", data),
         ];
         filled(PAGE, &parts)
     }
-
-    fn data(&self) -> Value {
-        let headers = self.designs.headers();
-        let columns: Vec<_> = headers
-            .iter()
-            .zip(&self.columns)
-            .map(|(name, (unit, meaning))| json!({"name": name, "unit": unit, "meaning": meaning}))
-            .collect();
-        let row = |row| headers.iter().map(|header| self.cell(header, row)).collect::<Vec<_>>();
-        let fact = |(name, value): &Fact| json!({"name": name, "value": value});
-        let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
-        let drawing = |(design, svg): &Fact| json!({"design": design, "svg": svg});
-        json!({
-            "name": self.name,
-            "folder": self.folder,
-            "axes": self.axes,
-            "scales": self.scales(),
-            "ranking": self.ranking(),
-            "columns": columns,
-            "rows": (0..self.designs.count()).map(row).collect::<Vec<_>>(),
-            "slants": self.designs.values("slant_deg").into_iter().map(slant).collect::<Vec<_>>(),
-            "run": self.run.iter().map(fact).collect::<Vec<_>>(),
-            "shared": self.shared.iter().map(shared).collect::<Vec<_>>(),
-            "drawings": self.drawings.iter().map(drawing).collect::<Vec<_>>(),
-        })
-    }
-
-    /// Returns the axes of the charts: by column, and for each criterion those of the designs that are ranked.
-    fn scales(&self) -> Value {
-        let column = |name: &str| {
-            (name.to_owned(), ChartAxis::fit(name, self.designs.numbers(name)).to_plotly())
-        };
-        let columns: Map<String, Value> = CHARTED.into_iter().map(column).collect();
-        let criterion = |k: usize| {
-            ChartAxis::fit("", self.ranking.iter().map(|entry| entry.criteria[k])).to_plotly()
-        };
-        let criteria = [0, 1, 2, 3].map(criterion);
-        json!({"columns": columns, "criteria": criteria})
-    }
-
-    /// Returns the designs that can be ranked, list by list.
-    fn ranking(&self) -> Value {
-        let front = self.ranking.iter().filter(|entry| entry.on_front);
-        json!({
-            "rows": self.ranking.iter().map(|entry| entry.row).collect::<Vec<_>>(),
-            "criteria": self.ranking.iter().map(|entry| entry.criteria).collect::<Vec<_>>(),
-            "rescaled": self.ranking.iter().map(|entry| entry.rescaled).collect::<Vec<_>>(),
-            "front": front.map(|entry| entry.row).collect::<Vec<_>>(),
-        })
-    }
-
-    /// Returns a cell as a number where it is one; the number of a design keeps its zeros.
-    fn cell(&self, header: &str, row: usize) -> Value {
-        let text = self.designs.text(header, row);
-        match self.designs.number(header, row) {
-            _ if text.is_empty() => Value::Null,
-            Some(number) if header != "design" => json!(number),
-            _ => json!(text),
-        }
-    }
-}
-
-/// Returns the colour, the symbol and the path of the mark of a slant.
-fn slant(degrees: f64) -> Value {
-    let mark = Mark::of(degrees);
-    json!({
-        "degrees": degrees,
-        "color": slant_color(degrees),
-        "symbol": mark.plotly_symbol(),
-        "path": mark.path(),
-    })
 }
 
 /// Returns `template` with each place filled; text that is filled in is not searched again.
@@ -207,5 +124,6 @@ fn first_place<'a>(
 }
 
 fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;")
+    let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    text.replace('"', "&quot;").replace('\'', "&#39;")
 }

@@ -37,9 +37,67 @@ const SEQUENCE: [[u8; 3]; 9] = [
     [255, 234, 70],
 ];
 
-/// Returns the colour of a slant; between the steps of 15° a mixture.
-pub fn slant_color(slant_deg: f64) -> String {
-    mixed(&SLANTS, slant_deg / 90.0)
+/// Colours and marks of the slants of a sweep, so that each has its own.
+///
+/// Multiples of 15° look alike in every sweep. Where other slants occur, up to seven take the seven looks in order, and
+/// more than that share marks but not with their neighbours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlantPalette(Vec<f64>);
+
+impl SlantPalette {
+    /// Creates the palette of some slants, in degrees.
+    pub fn new(slants: impl IntoIterator<Item = f64>) -> Self {
+        let mut slants: Vec<f64> = slants.into_iter().collect();
+        slants.sort_by(f64::total_cmp);
+        slants.dedup();
+        Self(slants)
+    }
+
+    /// Returns the slants, sorted.
+    pub fn slants(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// Returns the colour of a slant.
+    pub fn color(&self, slant_deg: f64) -> String {
+        let last = SLANTS.len() - 1;
+        let spread = self.0.len().max(2) - 1;
+        let place = match self.steps() {
+            Steps::Fifteen => slant_deg / 15.0,
+            Steps::Few => self.place(slant_deg) as f64,
+            Steps::Many => self.place(slant_deg) as f64 * last as f64 / spread as f64,
+        };
+        mixed(&SLANTS, place / last as f64)
+    }
+
+    /// Returns the mark of a slant.
+    pub fn mark(&self, slant_deg: f64) -> Mark {
+        let place = match self.steps() {
+            Steps::Fifteen => (slant_deg / 15.0).round() as usize,
+            Steps::Few | Steps::Many => self.place(slant_deg),
+        };
+        Mark::ALL[place % Mark::ALL.len()]
+    }
+
+    fn place(&self, slant_deg: f64) -> usize {
+        self.0.partition_point(|other| *other < slant_deg)
+    }
+
+    fn steps(&self) -> Steps {
+        let is_multiple = |slant: &f64| (slant / 15.0 - (slant / 15.0).round()).abs() < 1e-9;
+        match self.0.len() {
+            _ if self.0.iter().all(is_multiple) => Steps::Fifteen,
+            0..=7 => Steps::Few,
+            _ => Steps::Many,
+        }
+    }
+}
+
+/// How the slants of a sweep lie.
+enum Steps {
+    Fifteen,
+    Few,
+    Many,
 }
 
 /// Returns the colour of a value from 0 to 1 in a map.
@@ -91,33 +149,16 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// Returns the mark of the step of 15° that is nearest to a slant.
-    pub fn of(slant_deg: f64) -> Self {
-        const MARKS: [Mark; 7] = [
-            Mark::Circle,
-            Mark::Square,
-            Mark::Diamond,
-            Mark::Up,
-            Mark::Down,
-            Mark::Star,
-            Mark::Hexagon,
-        ];
-        // Slants lie below 90°.
-        MARKS[((slant_deg / 15.0).round() as usize).min(MARKS.len() - 1)]
-    }
-
-    /// Returns the name of the mark in the charting library of the page.
-    pub(crate) fn plotly_symbol(self) -> &'static str {
-        match self {
-            Self::Circle => "circle",
-            Self::Square => "square",
-            Self::Diamond => "diamond",
-            Self::Up => "triangle-up",
-            Self::Down => "triangle-down",
-            Self::Star => "star",
-            Self::Hexagon => "hexagon",
-        }
-    }
+    /// All marks, as slants take them.
+    pub(crate) const ALL: [Self; 7] = [
+        Self::Circle,
+        Self::Square,
+        Self::Diamond,
+        Self::Up,
+        Self::Down,
+        Self::Star,
+        Self::Hexagon,
+    ];
 
     /// Returns the data of a path around the origin, some 10 px across.
     pub(crate) fn path(self) -> String {
@@ -158,13 +199,32 @@ fn regular([x, y]: Spot, radius: f64, corners: usize, start: f64, inner: f64) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{Mark, slant_color};
+    use super::{Mark, SlantPalette};
 
     #[test]
-    fn a_slant_has_one_colour_and_one_mark() {
-        assert_eq!(slant_color(0.0), "#0072b2");
-        assert_eq!(slant_color(45.0), "#e69f00");
-        assert_eq!(Mark::of(45.0), Mark::Up);
-        assert_eq!(Mark::of(89.0), Mark::Hexagon);
+    fn a_slant_of_the_paper_looks_the_same_everywhere() {
+        for palette in [SlantPalette::new([0.0, 45.0]), SlantPalette::new([0.0, 15.0, 45.0, 75.0])]
+        {
+            assert_eq!(palette.color(0.0), "#0072b2");
+            assert_eq!(palette.color(45.0), "#e69f00");
+            assert_eq!(palette.mark(45.0), Mark::Up);
+        }
+    }
+
+    #[test]
+    fn slants_of_a_sweep_have_marks_and_colours_of_their_own() {
+        let slants = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0];
+        let palette = SlantPalette::new(slants);
+        for (k, slant) in slants.iter().enumerate() {
+            for other in &slants[..k] {
+                assert_ne!(palette.color(*slant), palette.color(*other));
+                assert_ne!(palette.mark(*slant), palette.mark(*other));
+            }
+        }
+        let many = SlantPalette::new((0..30).map(|k| f64::from(3 * k)));
+        for pair in many.slants().windows(2) {
+            assert_ne!(many.mark(pair[0]), many.mark(pair[1]));
+            assert_ne!(many.color(pair[0]), many.color(pair[1]));
+        }
     }
 }

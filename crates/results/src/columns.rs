@@ -24,8 +24,8 @@ pub use cell::Cell;
 pub use column::{Column, number, parameter_of};
 pub use failures::failure_detail_columns;
 pub use path::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES,
-    STEPS,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
+    PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;

@@ -1,6 +1,7 @@
 //! The folder of a run: the name of every file in it, and how files get there.
 
 mod atomic_file;
+mod partial_file;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,9 @@ use std::path::{Path, PathBuf};
 use sweep::Measure;
 
 pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
+pub use partial_file::{exit_without_partial_files, remove_abandoned_files};
+
+use crate::contents::derivation::Derivation;
 
 /// The tables of one measure, named by the value that they are about.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
@@ -28,6 +32,12 @@ impl RunFolder {
     pub const JOURNAL: &'static str = "journal.jsonl";
     /// The record of the run: its program, its counts, its definition.
     pub const RUN_INFO: &'static str = "run.toml";
+    /// The statement of what the folder holds, written last.
+    pub const CONTENTS: &'static str = "contents.toml";
+    /// The folder of the records of what was made from the tables.
+    pub const DERIVED: &'static str = "derived";
+    /// The name of the record of a ranking.
+    pub const RANKING_RECORD: &'static str = "ranking";
     /// The table of all designs.
     pub const DESIGNS: &'static str = "designs.csv";
     /// The table of measures without a value.
@@ -39,8 +49,12 @@ impl RunFolder {
     /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
+    /// What a ranking goes by: requirements, criteria, weights, scale.
+    pub const PREFERENCES: &'static str = "ranking.toml";
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];
+    /// The table of the measures of one design.
+    pub const MEASURES: &'static str = "measures.csv";
     /// The tables of the puncture of one design: path, events, scales, iterations.
     pub const PUNCTURE: [&'static str; 4] = ["path.csv", "events.csv", "scales.csv", "steps.csv"];
     /// The tables of the bending of one design: path, events, scales, iterations.
@@ -102,11 +116,11 @@ impl RunFolder {
         AtomicFile::create(&self.path, name)
     }
 
-    /// Writes `text` as the file `name`.
+    /// Writes `text` as the file `name`; returns its SHA-256.
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn write_text(&self, name: &str, text: &str) -> Result<(), OutputError> {
+    pub fn write_text(&self, name: &str, text: &str) -> Result<String, OutputError> {
         write_text(&self.path, name, text)
     }
 
@@ -115,32 +129,49 @@ impl RunFolder {
         sync_folder(&self.path);
     }
 
-    /// Removes the tables and rankings of an earlier run, but for those named in `files`: a folder
-    /// describes one run.
+    /// The first file of a run that stands here though there is no journal: nobody knows whose it is.
+    pub fn stray_file(&self) -> Option<String> {
+        let mut names = Self::of_runs().chain([Self::CONTENTS.to_owned()]);
+        names.find(|name| fs::symlink_metadata(self.file(name)).is_ok())
+    }
+
+    /// Removes the tables of an earlier run, but for those named in `files`: a folder describes one run.
     pub fn remove_tables_but(&self, files: &[String]) {
-        Self::of_runs().filter(|file| !files.contains(file)).for_each(|file| self.remove(&file));
+        let is_kept = |file: &String| files.contains(file) || file == Self::RUN_INFO;
+        Self::of_runs().filter(|file| !is_kept(file)).for_each(|file| self.remove(&file));
     }
 
-    /// Removes everything that an earlier run left, but for its journal.
+    /// Removes the tables of an earlier run and what it states of itself, but not its journal.
     pub fn remove_results(&self) {
-        self.remove_tables_but(&[]);
-        self.remove(Self::RUN_INFO);
+        // From here on nobody takes the tables for whole.
+        self.remove(Self::CONTENTS);
+        Self::of_runs().for_each(|file| self.remove(&file));
     }
 
-    /// Removes what a killed process left half-written.
-    pub fn remove_partial_files(&self) {
-        let files = Self::of_runs().chain([Self::RUN_INFO.to_owned()]);
-        files.for_each(|file| atomic_file::remove_partial(&self.path, &file));
+    /// Removes what was made from the tables and is as it was made; returns the names of the files.
+    pub fn remove_derived(&self) -> Vec<String> {
+        let all = Derivation::all(self).into_iter();
+        let removed = all.flat_map(|made| made.remove(self)).collect();
+        // Records, and nothing else, stand in that folder.
+        let _ = fs::remove_dir_all(self.file(Self::DERIVED));
+        removed
+    }
+
+    /// Removes what killed processes left half-written.
+    pub fn remove_abandoned_files(&self) {
+        remove_abandoned_files(&self.path);
     }
 
     /// Removes the file `name`, if it is there.
-    pub(crate) fn remove(&self, name: &str) {
+    pub fn remove(&self, name: &str) {
         // Nearly always there is none.
         let _ = fs::remove_file(self.file(name));
     }
 
-    /// The names of the tables that describe one run. Those of a comparison describe two, and stay.
-    fn of_runs() -> impl Iterator<Item = String> {
-        Self::tables().filter(|name| !Self::COMPARISON.contains(&name.as_str()))
+    /// The names of the tables and the record of a run. Rankings and comparisons have commands of their own.
+    pub(crate) fn of_runs() -> impl Iterator<Item = String> {
+        let measures = MEASURE_TABLES.iter().map(|(value, _)| Self::measure_table(value));
+        let others = [Self::DESIGNS, Self::FAILURES, Self::RERUNS, Self::RUN_INFO];
+        measures.chain(others.map(str::to_owned))
     }
 }

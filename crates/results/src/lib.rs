@@ -16,8 +16,12 @@
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
+//! | [`Contents`], [`VerifiedFolder`] | what a run states of its folder, and the folder once that is checked |
+//! | [`Derivation`] | what was made from the tables, and from which |
 //!
 //! ```
 //! use results::columns::design_columns;
@@ -39,16 +43,24 @@
 //! ```
 
 pub mod columns;
+mod contents;
 mod design;
+mod digest;
 mod folder;
+mod measure_table;
 mod path_tables;
 mod reader;
+pub mod round_off;
+mod shell;
 mod tables;
 
 pub use columns::cell::Cell;
 pub use columns::{
     Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
 };
+pub use contents::derivation::Derivation;
+pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
+pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
@@ -56,10 +68,14 @@ pub use design::parameter_derivative::ParameterDerivative;
 pub use design::rerun_change::RerunChange;
 pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
+pub use digest::sha256;
 pub use folder::{
-    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, make_folder, sync_folder, write_text,
+    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,
+    remove_abandoned_files, sync_folder, write_text,
 };
+pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
 pub use reader::{InvalidResults, Results, words};
+pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

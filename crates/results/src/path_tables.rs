@@ -5,7 +5,7 @@ use skin::puncture::Puncture;
 
 use crate::columns::{
     BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
-    FLEXURE_STEPS, PATH, SCALES, STEPS,
+    FLEXURE_STEPS, PATH, PunctureEvent, SCALES, STEPS,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::{OutputError, RunFolder};
@@ -47,8 +47,9 @@ fn write_puncture(
     puncture: &Puncture,
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
-    write_rows(folder, path, Plain, PATH, &puncture.path)?;
-    write_rows(folder, events, Plain, EVENTS, &puncture.events)?;
+    let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
+    write_rows(folder, path, Plain, PATH, points.collect::<Vec<_>>())?;
+    write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
     Ok(RunFolder::PUNCTURE)

@@ -1,11 +1,13 @@
 //! The folder of a run read back: one row per design, as text.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
 
 use crate::columns::parameter_of;
-use sweep::{Parameter, Sweep, number, reason};
+use sweep::{Parameter, Sweep, nearest, number, reason};
 
+use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;
 use crate::tables::csv_format::CsvFormat;
 
@@ -15,7 +17,7 @@ const NUMBER: &str = "design";
 /// The designs of a run, as `designs.csv` has them.
 #[derive(Clone, Debug)]
 pub struct Results {
-    folder: PathBuf,
+    folder: VerifiedFolder,
     format: CsvFormat,
     header: Vec<String>,
     rows: Vec<csv::StringRecord>,
@@ -26,6 +28,9 @@ pub struct Results {
 /// A folder that holds no results, or results of another kind.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidResults {
+    /// The folder is not as its run states it.
+    #[error(transparent)]
+    Folder(InvalidFolder),
     /// The table cannot be read.
     #[error("{file}: cannot be read ({reason}), expected the table that squama run writes")]
     Unreadable {
@@ -43,12 +48,14 @@ pub enum InvalidResults {
         found: String,
     },
     /// A column is missing.
-    #[error("{file}: there is no column {column}, expected one")]
+    #[error("{file}: there is no column {column}, {expected}")]
     NoColumn {
         /// The table.
         file: String,
         /// The column.
         column: String,
+        /// The column that may be meant.
+        expected: String,
     },
     /// A cell is not what its column holds.
     #[error("{file}: design {design}: {column}: {found} is not accepted, expected a number")]
@@ -65,14 +72,25 @@ pub enum InvalidResults {
 }
 
 impl Results {
+    /// The results in `folder`, which must be whole.
+    ///
+    /// # Errors
+    /// If the folder is not as its run states it, there is no table of designs, or it cannot be read.
+    pub fn read(folder: &Path) -> Result<Self, InvalidResults> {
+        let folder = VerifiedFolder::open(folder, Completeness::Whole);
+        Self::read_from(&folder.map_err(InvalidResults::Folder)?)
+    }
+
     /// The results in `folder`.
     ///
     /// # Errors
-    /// If there is no table of designs, or it cannot be read.
-    pub fn read(folder: &Path) -> Result<Self, InvalidResults> {
-        let path = folder.join(RunFolder::DESIGNS);
-        let (format, header, rows) = read_table(&path).map_err(|error| {
-            InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
+    /// If there is no table of designs, it is not as it was written, or it cannot be read.
+    pub fn read_from(folder: &VerifiedFolder) -> Result<Self, InvalidResults> {
+        let path = folder.path().join(RunFolder::DESIGNS);
+        let table = read_table(folder.file(RunFolder::DESIGNS).map_err(InvalidResults::Folder)?);
+        let (format, header, rows) = table.map_err(|error| InvalidResults::Unreadable {
+            file: path.display().to_string(),
+            reason: words(error),
         })?;
         match header.first() {
             Some(first) if first == NUMBER => {}
@@ -85,13 +103,13 @@ impl Results {
         let parameters =
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
         Ok(Self {
-            folder: folder.to_owned(),
+            folder: folder.clone(),
             format,
             parameters: parameters.collect(),
             header,
             rows,
             // A table without the record of its run is still a table.
-            definition: Sweep::read(&folder.join(RunFolder::RUN_INFO), &[]).ok(),
+            definition: definition(folder).map_err(InvalidResults::Folder)?,
         })
     }
 
@@ -104,6 +122,11 @@ impl Results {
 
     /// The folder of the results.
     pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// The folder of the results, as it was checked.
+    pub fn verified_folder(&self) -> &VerifiedFolder {
         &self.folder
     }
 
@@ -114,7 +137,7 @@ impl Results {
 
     /// Name of the table of designs, for messages.
     pub fn file(&self) -> String {
-        self.folder.join(RunFolder::DESIGNS).display().to_string()
+        self.folder().join(RunFolder::DESIGNS).display().to_string()
     }
 
     /// The sweep, if the record of the run says so.
@@ -144,8 +167,14 @@ impl Results {
     /// If there is no such column.
     pub fn column(&self, name: &str) -> Result<usize, InvalidResults> {
         let found = self.header.iter().position(|column| column == name);
-        let error = || InvalidResults::NoColumn { file: self.file(), column: name.to_owned() };
-        found.ok_or_else(error)
+        found.ok_or_else(|| self.no_column(name))
+    }
+
+    fn no_column(&self, name: &str) -> InvalidResults {
+        let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
+        let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
+        let expected = near.unwrap_or_else(|| "expected one".to_owned());
+        InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 
     /// The number of a design, as it is written.
@@ -187,8 +216,18 @@ impl Results {
 /// A table: how it is written, its header, its rows.
 type Table = (CsvFormat, Vec<String>, Vec<csv::StringRecord>);
 
-fn read_table(path: &Path) -> Result<Table, csv::Error> {
-    let bytes = fs::read(path)?;
+/// The sweep, if there is a record of the run.
+fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
+    if !folder.holds(RunFolder::RUN_INFO) {
+        return Ok(None);
+    }
+    let text = folder.text(RunFolder::RUN_INFO)?;
+    Ok(Sweep::parse(&text, RunFolder::RUN_INFO, &[]).ok())
+}
+
+fn read_table(mut file: File) -> Result<Table, csv::Error> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
     let (format, start) = CsvFormat::of(&bytes);
     let mut table = format.reader(&bytes[start..]);
     let header = table.headers()?.iter().map(str::to_owned).collect();

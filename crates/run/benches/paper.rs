@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use run::{Options, Program, Start};
+use run::{Options, Program, Start, WorkMeter};
 use sweep::{Subset, Sweep};
 
 fn paper(c: &mut Criterion) {
@@ -17,7 +17,9 @@ fn paper(c: &mut Criterion) {
     let program = Program { version: "bench", revision: "bench" };
     let stop = AtomicBool::new(false);
     let tables_every = Duration::from_secs(30);
-    let options = Options { threads, format: None, fail_fast: false, tables_every, stop: &stop };
+    let work = &WorkMeter::default();
+    let stop = &stop;
+    let options = Options { threads, format: None, fail_fast: false, tables_every, stop, work };
     let run = || {
         let (subset, start, folder) = (Subset::default(), Start::Fresh, folder.path());
         run::run(&sweep, subset, folder, start, &options, &program, |_| ()).expect("a run")

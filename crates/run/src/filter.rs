@@ -13,7 +13,7 @@ use crate::journal::{Archive, JournalEntry, JournalError};
 pub struct Filter {
     /// Only designs that lack a value.
     pub failed: bool,
-    /// Only designs with these numbers.
+    /// Only designs with these numbers, each one design or some in a row, as `1-12`.
     pub numbers: Option<Vec<String>>,
     /// Only designs whose rows in `designs.csv` have these values.
     pub columns: Vec<ColumnFilter>,
@@ -74,7 +74,7 @@ impl ColumnFilter {
     ) -> Result<&'c Column<DesignRow>, InvalidFilter> {
         let found = columns.iter().find(|column| column.name == self.column);
         found.ok_or_else(|| {
-            let known: Vec<_> = columns.iter().map(|column| column.name).collect();
+            let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
             let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),
@@ -120,8 +120,9 @@ impl Filter {
 /// The entries of the designs with these numbers, in order, each once.
 fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, InvalidFilter> {
     let grid = archive.sweep().grid();
-    let index = |text: &String| grid.parse_number(text.trim()).map_err(InvalidFilter::Number);
-    let mut indices = numbers.iter().map(index).collect::<Result<Vec<_>, _>>()?;
+    let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);
+    let ranges = numbers.iter().map(range).collect::<Result<Vec<_>, _>>()?;
+    let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;

@@ -8,7 +8,7 @@
 //! A line is handed to the system in one piece before its design counts as done, so a process that
 //! is killed loses the designs in hand and nothing else. The file is forced to the disk once a second and
 //! at the end, so a machine that loses its power loses about a second of work. What is then
-//! missing or torn at the end is cut off, and solved again. A damaged line before intact
+//! missing or torn at the end is cut off once a copy of it is kept, and solved again. A damaged line before intact
 //! ones is refused by name: nothing after it can be trusted to be complete.
 //!
 //! The file is locked while a run writes it. The lock dies with its process.
@@ -18,7 +18,10 @@ mod entry;
 mod error;
 mod header;
 mod index;
+mod lines;
 mod seal;
+mod tail;
+mod windows;
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write as _};
@@ -63,6 +66,8 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     synced: Instant,
+    /// What was cut off or lost.
+    notes: Vec<String>,
 }
 
 impl Journal {
@@ -76,24 +81,32 @@ impl Journal {
         start: Start,
     ) -> Result<Self, JournalError> {
         let path = folder.journal();
-        let has_tables = folder.holds(RunFolder::DESIGNS);
-        if has_tables && !path.exists() && start != Start::Fresh {
-            return Err(JournalError::exists(folder.path(), start));
+        if start != Start::Fresh && !path.exists() {
+            refuse_strays(folder)?;
         }
         let file = open(&path)?;
         lock(&file, &path)?;
         let found = if start == Start::Fresh { None } else { Archive::read(&path)? };
-        let archive = match found {
+        match found {
             Some(archive) if start == Start::New && archive.done() > 0 => {
-                return Err(JournalError::exists(folder.path(), start));
+                Err(JournalError::Exists { folder: folder.path().to_owned() })
             }
             Some(archive) if start == Start::Resume => {
                 archive.header().require(&header, &path, GO_ON)?;
-                archive
+                Self::at_end(archive, folder, file)
             }
-            _ => create(&file, &path, header)?,
-        };
-        Self::at_end(archive, path, file)
+            _ if start == Start::Fresh => {
+                let journal = Self::at_end(create(&file, &path, header)?, folder, file)?;
+                // What was there is thrown away, as it was asked for.
+                Ok(Self { notes: Vec::new(), ..journal })
+            }
+            _ => {
+                let cut = tail::keep(&path, 0)?;
+                let mut journal = Self::at_end(create(&file, &path, header)?, folder, file)?;
+                journal.notes.extend(cut);
+                Ok(journal)
+            }
+        }
     }
 
     /// The journal that is there in `folder`, to go on with whatever it is of.
@@ -109,14 +122,23 @@ impl Journal {
         let file = open(&path)?;
         lock(&file, &path)?;
         let archive = Archive::read(&path)?.ok_or_else(missing)?;
-        Self::at_end(archive, path, file)
+        Self::at_end(archive, folder, file)
     }
 
-    fn at_end(archive: Archive, path: PathBuf, file: File) -> Result<Self, JournalError> {
-        // Cuts off what is torn.
+    /// The journal with what is torn at its end cut off, once a copy of that is kept.
+    fn at_end(archive: Archive, folder: &RunFolder, file: File) -> Result<Self, JournalError> {
+        let path = folder.journal();
+        let mut notes: Vec<_> = tail::keep(&path, archive.length())?.into_iter().collect();
+        let lost = archive.lost_lines(folder);
+        notes.extend(lost.map(|lost| format!("{}: {lost}", path.display())));
         let cut = file.set_len(archive.length());
         cut.map_err(|error| OutputError::file(&path, &error))?;
-        Ok(Self { archive, path, file, synced: Instant::now() })
+        Ok(Self { archive, path, file, synced: Instant::now(), notes })
+    }
+
+    /// What was cut off or lost, for people.
+    pub(crate) fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// The content so far.
@@ -162,10 +184,26 @@ impl Journal {
     }
 }
 
-fn open(path: &Path) -> Result<File, OutputError> {
+/// Refuses to write where files of our names stand without a journal: nobody knows whose they are.
+fn refuse_strays(folder: &RunFolder) -> Result<(), JournalError> {
+    folder.stray_file().map_or(Ok(()), |file| {
+        Err(JournalError::NoJournal { folder: folder.path().to_owned(), file })
+    })
+}
+
+fn open(path: &Path) -> Result<File, JournalError> {
+    require_file(path)?;
     let file = OpenOptions::new().read(true).append(true).create(true).open(path);
     let folder = path.parent().unwrap_or(path);
-    file.map_err(|error| OutputError::folder(folder, &error))
+    file.map_err(|error| OutputError::folder(folder, &error).into())
+}
+
+/// Refuses a pipe, a device or a folder in place of a journal: opening one may never return.
+fn require_file(path: &Path) -> Result<(), JournalError> {
+    match path.metadata() {
+        Ok(metadata) if !metadata.is_file() => Err(JournalError::NoFile { path: path.to_owned() }),
+        _ => Ok(()),
+    }
 }
 
 /// A journal with its first line.
@@ -206,6 +244,9 @@ fn lock(file: &File, path: &Path) -> Result<(), JournalError> {
 
 /// Whether a run is writing the journal in `folder`.
 pub(crate) fn in_use(folder: &RunFolder) -> bool {
+    if require_file(&folder.journal()).is_err() {
+        return false;
+    }
     let is_locked = |file: io::Result<File>| match file.map(|file| file.try_lock_shared()) {
         Ok(Err(TryLockError::WouldBlock)) => true,
         Ok(_) | Err(_) => false,

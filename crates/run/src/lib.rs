@@ -14,18 +14,20 @@
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
 //! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
 //! | [`Evaluator`] | solves one design |
+//! | [`WorkMeter`] | how much of the work is done, within designs too |
 //! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
 //! | [`Archive`] | a journal that was read |
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
 //! | [`RunStatus`] | how far a run is |
 //! | [`merge()`] | puts shards together |
+//! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
 //! use std::time::Duration;
 //!
-//! use run::{Options, Program, Start};
+//! use run::{Options, Program, Start, WorkMeter};
 //! use sweep::{Subset, Sweep};
 //!
 //! let text = "name = 'two'\nmeasures = 'coverage'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\n\
@@ -39,6 +41,7 @@
 //!     fail_fast: false,
 //!     tables_every: Duration::MAX,
 //!     stop: &stop,
+//!     work: &WorkMeter::default(),
 //! };
 //! let program = Program { version: "1.0", revision: "none" };
 //! let all = Subset::default();
@@ -48,6 +51,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod audit;
 mod filter;
 mod journal;
 mod merge;
@@ -59,6 +63,7 @@ mod solve;
 mod status;
 mod tables;
 
+pub use audit::{Audit, LargestDifference, SecondWay};
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use journal::{
     Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,
@@ -69,5 +74,6 @@ pub use progress::{Finished, Progress, RunError};
 pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
 pub use solve::evaluator::Evaluator;
+pub use solve::work::WorkMeter;
 pub use status::RunStatus;
 pub use tables::summary::{Best, Summary};

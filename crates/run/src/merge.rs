@@ -1,5 +1,7 @@
 //! Putting the shards of a sweep together.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -13,6 +15,7 @@ use crate::journal::{
 use crate::options::{Options, Program};
 use crate::progress::{Finished, RunError};
 use crate::run::Run;
+use crate::solve::work::WorkMeter;
 use crate::tables::run_info::RunInfo;
 
 /// The advice to shards that do not belong together.
@@ -56,7 +59,8 @@ pub struct Merged {
 }
 
 /// Puts the results in `folders`, shards of one sweep, into the folder `out`, and writes the tables of
-/// the whole. What is there already stays, so that merging twice is merging once.
+/// the whole. What is there already stays, so that merging twice is merging once. If `out` is the only one of the folders,
+/// its tables are written again from its journal.
 ///
 /// # Errors
 /// If the folders hold results of different definitions or programs, one is in use, or the disk
@@ -70,18 +74,54 @@ pub fn merge(
     let clock = Instant::now();
     let out = RunFolder::new(out);
     let sources = open(folders, &out)?;
+    if sources.is_empty() {
+        return if folders.is_empty() {
+            Err(MergeError::Nothing)
+        } else {
+            written_again(out, format, program)
+        };
+    }
     let header = sources[0].archive.header().clone().of_all_shards();
     out.make().map_err(RunError::from)?;
     let mut journal = Journal::begin(&out, header, Start::Resume)?;
-    out.remove_partial_files();
+    out.remove_abandoned_files();
     let formats = [journal.archive(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
+    finish(journal, out, format, added, program, clock)
+}
+
+/// The tables in `out`, written again from the journal there.
+fn written_again(
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    program: &Program,
+) -> Result<Merged, MergeError> {
+    let journal = Journal::resume(&out)?;
+    out.remove_abandoned_files();
+    finish(journal, out, format, 0, program, Instant::now())
+}
+
+fn finish(
+    journal: Journal,
+    out: RunFolder,
+    format: Option<CsvFormat>,
+    added: u64,
+    program: &Program,
+    clock: Instant,
+) -> Result<Merged, MergeError> {
     let archive = journal.archive();
     let (sweep, missing) =
         (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
-    let (stop, tables_every) = (AtomicBool::new(false), Duration::MAX);
-    let options = Options { threads: 1, format, fail_fast: false, tables_every, stop: &stop };
+    let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
+    let options = Options {
+        threads: 1,
+        format,
+        fail_fast: false,
+        tables_every: Duration::MAX,
+        stop: &stop,
+        work: &work,
+    };
     let info = RunInfo::new(program, &options, clock);
     let finished = Run::new(journal, out, &options, info).finish()?;
     Ok(Merged { finished, added, missing, sweep })
@@ -105,6 +145,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
             return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
         }
         let archive = Archive::open(&folder)?;
+        archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header().clone().of_all_shards();
             let header = archive.header().clone().of_all_shards();
@@ -112,7 +153,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
         }
         sources.push(ShardResults { folder, archive });
     }
-    if sources.is_empty() { Err(MergeError::Nothing) } else { Ok(sources) }
+    Ok(sources)
 }
 
 /// Appends to `journal` what it lacks; returns how many designs that were.
@@ -131,9 +172,10 @@ fn gather(
     let before = Archive::open(out)?;
     let mut there = before.entries()?;
     let mut added = 0;
-    for position in 0..designs.len() {
+    for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
+        let Some(position) = designs.position(design) else { continue };
         let known = there.last(position)?;
-        let best = choose(designs.design(position), known, &mut readers, out)?;
+        let best = choose(design, known, &mut readers, &holders, out)?;
         if added == 0 && !best.is_empty() {
             journal.begin_session(SessionStart::now(1, format)).map_err(RunError::from)?;
         }
@@ -145,17 +187,60 @@ fn gather(
     Ok(added)
 }
 
-/// The entries of the design `index` that are to be added to the one that is there.
+/// The designs that any of several sources holds, in order, each with the places of those that hold it.
+struct Held<I> {
+    sources: Vec<I>,
+    /// The next design of each source, and the place of the source; the smallest first.
+    next: BinaryHeap<Reverse<(u64, usize)>>,
+}
+
+impl<I: Iterator<Item = u64>> Held<I> {
+    fn by(sources: impl Iterator<Item = I>) -> Self {
+        let mut held = Self { sources: sources.collect(), next: BinaryHeap::new() };
+        for place in 0..held.sources.len() {
+            held.advance(place);
+        }
+        held
+    }
+
+    fn advance(&mut self, place: usize) {
+        let next = self.sources[place].next();
+        self.next.extend(next.map(|design| Reverse((design, place))));
+    }
+}
+
+impl<I: Iterator<Item = u64>> Iterator for Held<I> {
+    type Item = (u64, Vec<usize>);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let Reverse((design, _)) = *self.next.peek()?;
+        let mut holders = Vec::new();
+        while let Some(&Reverse((other, place))) = self.next.peek()
+            && other == design
+        {
+            self.next.pop();
+            holders.push(place);
+            self.advance(place);
+        }
+        holders.sort_unstable();
+        Some((design, holders))
+    }
+}
+
+/// The entries of the design `index`, which the readers at the places `holders` have, that are to be added to the one that
+/// is there.
 fn choose(
     index: u64,
     there: Option<JournalEntry>,
     readers: &mut [(&ShardResults, Entries<'_>)],
+    holders: &[usize],
     out: &RunFolder,
 ) -> Result<Vec<JournalEntry>, MergeError> {
     let known = there.as_ref().map(|entry| entry.rerun);
     let mut best = there.map(|entry| (entry, out.path()));
     let mut added = Vec::new();
-    for (source, entries) in readers {
+    for place in holders {
+        let (source, entries) = &mut readers[*place];
         let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
@@ -180,12 +265,44 @@ fn numbers(
     positions: &[std::ops::Range<u64>],
 ) -> Vec<std::ops::RangeInclusive<u64>> {
     let mut numbers: Vec<std::ops::RangeInclusive<u64>> = Vec::new();
-    for position in positions.iter().cloned().flatten() {
-        let number = designs.design(position) + 1;
+    for part in positions.iter().flat_map(|range| consecutive(designs, range)) {
         match numbers.last_mut() {
-            Some(last) if last.end() + 1 == number => *last = *last.start()..=number,
-            _ => numbers.push(number..=number),
+            Some(last) if last.end() + 1 == *part.start() => *last = *last.start()..=*part.end(),
+            _ => numbers.push(part),
         }
     }
     numbers
+}
+
+/// The numbers of the designs at consecutive positions: one range where they are consecutive too, as in a whole grid.
+fn consecutive(
+    designs: &SubsetDesigns,
+    positions: &std::ops::Range<u64>,
+) -> Vec<std::ops::RangeInclusive<u64>> {
+    let number = |position| designs.design(position) + 1;
+    let Some(last) = positions.clone().next_back() else { return Vec::new() };
+    let (first, last) = (number(positions.start), number(last));
+    if last - first == positions.end - positions.start - 1 {
+        return vec![first..=last];
+    }
+    positions.clone().map(|position| number(position)..=number(position)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn designs_come_in_order_with_those_that_hold_them() {
+        let sources: [&[u64]; 3] = [&[1, 4, 9], &[4, 5], &[]];
+        let held: Vec<_> = Held::by(sources.iter().map(|source| source.iter().copied())).collect();
+        assert_eq!(held, [(1, vec![0]), (4, vec![0, 1]), (5, vec![1]), (9, vec![0])]);
+    }
+
+    #[test]
+    fn ranges_of_a_billion_designs_are_named_at_once() {
+        let designs = SubsetDesigns::new(1_000_000_000, sweep::Subset::default()).expect("designs");
+        let named = numbers(&designs, &[0..5, 6..999_999_999]);
+        assert_eq!(named, [1..=5, 7..=999_999_999]);
+    }
 }

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use results::CsvFormat;
 
+use crate::solve::work::WorkMeter;
+
 /// The program that runs a sweep.
 #[derive(Clone, Copy, Debug)]
 pub struct Program {
@@ -27,4 +29,6 @@ pub struct Options<'a> {
     pub tables_every: Duration,
     /// Set to request a stop; designs already started are finished and the tables written.
     pub stop: &'a AtomicBool,
+    /// Told of the work that the run has and has done.
+    pub work: &'a WorkMeter,
 }

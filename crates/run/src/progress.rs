@@ -44,6 +44,8 @@ pub struct Finished {
     pub duration: Duration,
     /// Names of the tables.
     pub tables: Vec<String>,
+    /// What a person should know besides: what was cut off, lost or removed.
+    pub notes: Vec<String>,
 }
 
 /// The progress of a run.

@@ -97,10 +97,11 @@ impl Rerun {
         let folder = self.folder.clone();
         let journal = Journal::resume(&folder)?;
         require_program(journal.archive(), &folder, program)?;
-        folder.remove_partial_files();
+        folder.remove_abandoned_files();
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
         let rerun = journal.archive().reruns() + 1;
-        let task = Task::new(&self.sweep, self.settings.clone(), rerun, clock);
+        let settings = self.settings.clone();
+        let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
         let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
         run.solve(&task, self.designs.iter().copied(), progress)?;
         run.finish()

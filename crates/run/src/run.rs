@@ -40,7 +40,8 @@ pub fn run(
     let folder = RunFolder::new(folder);
     folder.make()?;
     let journal = Journal::begin(&folder, JournalHeader::new(sweep, subset, program), start)?;
-    folder.remove_partial_files();
+    folder.remove_abandoned_files();
+    let removed = if start == Start::Fresh { folder.remove_derived() } else { Vec::new() };
     let archive = journal.archive();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
@@ -51,10 +52,18 @@ pub fn run(
     let designs = missing.into_iter().flatten().map(|position| subset.design(position));
     let mut designs = designs.peekable();
     if designs.peek().is_some() {
-        let task = Task::new(sweep, String::new(), 0, clock);
+        let task = Task::new(sweep, String::new(), 0, clock, options.work);
         run.solve(&task, designs, progress)?;
     }
-    run.finish()
+    let mut finished = run.finish()?;
+    finished.notes.extend(removal(&removed));
+    Ok(finished)
+}
+
+/// What is to be said of files that were made from earlier results.
+fn removal(files: &[String]) -> Option<String> {
+    let files = files.join(" ");
+    (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))
 }
 
 /// A run of the designs of one journal.
@@ -82,11 +91,12 @@ impl<'a> Run<'a> {
     pub fn solve(
         &mut self,
         task: &Task<'_>,
-        designs: impl Iterator<Item = u64> + Send,
+        designs: impl Iterator<Item = u64> + Send + Clone,
         mut progress: impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let Options { threads, stop, .. } = *self.options;
         self.journal.begin_session(SessionStart::now(threads, self.format))?;
+        task.measure(designs.clone());
         let groups = Groups::new(task.grid(), designs);
         workers::solve(
             threads,
@@ -117,6 +127,8 @@ impl<'a> Run<'a> {
 
     /// Writes the tables for the last time.
     pub fn finish(mut self) -> Result<Finished, RunError> {
-        self.tables.write(&mut self.journal)
+        let mut finished = self.tables.write(&mut self.journal)?;
+        finished.notes.extend_from_slice(self.journal.notes());
+        Ok(finished)
     }
 }

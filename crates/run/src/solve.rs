@@ -5,4 +5,5 @@ pub mod groups;
 mod samples;
 mod sensitivity;
 pub mod task;
+pub mod work;
 pub mod workers;

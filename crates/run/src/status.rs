@@ -4,7 +4,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap};
 use std::path::Path;
 
-use results::RunFolder;
+use results::{Completeness, Derivation, RunFolder, VerifiedFolder};
 use sweep::DesignNumber;
 
 use crate::journal::{self, Archive, JournalEntry, JournalError};
@@ -27,6 +27,10 @@ pub struct RunStatus {
     pub slowest: Vec<(f64, DesignNumber)>,
     /// Designs that were solved again.
     pub solved_again: u64,
+    /// What is wrong with the tables or the journal, each in one line.
+    pub problems: Vec<String>,
+    /// What was made from the tables and is out of date.
+    pub outdated: Vec<Derivation>,
 }
 
 /// A design and how long it took; the quicker is the greater.
@@ -50,10 +54,28 @@ impl RunStatus {
             reasons: BTreeMap::new(),
             slowest: Vec::new(),
             solved_again: 0,
+            problems: archive.lost_lines(&folder).into_iter().collect(),
+            outdated: Vec::new(),
             archive,
         };
         status.count()?;
+        status.check(&folder);
         Ok(status)
+    }
+
+    /// Checks the tables against what the run states of them, if nobody is writing them.
+    fn check(&mut self, folder: &RunFolder) {
+        if self.in_use {
+            return;
+        }
+        match VerifiedFolder::open(folder.path(), Completeness::Partial) {
+            Ok(verified) => {
+                self.problems.extend(verified.problems().iter().map(ToString::to_string));
+                self.problems.extend(verified.behind().map(|problem| problem.to_string()));
+                self.outdated = verified.outdated();
+            }
+            Err(problem) => self.problems.push(problem.to_string()),
+        }
     }
 
     fn count(&mut self) -> Result<(), JournalError> {

@@ -3,6 +3,7 @@
 mod audit;
 mod change;
 mod closed;
+mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
@@ -71,6 +72,11 @@ impl Contacts {
         forces: Vec<usize>,
     ) -> Self {
         Self { relative: true, ..Self::new(arrangement, law, scales, forces) }
+    }
+
+    /// The gap at rest between the bases of a scale and the next one.
+    pub(crate) fn gap_at_rest(&self, scale: usize) -> f64 {
+        self.arrangement.gap(scale)
     }
 
     /// Unknowns of the forces, which are the constraints of the system.

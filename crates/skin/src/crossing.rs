@@ -56,7 +56,7 @@ impl<Q> Crossing<Q> {
 
     /// The equilibrium between two neighbouring points at which the quantity has its value: by
     /// the secant through the ends of a bracket, with the Illinois rule.
-    fn between<S: System>(
+    pub(crate) fn between<S: System>(
         &self,
         path: &mut Path<S>,
         from: &Point<S::Mode>,

@@ -16,6 +16,7 @@
 //! | [`Common`] | contact law and solver settings, of puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
+//! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap in which the surface of the substrate folds over; how far gaps are stretched |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |

@@ -1,9 +1,14 @@
 //! Puncture of a row of scales on an elastic half-space.
 
+mod bars;
+mod ending;
+mod fold;
 mod measures;
 mod point;
 mod sensitivity;
+mod snap;
 mod snapshot;
+mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -12,8 +17,9 @@ mod window;
 use contact::ContactLaw;
 use geometry::{OutOfRange, Row};
 use point::scales;
+use snap::Needle;
 use solver::{Path, Settings, Stop};
-use substrate::RowStiffness;
+use substrate::{RowStiffness, SubstrateLaw};
 use system::{Chain, Layout};
 use window::{Reach, Surroundings};
 
@@ -22,10 +28,13 @@ use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, Sample, Status};
 
+pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate};
+pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
+pub use stability::Instability;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -53,6 +62,8 @@ pub struct PunctureParameters {
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
+    /// How the substrate answers where the surface between two bases is stretched.
+    pub substrate_law: SubstrateLaw,
 }
 
 impl Default for PunctureParameters {
@@ -64,6 +75,7 @@ impl Default for PunctureParameters {
             scales: RowLength::Auto,
             load_position: 1.0,
             critical_tilt_deg: 10.0,
+            substrate_law: SubstrateLaw::Linear,
         }
     }
 }
@@ -77,8 +89,14 @@ pub struct Puncture {
     pub measures: PunctureMeasures,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
+    /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
+    pub instability: Vec<Instability>,
     /// Every contact event, in order.
     pub events: Vec<ContactEvent<PuncturePoint>>,
+    /// Every snap of a row under a needle that only goes deeper, in order.
+    pub snaps: Vec<Snap>,
+    /// Every gap in which the surface folds over or unfolds, in order.
+    pub folds: Vec<Fold>,
     /// Every scale at the end of the path.
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
@@ -155,6 +173,8 @@ impl PunctureParameters {
 /// A path that was followed to its end.
 struct Followed {
     record: Record<Chain>,
+    needle: Needle,
+    folds: Vec<Fold>,
     path: Path<Chain>,
     status: Status,
 }
@@ -206,15 +226,18 @@ impl<'a> Problem<'a> {
                 let left = (scales - 1) / 2;
                 (self.chain(Layout { left, right: scales - 1 - left })?, scales)
             }
-            RowLength::Auto => (self.part(Layout::first(&self.stiffness))?, LONGEST_ROW),
+            RowLength::Auto => {
+                let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
+                (self.part(first)?, LONGEST_ROW)
+            }
         })
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     #[cfg(test)]
     fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
-        let start = self.part(Layout::first(&self.stiffness))?;
-        Ok(self.puncture(self.follow(start, longest, &[])?))
+        let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
+        Ok(self.puncture(self.follow(self.part(first)?, longest, &[])?))
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
@@ -227,6 +250,7 @@ impl<'a> Problem<'a> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path, functions);
+        let (mut needle, mut folds) = (Needle::default(), Vec::new());
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -234,6 +258,8 @@ impl<'a> Problem<'a> {
             let reach = path.system().reach(&point.state);
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
+                needle.follow(&mut path, [&before, &point], record.events.len());
+                folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
@@ -243,11 +269,12 @@ impl<'a> Problem<'a> {
             }
         }
         let status = if has_room {
-            Status::of(&path, path.stop().unwrap_or(Stop::Reached))
+            let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
+            ending::judged(status, &record.path)
         } else {
             Status::RowLimit
         };
-        Ok(Followed { record, path, status })
+        Ok(Followed { record, needle, folds, path, status })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -283,21 +310,23 @@ impl<'a> Problem<'a> {
         let row = self.rows.row(layout)?;
         let tilt = parameters.critical_tilt_deg.to_radians();
         let length = self.design.length;
-        let mut chain =
-            Chain::new(row, stiffness, *law, layout, parameters.load_position, tilt, length);
+        let position = parameters.load_position;
+        let mut chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
         chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
-        Ok(chain)
+        Ok(chain.with_law(parameters.substrate_law))
     }
 
     fn puncture(&self, followed: Followed) -> Puncture {
-        let Followed { record, mut path, status } = followed;
-        let measures = PunctureMeasures::new(&record, &mut path);
+        let Followed { record, needle, folds, mut path, status } = followed;
+        let path = &mut path;
+        let mut measures = PunctureMeasures::new(&record, &folds, path);
+        let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, events, scales, history }
+        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
     }
 }

@@ -11,6 +11,8 @@ pub enum Status {
     Complete,
     /// The path stopped before its end.
     Stopped(Stop),
+    /// Load, depth and tilt have turned back together, and the path stopped before any of them came to its largest value again.
+    LimitPoint,
     /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) needs a longer row than it may take.
     RowLimit,
     /// Two scales overlap by more than their contact law allows.

@@ -1,6 +1,6 @@
 //! Events on the path: where they are.
 
-use crate::newton::{FLOOR, Newton, NewtonFailure, guard_slope};
+use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
 use crate::system::{State, System};
 
@@ -25,6 +25,8 @@ pub enum Event {
     Changed(Vec<Change>),
     /// The load has a maximum or a minimum.
     LoadExtremum,
+    /// The load, which only pushes, has come back to zero.
+    Unloaded,
     /// The control parameter has reached its target.
     Target,
 }
@@ -258,10 +260,34 @@ impl<S: System> Path<S> {
         }
         Err(NewtonFailure::TooManyIterations)
     }
+
+    /// Whether a load that only pushes would have to pull at the candidate.
+    pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
+        self.system.load_only_pushes() && candidate.state.z[self.system.load()] < 0.0
+    }
+
+    /// The point before `beyond` where the load comes back to zero.
+    pub(crate) fn unloaded(
+        &mut self,
+        from: &Point<S::Mode>,
+        beyond: &Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
+        let load = self.system.load();
+        let (start, end) = (from.state.z[load].max(0.0), beyond.state.z[load]);
+        let state = from.state.interpolated(&beyond.state, start / (start - end));
+        // The load falls as the path goes on.
+        let mut candidate =
+            self.correct(state, &Condition { row: vec![(load, -1.0)], value: 0.0 })?;
+        if self.turns_sharply(from, &candidate) {
+            return Err(NewtonFailure::TooManyIterations);
+        }
+        candidate.event = Some(Event::Unloaded);
+        Ok(candidate)
+    }
 }
 
 /// Where, as a part of the way, the cubic through two values with two slopes dips below zero.
-fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
+pub fn dip([start, end]: [f64; 2], [falling, rising]: [f64; 2]) -> Option<f64> {
     if !(falling < 0.0 && rising > 0.0) {
         return None;
     }

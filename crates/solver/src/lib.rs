@@ -22,6 +22,7 @@
 //! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
+//! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
@@ -72,6 +73,7 @@ mod path;
 mod peak;
 mod rate_problem;
 mod sensitivity;
+mod skyline;
 mod step;
 mod stop;
 mod system;
@@ -81,12 +83,13 @@ mod tangent_solver;
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, LINK};
 pub use check::{WrongDerivative, check_tangent};
-pub use event::{Change, Event};
+pub use event::{Change, Event, dip};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::{Peak, Summit};
 pub use sensitivity::{Anchor, Linearisation, Moved, Neighbours, Place};
+pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};

@@ -34,7 +34,7 @@ pub struct Point<M = ()> {
 }
 
 /// The path of equilibria of a system, from a first one until the control parameter reaches its
-/// target, one scale.
+/// target, one scale, or a load that only pushes comes back to zero.
 ///
 /// Between events the active set is held and the equations are smooth: a predictor along the
 /// tangent, then Newton's method for the point at a given distance,
@@ -145,8 +145,16 @@ impl<S: System> Path<S> {
         self.between_from(from, to, fraction, from)
     }
 
+    /// How far the path goes between two neighbouring points, in units of the direction in which it leaves the one and of that
+    /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Path::between`].
+    pub fn spans(&self, from: &Point<S::Mode>, to: &Point<S::Mode>) -> [f64; 2] {
+        let condition = self.condition(from);
+        let distance = condition.of(&to.state.z) - condition.value;
+        [&from.leaving, &to.arriving].map(|direction| distance / condition.of(direction))
+    }
+
     /// The equilibrium of [`Path::between`], reached from `near`, a point between the two.
-    pub(crate) fn between_from(
+    pub fn between_from(
         &mut self,
         from: &Point<S::Mode>,
         to: &Point<S::Mode>,
@@ -243,7 +251,7 @@ impl<S: System> Path<S> {
         self.correct(near.state.moved(factor, &near.leaving), condition)
     }
 
-    fn correct(
+    pub(crate) fn correct(
         &mut self,
         mut state: State<S::Mode>,
         condition: &Condition,
@@ -317,6 +325,9 @@ impl<S: System> Path<S> {
         if self.turns(&from, &candidate) {
             candidate = self.extremum(&from, &candidate)?;
         }
+        if self.pulls(&candidate) {
+            candidate = self.unloaded(&from, &candidate)?;
+        }
         Ok(candidate)
     }
 
@@ -379,6 +390,8 @@ impl<S: System> Iterator for Path<S> {
             Ok(point) => {
                 if self.at_target(&point.state) {
                     self.stop = Some(Stop::Reached);
+                } else if point.event == Some(Event::Unloaded) {
+                    self.stop = Some(Stop::Unloaded);
                 }
                 self.stand(point.clone());
                 Some(point)

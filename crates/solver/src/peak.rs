@@ -21,6 +21,10 @@ const NEAR: f64 = 0.05;
 /// How many times a search begins, each time a tenth as far from the end as before, if the segment begins at a kink.
 const CLOSER: usize = 4;
 
+/// A segment that begins or ends at a kink is searched if an end of it has at least this part of the largest value: a force
+/// that has just begun to act may hide a maximum between two points that are both lower than the highest one.
+const PROMISING: f64 = 0.7;
+
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
@@ -31,6 +35,17 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 pub struct Peak<M = ()> {
     best: Option<Best<M>>,
     last: Option<Arc<Point<M>>>,
+    /// Promising segments between kinks.
+    kinks: Vec<KinkSegment<M>>,
+}
+
+/// A segment of the path that begins or ends at a kink.
+#[derive(Clone, Debug)]
+struct KinkSegment<M> {
+    from: Arc<Point<M>>,
+    to: Arc<Point<M>>,
+    /// The larger value of its ends.
+    value: f64,
 }
 
 /// The point with the largest value so far, and its neighbours.
@@ -44,7 +59,7 @@ struct Best<M> {
 
 impl<M> Default for Peak<M> {
     fn default() -> Self {
-        Self { best: None, last: None }
+        Self { best: None, last: None, kinks: Vec::new() }
     }
 }
 
@@ -57,6 +72,11 @@ impl<M> Peak<M> {
         let here = Arc::clone(&path.point);
         let at = |direction: &[f64]| f(&path.system, &here.state, direction);
         let value = at(&here.arriving).max(at(&here.leaving));
+        let kink = self.last.as_ref().filter(|last| last.event.is_some() || here.event.is_some());
+        if let Some(from) = kink.map(Arc::clone) {
+            let value = at(&here.arriving).max(f(&path.system, &from.state, &from.leaving));
+            self.kinks.push(KinkSegment { from, to: Arc::clone(&here), value });
+        }
         if self.best.as_ref().is_none_or(|best| value > best.value) {
             let (before, point) = (self.last.take(), Arc::clone(&here));
             self.best = Some(Best { value, before, point, after: None });
@@ -64,6 +84,8 @@ impl<M> Peak<M> {
             best.after.get_or_insert_with(|| Arc::clone(&here));
         }
         self.last = Some(here);
+        let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
+        self.kinks.retain(|segment| segment.value >= least);
     }
 
     /// The point with the largest value of those visited. `None` if none was.
@@ -76,13 +98,15 @@ impl<M> Peak<M> {
         let best = self.best.iter_mut().flat_map(|best| {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
-        for point in best.chain(&mut self.last) {
+        let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
+        for point in best.chain(&mut self.last).chain(kinks) {
             *point = Arc::new(new(point));
         }
     }
 
-    /// The largest value on the path, the segments next to the best of the points visited included. `None` if none was
-    /// visited. Steps must be small enough for the highest maximum to show at a point beside it.
+    /// The largest value on the path, the segments next to the best of the points visited, and promising ones next to
+    /// kinks, included. `None` if none was visited. Away from kinks, steps must be small enough for the highest maximum to
+    /// show at a point beside it.
     pub fn refined<S>(
         &self,
         path: &mut Path<S>,
@@ -111,7 +135,12 @@ impl<M> Peak<M> {
             is_inside: false,
         };
         let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
-        let inside = segments.into_iter().flatten();
+        let kinks = self.kinks.iter().filter(|segment| {
+            // Those next to the best point are searched anyway.
+            !Arc::ptr_eq(&segment.from, point) && !Arc::ptr_eq(&segment.to, point)
+        });
+        let kinks = kinks.map(|segment| (&segment.from, &segment.to));
+        let inside = segments.into_iter().flatten().chain(kinks);
         let maxima = inside.filter_map(|(from, to)| segment_maximum(path, from, to, &f));
         Some(maxima.fold(visited, |best, next| if next.value > best.value { next } else { best }))
     }
@@ -156,7 +185,8 @@ fn segment_maximum<S: System>(
         }
         Some(Sample { place, value })
     };
-    let mut search = bracket(&mut at, [start, end], from.event.is_some())?;
+    let kinks = [from, to].map(|point| point.event.is_some());
+    let mut search = bracket(&mut at, [start, end], kinks)?;
     for _ in 0..EVALUATIONS {
         let Some(place) = search.next_place() else { break };
         search.take(at(place)?);
@@ -165,11 +195,21 @@ fn segment_maximum<S: System>(
     Some(Summit { value, point: Arc::new(nearest), before: None, is_inside: true })
 }
 
-/// A bracket of the maximum, where the function rises from the larger end.
+/// A bracket of the maximum: where the function rises from the larger end, or, between kinks, anywhere inside.
+fn bracket(
+    at: &mut impl FnMut(f64) -> Option<Sample>,
+    ends: [Sample; 2],
+    kinks: [bool; 2],
+) -> Option<Brent> {
+    let at_an_end = bracket_at_the_larger_end(at, ends, kinks[0]);
+    at_an_end.or_else(|| kinks.contains(&true).then(|| hidden_bracket(at, ends)).flatten())
+}
+
+/// A bracket that begins or ends at the larger end, if the function rises from there.
 ///
 /// A force that has just begun to act may raise the function within a small part of the segment, so
 /// behind a kink the search goes on towards the start.
-fn bracket(
+fn bracket_at_the_larger_end(
     at: &mut impl FnMut(f64) -> Option<Sample>,
     [start, end]: [Sample; 2],
     kink: bool,
@@ -187,6 +227,19 @@ fn bracket(
         (beyond, place) = (inside, 0.1 * place);
     }
     None
+}
+
+/// A bracket around the highest of a few places inside, if it is higher than the places beside it.
+fn hidden_bracket(
+    at: &mut impl FnMut(f64) -> Option<Sample>,
+    [start, end]: [Sample; 2],
+) -> Option<Brent> {
+    let samples = [start, at(NEAR)?, at(0.5)?, at(1.0 - NEAR)?, end];
+    let higher =
+        |beside: &&[Sample]| beside[1].value > beside[0].value && beside[1].value > beside[2].value;
+    let tops = samples.windows(3).filter(higher);
+    let top = tops.max_by(|a, b| a[1].value.total_cmp(&b[1].value))?;
+    Some(Brent::new([top[0], top[2]], top[1]))
 }
 
 /// The search for a maximum by parabolas and golden sections, in the letters of Brent 1973, *Algorithms for Minimization

@@ -9,6 +9,8 @@ use crate::newton::NewtonFailure;
 pub enum Stop {
     /// The control parameter reached its target.
     Reached,
+    /// The load, which only pushes, came back to zero.
+    Unloaded,
     /// Newton's iteration did not converge at the smallest step.
     NoConvergence,
     /// The tangent is singular: the path has no single continuation.
@@ -25,6 +27,7 @@ impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Reached => "reached",
+            Self::Unloaded => "unloaded",
             Self::NoConvergence => "no convergence",
             Self::Singular => "singular tangent",
             Self::TooManyPoints => "too many points",

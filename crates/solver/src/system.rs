@@ -45,6 +45,11 @@ pub trait System {
     /// Index of the load among the unknowns, and of the row without an equation.
     fn load(&self) -> usize;
 
+    /// Whether the load only pushes: the path then ends where the load comes back to zero.
+    fn load_only_pushes(&self) -> bool {
+        false
+    }
+
     /// The coordinates that measure progress along the path; the first is the control parameter. All lie within a
     /// half-bandwidth of the load.
     fn controls(&self) -> &[Control];

@@ -8,6 +8,8 @@ pub(crate) mod setting;
 pub(crate) mod suggestion;
 mod to_toml;
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::grid::Grid;
@@ -31,12 +33,12 @@ impl Sweep {
     /// The sweep that the file at `path` defines once `settings` are put in its place.
     ///
     /// # Errors
-    /// If the file cannot be read or does not define a sweep.
+    /// If the file cannot be read or does not define a sweep; all that is wrong with it is told at once.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
         let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
+        match read_text(path) {
             Ok(text) => Self::parse(&text, &file, settings),
-            Err(error) => Err(InvalidDefinition::Unreadable { file, reason: reason(&error) }),
+            Err(reason) => Err(InvalidDefinition::Unreadable { file, reason }),
         }
     }
 
@@ -51,7 +53,7 @@ impl Sweep {
         }
         let mut reader = Reader::default();
         for entry in &table {
-            reader.entry(entry)?;
+            reader.entry(entry);
         }
         reader.finish(&Place::File { name: name.into(), line: None })
     }
@@ -112,6 +114,17 @@ impl Sweep {
         let value = parameter.get(self.grid.base());
         self.grid.axis(parameter.key).is_some() || matches!(value, Scalar::Count(_))
     }
+}
+
+/// Bytes of a definition, at most: a million values of an axis take a third of them.
+const LONGEST: u64 = 1 << 26;
+
+/// The text of the file at `path`, which may be a pipe but not an endless one.
+fn read_text(path: &Path) -> Result<String, String> {
+    let mut text = String::new();
+    let read = File::open(path).and_then(|file| file.take(LONGEST + 1).read_to_string(&mut text));
+    read.map_err(|error| reason(&error))?;
+    if text.len() as u64 > LONGEST { Err("it has more than 64 MB".to_owned()) } else { Ok(text) }
 }
 
 /// A run's own record holds its definition in a table of that name.

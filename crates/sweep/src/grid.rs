@@ -1,5 +1,7 @@
 //! Every combination of the values of some parameters, numbered and never stored.
 
+use std::ops::RangeInclusive;
+
 use crate::case::Case;
 use crate::parameter::Parameter;
 use crate::parameter::Scalar;
@@ -151,6 +153,19 @@ impl Grid {
         let number = text.parse::<u64>().ok().filter(|number| (1..=self.count).contains(number));
         let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
         number.map(|number| number - 1).ok_or_else(error)
+    }
+
+    /// The indices of the designs that `text` numbers: one, as `7`, or some in a row, as `1-12`.
+    ///
+    /// # Errors
+    /// If one of the numbers is none of the grid, or the first is above the last.
+    pub fn parse_numbers(&self, text: &str) -> Result<RangeInclusive<u64>, NoSuchDesign> {
+        let Some((first, last)) = text.split_once('-') else {
+            return self.parse_number(text).map(|index| index..=index);
+        };
+        let range = self.parse_number(first.trim())?..=self.parse_number(last.trim())?;
+        let error = || NoSuchDesign { found: text.to_owned(), count: self.count };
+        if range.is_empty() { Err(error()) } else { Ok(range) }
     }
 
     /// The number of design `index`.

@@ -45,6 +45,7 @@ pub mod number;
 mod parameter;
 mod subset;
 pub mod toml_source;
+mod visible;
 
 pub use case::{Case, Samples};
 pub use definition::Sweep;
@@ -55,3 +56,4 @@ pub use definition::suggestion::nearest;
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
+pub use visible::{shortened, visible};

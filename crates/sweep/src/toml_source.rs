@@ -82,12 +82,17 @@ pub fn quoted(text: &str) -> String {
     toml::Value::from(text.replace(['\n', '\r'], " ")).to_string()
 }
 
-/// A text that is no TOML.
+/// A text that is no TOML, with a line for each mistake.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct SyntaxError(Vec<SyntaxMistake>);
+
+/// A line that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {line}: not valid TOML ({message}), expected key = value or [section]")]
-pub struct SyntaxError {
+struct SyntaxMistake {
     place: Place,
-    /// The line that cannot be read, shortened.
+    /// The line, shortened.
     line: String,
     message: String,
 }
@@ -95,17 +100,15 @@ pub struct SyntaxError {
 /// The keys and values of the TOML document `text`, which stands in the file `name`.
 ///
 /// # Errors
-/// If it is no TOML.
+/// If it is no TOML; all lines that cannot be read are told.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
-    let source = Document { text, name: name.into() };
-    match DeTable::parse(text) {
-        Ok(table) => Ok(source.table(table.get_ref())),
-        Err(error) => Err(SyntaxError {
-            place: source.place(error.span().map(|span| span.start)),
-            line: source.line(error.span().map_or(0, |span| span.start)),
-            message: one_line(error.message()),
-        }),
-    }
+    let source = Document::new(text, name);
+    let (table, mut errors) = DeTable::parse_recoverable(text);
+    errors.sort_by_key(|error| error.span().map(|span| span.start));
+    let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();
+    // What follows a mistake on its line is no other mistake.
+    mistakes.dedup_by(|next, first| next.place == first.place);
+    if mistakes.is_empty() { Ok(source.table(table.get_ref())) } else { Err(SyntaxError(mistakes)) }
 }
 
 /// The lines of `message`, trimmed and joined by commas.
@@ -117,9 +120,22 @@ pub fn one_line(message: &str) -> String {
 struct Document<'a> {
     text: &'a str,
     name: Arc<str>,
+    /// The offsets at which lines end.
+    ends: Vec<usize>,
 }
 
-impl Document<'_> {
+impl<'a> Document<'a> {
+    fn new(text: &'a str, name: &str) -> Self {
+        let ends = text.match_indices('\n').map(|(offset, _)| offset).collect();
+        Self { text, name: name.into(), ends }
+    }
+
+    fn mistake(&self, error: &toml::de::Error) -> SyntaxMistake {
+        let offset = error.span().map(|span| span.start);
+        let (place, line) = (self.place(offset), self.line(offset.unwrap_or_default()));
+        SyntaxMistake { place, line, message: one_line(error.message()) }
+    }
+
     /// The beginning of the line at `offset`, what cannot be printed left out.
     fn line(&self, offset: usize) -> String {
         let start = self.text.get(..offset).and_then(|before| before.rfind('\n'));
@@ -130,8 +146,7 @@ impl Document<'_> {
     }
 
     fn place(&self, offset: Option<usize>) -> Place {
-        let before = |offset: usize| self.text.get(..offset.min(self.text.len()));
-        let line = offset.and_then(before).map(|text| text.matches('\n').count() + 1);
+        let line = offset.map(|offset| self.ends.partition_point(|end| *end < offset) + 1);
         Place::File { name: Arc::clone(&self.name), line }
     }
 

@@ -14,6 +14,7 @@
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`] | the statements of the paper, and their verdicts |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
+//! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
@@ -30,6 +31,7 @@ mod error;
 mod page;
 mod search;
 mod sensitivity;
+mod soundness;
 mod study;
 
 use sweep::Sweep;
@@ -39,6 +41,7 @@ pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims
 pub use error::ValidationError;
 pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{CouplingEffect, Headlines, Sensitivity};
+pub use soundness::Soundness;
 use study::Study;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
@@ -54,6 +57,8 @@ pub struct Validation {
     pub benchmarks: Vec<Benchmark>,
     /// The claims of the paper with their verdicts.
     pub claims: Vec<CheckedClaim>,
+    /// Where the model holds, and the claims on a substrate that cannot fold.
+    pub soundness: Soundness,
     /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
     /// The effect on the measures of the paper's simplified coupling through the substrate.
@@ -78,8 +83,8 @@ impl Validation {
     /// If a benchmark has no result or the temporary folder cannot be written.
     pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, two sweeps, claims, and a part for each setting.
-        let parts = 2 + SWEEPS.len() + settings.len();
+        // Benchmarks, two sweeps on two substrates, claims, and a part for each setting.
+        let parts = 2 + 2 * SWEEPS.len() + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
             progress(PartProgress { done, parts, part });
@@ -92,11 +97,14 @@ impl Validation {
             Study::run(Sweep::parse(text, "paper", &[])?)
         });
         let (paper, as_written) = (paper?, as_written?);
+        let [other_paper, other_as_written] = soundness::neo_hookean_studies(&mut begin)?;
         begin("claims");
-        let claims = claims::check([&paper, &as_written])?;
+        let (linear, neo_hookean) = ([&paper, &as_written], [&other_paper, &other_as_written]);
+        let (claims, others) = (claims::check(linear)?, claims::check(neo_hookean)?);
+        let soundness = Soundness::of(linear, neo_hookean, [&claims, &others]);
         let (sensitivity, coupling) =
             sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
-        Ok(Self { benchmarks, claims, sensitivity, coupling })
+        Ok(Self { benchmarks, claims, soundness, sensitivity, coupling })
     }
 
     /// Returns whether every benchmark lies within its band.

@@ -34,6 +34,7 @@ impl Validation {
         let sections = [
             self.benchmark_section(),
             self.claim_section(),
+            self.soundness.section(),
             self.sensitivity_section(),
             self.coupling_section(),
         ];

@@ -5,7 +5,7 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use results::{InvalidResults, Results};
-use run::{Options, Program, Start};
+use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
 
 use crate::ValidationError;
@@ -33,6 +33,10 @@ pub(crate) struct MeasuredDesign {
     pub(crate) first_contact: Option<f64>,
     pub(crate) initial_stiffness: Option<f64>,
     pub(crate) max_stiffness: Option<f64>,
+    pub(crate) gap_stretch_min: Option<f64>,
+    pub(crate) gap_stretch_max: Option<f64>,
+    pub(crate) fold_force: Option<f64>,
+    pub(crate) sound_force: Option<f64>,
 }
 
 /// A sweep with its results, or a part of it.
@@ -58,6 +62,7 @@ impl Study {
             fail_fast: false,
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
+            work: &WorkMeter::default(),
         };
         run::run(&sweep, Subset::default(), folder.path(), Start::New, &options, &program, |_| {})?;
         let results = Results::read(folder.path())?;
@@ -134,6 +139,10 @@ fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
             first_contact: number(row, "first_contact_displacement")?,
             initial_stiffness: number(row, "initial_stiffness")?,
             max_stiffness: number(row, "max_stiffness")?,
+            gap_stretch_min: number(row, "gap_stretch_min")?,
+            gap_stretch_max: number(row, "gap_stretch_max")?,
+            fold_force: number(row, "fold_force")?,
+            sound_force: number(row, "sound_force")?,
         })
     };
     (0..results.len()).map(design).collect()

@@ -9,8 +9,13 @@ use super::Definition;
 #[command(after_help = "\
 Examples:
   squama check sweeps/paper.toml
-  squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'")]
+  squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'
+  squama check sweeps/paper.toml --json")]
 pub struct CheckArguments {
     #[command(flatten)]
     pub definition: Definition,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama compare`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -23,8 +25,8 @@ pub struct CompareArguments {
     #[arg(value_name = "OTHER")]
     pub second: PathBuf,
 
-    /// Numbers are the same if they differ by at most this, relative to the larger
-    #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "0")]
+    /// Numbers are the same if they differ by at most this, relative to the larger; 0 takes every bit
+    #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "1e-12")]
     pub tolerance: String,
 
     /// Exit with 1 if the runs differ
@@ -34,4 +36,7 @@ pub struct CompareArguments {
     /// Folder of the tables of what differs
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

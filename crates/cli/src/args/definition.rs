@@ -7,7 +7,7 @@ use clap::Args;
 /// A definition and what is put in its place.
 #[derive(Debug, Args)]
 pub struct Definition {
-    /// Sweep definition in TOML, or the run.toml of an earlier run
+    /// Sweep definition in TOML, or the folder of an earlier run
     #[arg(value_name = "SWEEP.toml")]
     pub path: PathBuf,
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Definition;
+use super::{Definition, Selection};
 
 /// Arguments of `squama draw`.
 #[derive(Debug, Args)]
@@ -15,6 +15,7 @@ Examples:
   squama draw sweeps/paper.toml --design 0417,0418 --flexure
   squama draw sweeps/paper.toml --design 0067,0070,0072 --force 0.1
   squama draw sweeps/paper.toml --design 0417 --animate
+  squama draw results/paper --gap 0.1 --length 1 --slant 15..60
 
 Shows the row at rest and at the critical tilt, or at the displacements u/t of --at; each is solved
 for. Contacts are red, forces between scales are arrows, the bars are the reactions of the
@@ -23,16 +24,15 @@ pub struct DrawArguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Numbers of the designs in the grid of the sweep
-    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', required = true)]
-    pub designs: Vec<String>,
+    #[command(flatten)]
+    pub selection: Selection,
 
     /// Displacements u/t of the punctured point, or rotations of the ends in degrees
-    #[arg(long, value_name = "VALUES", value_delimiter = ',')]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true)]
     pub at: Vec<f64>,
 
     /// Puncture forces F* instead of displacements
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', conflicts_with_all = ["at", "flexure", "animate"])]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["at", "flexure", "animate"])]
     pub force: Vec<f64>,
 
     /// The strip in bending instead of the puncture
@@ -47,7 +47,7 @@ pub struct DrawArguments {
     #[arg(long)]
     pub animate: bool,
 
-    /// Folder of the drawings [default: results/NAME/drawings]
+    /// Folder of the drawings [default: drawings in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

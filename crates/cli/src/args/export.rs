@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama export`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -21,4 +23,7 @@ pub struct ExportArguments {
     /// The workbook
     #[arg(long, value_name = "FILE")]
     pub xlsx: PathBuf,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::Definition;
+use super::{Definition, Partial, Selection};
 
 /// Arguments of `squama plot`.
 #[derive(Debug, Args)]
@@ -32,6 +32,9 @@ pub struct PlotArguments {
     /// Folder of the figures [default: RESULTS/figures]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// The subjects of `squama plot` besides a sweep.
@@ -46,24 +49,24 @@ pub enum PlotWhat {
 #[command(after_help = "\
 Examples:
   squama plot curves sweeps/paper.toml --design 0417,0418
-  squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png")]
+  squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png
+  squama plot curves results/paper --gap 0.1 --length 1")]
 pub struct CurvesArguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Numbers of the designs in the grid of the sweep
-    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', required = true)]
-    pub designs: Vec<String>,
+    #[command(flatten)]
+    pub selection: Selection,
 
     /// Displacement u/t at which punctures end, instead of the critical tilt
-    #[arg(long, value_name = "U")]
+    #[arg(long, value_name = "U", allow_hyphen_values = true)]
     pub to: Option<f64>,
 
     /// An image beside each figure, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
-    /// Folder of the figures [default: results/NAME/curves]
+    /// Folder of the figures [default: curves in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::Partial;
+
 /// Arguments of `squama report`.
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -20,4 +22,7 @@ pub struct ReportArguments {
     /// The page [default: RESULTS/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }

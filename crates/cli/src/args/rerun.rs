@@ -18,8 +18,8 @@ Examples:
 Replaces the rows of these designs in every table. Their column `settings` then says what was set;
 it is empty where the settings are the sweep's own. reruns.csv says which values have changed.
 Without --set designs are solved with the sweep's own settings.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130 or 143 ended by
-SIGINT or SIGTERM.")]
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
 pub struct RerunArguments {
     /// Folder of a run
@@ -30,8 +30,8 @@ pub struct RerunArguments {
     #[arg(long, group = "which")]
     pub failed: bool,
 
-    /// Designs with these numbers
-    #[arg(long = "design", value_name = "NUMBER,…", group = "which", value_delimiter = ',')]
+    /// Designs with these numbers, e.g. 0417 or 1-12,0417
+    #[arg(long = "design", value_name = "NUMBERS", group = "which", value_delimiter = ',')]
     pub numbers: Option<Vec<String>>,
 
     /// Designs with this value in a column of designs.csv (may be repeated: all must hold)

@@ -22,7 +22,7 @@ pub struct SlurmArguments {
     pub definition: Definition,
 
     /// Shards, 1 to 1000: elements of the job array
-    #[arg(long, value_name = "N")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N")]
     pub shards: u64,
 
     /// Folder of the results [default: results/NAME]

@@ -9,11 +9,17 @@ use clap::Args;
 #[command(after_help = "\
 Examples:
   squama status results/paper
+  squama status results/paper --json
 
-The run may be going on meanwhile.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input.")]
+The run may be going on meanwhile. Checks every table against what the run states of it, and lists
+what was made from tables that are no longer there.
+Exit code: 0 done, 1 some designs failed or are missing, or a table is not as it was written, 2 bad input.")]
 pub struct StatusArguments {
     /// Folder of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
 }

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use serde_json::{Map, Value, json};
 use sweep::{Axis, Measure, Sweep};
 
-use super::{DONE, folder_of, read};
+use super::DONE;
+use super::source::{folder_of, read};
 use crate::args;
+use crate::json;
 use crate::print::{aligned, counted, print};
 
 /// Values that an axis lists before it is cut short.
@@ -14,7 +17,11 @@ const LISTED: u64 = 12;
 /// Says what would run.
 pub fn check(arguments: &args::CheckArguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
-    print(&report(&sweep, &arguments.definition.path))?;
+    if arguments.json {
+        json::print(&as_json(&sweep))?;
+    } else {
+        print(&report(&sweep, &arguments.definition.path))?;
+    }
     Ok(DONE)
 }
 
@@ -38,6 +45,25 @@ fn report(sweep: &Sweep, path: &Path) -> String {
         aligned(&axes),
         changes(sweep)
     )
+}
+
+fn as_json(sweep: &Sweep) -> Value {
+    let axis = |axis: &Axis| {
+        let values = (0..axis.len()).map(|index| json::scalar(axis.value(index)));
+        json!({ "key": axis.parameter().key, "values": values.collect::<Vec<_>>() })
+    };
+    let parameter =
+        |(parameter, value): (&sweep::Parameter, _)| (parameter.path(), json::scalar(value));
+    let measures: Vec<_> = sweep.measures().iter().map(|measure| measure.key()).collect();
+    json!({
+        "sweep": sweep.name(),
+        "measures": measures,
+        "designs": sweep.grid().len(),
+        "calibrations": sweep.measures().contains(&Measure::Puncture).then(|| calibrations(sweep)),
+        "output": folder_of(sweep, None),
+        "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
+        "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
+    })
 }
 
 fn row(what: &str, value: &str) -> [String; 2] {

@@ -1,14 +1,17 @@
 //! `squama compare`.
 
 use std::fmt::Write as _;
+use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ranking::{ColumnDifference, Comparison, Extreme};
 use results::Results;
+use sweep::number;
 
+use super::source::verified_folder;
 use super::{DIFFERENT, DONE};
 use crate::args;
-use crate::print::{aligned, counted, digits, print};
+use crate::print::{aligned, counted, digits, print, shortfall};
 
 /// Designs that are listed before the list is cut short.
 const LISTED: usize = 8;
@@ -16,7 +19,10 @@ const LISTED: usize = 8;
 /// Says where two runs differ.
 pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
-    let [first, second] = [&arguments.first, &arguments.second].map(|path| Results::read(path));
+    let completeness = arguments.partial.completeness();
+    let results =
+        |path: &PathBuf| anyhow::Ok(Results::read_from(&verified_folder(path, completeness)?)?);
+    let [first, second] = [&arguments.first, &arguments.second].map(results);
     let (first, second) = (first?, second?);
     let comparison = ranking::compare(&first, &second, tolerance)?;
     let mut text = report(&comparison, &first, &second);
@@ -43,6 +49,9 @@ fn report(comparison: &Comparison<'_>, first: &Results, second: &Results) -> Str
     let [one, other] = [first, second].map(|results| results.folder().display().to_string());
     let both = counted(comparison.matched() as u64, "design");
     let mut text = format!("{one} against {other}: {both} in both\n");
+    for results in [first, second] {
+        text.push_str(&shortfall(results.verified_folder()));
+    }
     for (alone, folder) in comparison.unmatched().iter().zip([one, other]) {
         text.push_str(&unmatched(alone, &folder));
     }
@@ -82,7 +91,12 @@ fn columns(comparison: &Comparison<'_>) -> String {
     }
     if !same.is_empty() {
         let names: Vec<_> = same.iter().map(|column| column.name.as_str()).collect();
-        let _ = writeln!(text, "\nno difference: {}", names.join(" "));
+        let above = if same.iter().any(|column| column.relative.is_some()) {
+            format!(" above {}", number::text(comparison.tolerance()))
+        } else {
+            String::new()
+        };
+        let _ = writeln!(text, "\nno difference{above}: {}", names.join(" "));
     }
     text
 }

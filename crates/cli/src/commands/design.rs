@@ -1,170 +1,150 @@
 //! `squama design`.
 
-use std::path::PathBuf;
-
-use anyhow::{Context as _, bail};
+use anyhow::ensure;
 use results::columns::design_columns;
-use results::{ParameterDerivative, RunFolder, SolvedDesign, write_path_tables};
+use results::{
+    Cell, Column, DesignRow, ParameterDerivative, RunFolder, SolvedDesign, write_measures,
+    write_path_tables,
+};
 use run::Evaluator;
-use sweep::{Case, DesignNumber, PARAMETERS, Setting, Sweep};
+use serde_json::{Map, Value, json};
+use sweep::PARAMETERS;
 
-use super::{DONE, INCOMPLETE, folder_of, settings};
+use super::selection::{SelectedDesign, select};
+use super::source::folder_within;
+use super::{DONE, INCOMPLETE};
 use crate::args;
-use crate::print::{aligned, print};
+use crate::json;
+use crate::print::{aligned, print, rounded};
 
-/// Solves one design, prints its measures and writes its path tables.
+/// Solves one design, prints its measures and writes them down with its path.
 pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
-    let mut chosen = choose(arguments)?;
+    let mut design = choose(arguments)?;
     if arguments.sensitivity {
-        chosen.sweep = chosen.sweep.with_sensitivity();
+        design.sweep = design.sweep.with_sensitivity();
     }
-    let grid = chosen.sweep.grid();
-    let evaluator = Evaluator::new(chosen.sweep.measures());
-    let number = chosen.number.unwrap_or(grid.number(0));
-    let solved = evaluator.solve(number, &grid.case(0));
+    let chosen = SolvedChoice::new(design);
     let folder = RunFolder::new(chosen.folder(arguments));
-    let files = write_path_tables(&folder, &solved)?;
-    folder.write_text("design.toml", &chosen.sweep.to_toml())?;
-    let report = chosen.report(&solved);
-    print(&format!("{report}\n{}: {} design.toml\n", folder.path().display(), files.join(" ")))?;
-    Ok(if solved.row.result.failed() { INCOMPLETE } else { DONE })
-}
-
-/// The design that is asked for.
-struct Chosen {
-    /// A sweep of this design alone.
-    sweep: Sweep,
-    /// The number of the design in the whole sweep, if it is one of its designs.
-    number: Option<DesignNumber>,
-    /// How many designs the sweep has as a whole.
-    count: u64,
-    /// The case that the sweep solves under that number, if settings may have changed it.
-    original: Option<Case>,
-}
-
-fn choose(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
-    match &arguments.number {
-        Some(number) => by_number(arguments, number),
-        None => by_values(arguments),
+    let mut files = write_path_tables(&folder, &chosen.solved)?;
+    files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);
+    folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
+    files.push("design.toml");
+    let place = folder.path().display();
+    if arguments.json {
+        json::print(&chosen.json(&place.to_string(), &files))?;
+    } else {
+        print(&format!("{}\n{place}: {}\n", chosen.report(), files.join(" ")))?;
     }
+    Ok(if chosen.solved.row.result.failed() { INCOMPLETE } else { DONE })
 }
 
-fn by_number(arguments: &args::DesignArguments, number: &str) -> anyhow::Result<Chosen> {
-    let path = &arguments.definition.path;
-    let sweep = Sweep::read(path, &settings(&arguments.definition)?)?;
-    let grid = sweep.grid();
-    let index = grid
-        .parse_number(number)
-        .with_context(|| format!("{}: --design {number}", path.display()))?;
-    let original =
-        Sweep::read(path, &[]).ok().filter(|original| original.grid().len() == grid.len());
-    Ok(Chosen {
-        number: Some(grid.number(index)),
-        count: grid.len(),
-        original: original.map(|original| original.grid().case(index)),
-        sweep: sweep.only(index),
-    })
+/// The one design that is asked for.
+fn choose(arguments: &args::DesignArguments) -> anyhow::Result<SelectedDesign> {
+    let mut designs = select(&arguments.definition, &arguments.selection)?;
+    ensure!(
+        designs.len() == 1,
+        "{}: {} designs are asked for, expected one: {}",
+        arguments.definition.path.display(),
+        designs.len(),
+        advice(&designs)
+    );
+    Ok(designs.swap_remove(0))
 }
 
-fn by_values(arguments: &args::DesignArguments) -> anyhow::Result<Chosen> {
-    let path = &arguments.definition.path;
-    let mut settings = settings(&arguments.definition)?;
-    let options = [
-        ("--gap", "gap_over_t", &arguments.gap),
-        ("--length", "length_over_t", &arguments.length),
-        ("--slant", "slant_deg", &arguments.slant),
-    ];
-    for (option, key, value) in options {
-        if let Some(value) = value {
-            settings.push(Setting::from_option(
-                &format!("{option} {value}"),
-                &format!("designs.{key}={value}"),
-            )?);
-        }
-    }
-    let sweep = Sweep::read(path, &settings)?;
-    if let Some(axis) = sweep.grid().axes().iter().find(|axis| axis.len() > 1) {
-        let key = axis.parameter().key;
-        let option = options.iter().find(|(_, of, _)| *of == key);
-        let option =
-            option.map_or(format!("--set designs.{key}=…"), |(option, ..)| format!("{option} …"));
-        bail!(
-            "{}: designs.{key}: {} values, expected one, given with {option}",
-            path.display(),
-            axis.len()
-        );
-    }
-    Ok(located(arguments, sweep))
-}
-
-/// `sweep`, of one design, with the number that the definition as it is written gives it.
-fn located(arguments: &args::DesignArguments, sweep: Sweep) -> Chosen {
-    let whole = Sweep::read(&arguments.definition.path, &[]).ok();
-    let found = whole.and_then(|whole| {
-        let grid = whole.grid();
-        let index = grid.find(&sweep.grid().case(0))?;
-        Some((grid.number(index), grid.len(), grid.case(index)))
-    });
-    let (number, count, original) = match found {
-        Some((number, count, case)) => (Some(number), count, Some(case)),
-        None => (None, 1, None),
+/// The options that leave one of several designs.
+fn advice(designs: &[SelectedDesign]) -> String {
+    let [first, .., last] = designs else { return String::new() };
+    let differing = PARAMETERS.iter().filter(|p| p.get(&first.case()) != p.get(&last.case()));
+    let option = |parameter: &sweep::Parameter| match parameter.key {
+        "gap_over_t" => "--gap …".to_owned(),
+        "length_over_t" => "--length …".to_owned(),
+        "slant_deg" => "--slant …".to_owned(),
+        key => format!("--set designs.{key}=…"),
     };
-    Chosen { sweep, number, count, original }
+    format!("give a value with {}", differing.map(option).collect::<Vec<_>>().join(" "))
 }
 
-impl Chosen {
-    fn folder(&self, arguments: &args::DesignArguments) -> PathBuf {
-        let folder = || folder_of(&self.sweep, None).join("designs").join(self.label());
-        arguments.out.clone().unwrap_or_else(folder)
+/// A design that is solved.
+struct SolvedChoice {
+    design: SelectedDesign,
+    solved: SolvedDesign,
+    columns: Vec<Column<DesignRow>>,
+}
+
+impl SolvedChoice {
+    fn new(design: SelectedDesign) -> Self {
+        let evaluator = Evaluator::new(design.sweep.measures());
+        let number = design.number.unwrap_or(design.sweep.grid().number(0));
+        let solved = evaluator.solve(number, &design.case());
+        let columns = design_columns(&design.sweep);
+        Self { design, solved, columns }
     }
 
-    /// The number, or the values of a design that has none.
-    fn label(&self) -> String {
-        self.number.map_or_else(|| self.values("_", "-"), |number| number.to_string())
+    fn folder(&self, arguments: &args::DesignArguments) -> std::path::PathBuf {
+        let designs = || folder_within(&arguments.definition, &self.design.sweep, "designs");
+        arguments.out.clone().unwrap_or_else(|| designs().join(self.design.label()))
     }
 
-    /// The values on all axes.
-    fn values(&self, equals: &str, separator: &str) -> String {
-        let axes = self.sweep.grid().axes().iter();
-        let value =
-            |axis: &sweep::Axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0));
-        axes.map(value).collect::<Vec<_>>().join(separator)
+    /// The columns, but for the number, which stands in the title.
+    fn measures(&self) -> impl Iterator<Item = (&Column<DesignRow>, Cell)> {
+        self.columns.iter().skip(1).map(|column| (column, column.cell(&self.solved.row)))
     }
 
-    fn report(&self, solved: &SolvedDesign) -> String {
-        let columns = design_columns(&self.sweep);
-        // The number stands in the title.
-        let rows = columns.iter().skip(1).map(|column| {
-            let value = match column.cell(&solved.row).to_string() {
-                text if text.is_empty() => "none".to_owned(),
-                text => text,
-            };
-            [column.name.to_owned(), value, unit(column.unit), column.meaning.to_owned()]
+    fn report(&self) -> String {
+        let rows = self.measures().map(|(column, cell)| {
+            [column.name.to_string(), shown(&cell), unit(column.unit), column.meaning.to_owned()]
         });
         let rows: Vec<_> = rows.collect();
-        let sensitivity = sensitivity(&solved.row.result.sensitivity);
+        let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
         format!("{}\n{}\n{}{sensitivity}", self.title(), self.changes(), aligned(&rows))
     }
 
     fn title(&self) -> String {
-        let name = self.sweep.name();
-        match self.number {
-            Some(number) => format!("{name}: design {number} of {}", self.count),
-            None => format!("{name}: a design beside the grid, {}", self.values(" = ", ", ")),
+        let name = self.design.sweep.name();
+        match self.design.number {
+            Some(number) => format!("{name}: design {number} of {}", self.design.count),
+            None => {
+                format!("{name}: a design beside the grid, {}", self.design.values(" = ", ", "))
+            }
         }
     }
 
     /// The parameters that are not as the sweep has them.
     fn changes(&self) -> String {
-        let Some(original) = self.original else {
+        let Some(original) = self.design.original else {
             return String::new();
         };
-        let case = self.sweep.grid().case(0);
+        let case = self.design.case();
         let changed = PARAMETERS.iter().filter(|p| p.get(&case) != p.get(&original));
         let line = |p: &sweep::Parameter| {
             format!("  with {} = {} instead of {}\n", p.path(), p.get(&case), p.get(&original))
         };
         changed.map(line).collect()
+    }
+
+    fn json(&self, folder: &str, files: &[&str]) -> Value {
+        let case = self.design.case();
+        let parameters = PARAMETERS.iter().map(|p| (p.path(), json::scalar(p.get(&case))));
+        let measures = self.measures().map(|(c, cell)| (c.name.to_string(), json::cell(&cell)));
+        let units = self.measures().map(|(c, _)| (c.name.to_string(), c.unit.into()));
+        json!({
+            "sweep": self.design.sweep.name(),
+            "design": self.design.number.map(|number| number.to_string()),
+            "parameters": parameters.collect::<Map<_, _>>(),
+            "measures": measures.collect::<Map<_, _>>(),
+            "units": units.collect::<Map<_, _>>(),
+            "failed": self.solved.row.result.failed(),
+            "folder": folder,
+            "files": files,
+        })
+    }
+}
+
+/// A cell for people: six digits of a number; the tables have all.
+fn shown(cell: &Cell) -> String {
+    match cell {
+        Cell::Number(number) => rounded(*number),
+        cell => Some(cell.to_string()).filter(|text| !text.is_empty()).unwrap_or("none".to_owned()),
     }
 }
 

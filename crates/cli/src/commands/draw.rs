@@ -1,15 +1,17 @@
 //! `squama draw`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, bail, ensure};
 use report::drawings;
 use skin::{flexure, puncture};
 use substrate::RowStiffness;
-use sweep::{Case, DesignNumber, Sweep};
+use sweep::Case;
 
-use super::figure_file::{Written, write_html, write_svg};
-use super::{DONE, folder_of, read};
+use super::DONE;
+use super::figure_file::{Written, joined, write_html, write_svg};
+use super::selection::{SelectedDesign, select};
+use super::source::folder_within;
 use crate::args;
 use crate::print::print;
 
@@ -21,14 +23,14 @@ const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 
 /// Draws designs.
 pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
-    let sweep = read(&arguments.definition)?;
-    let folder = arguments.out.clone();
-    let folder = folder.unwrap_or_else(|| folder_of(&sweep, None).join("drawings"));
+    check_places(arguments)?;
+    let designs = select(&arguments.definition, &arguments.selection)?;
+    let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
+    let folder = arguments.out.clone().unwrap_or_else(folder);
     results::make_folder(&folder)?;
-    let designs = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
     let mut files = Written::default();
-    for (number, case) in designs {
-        let drawing = Drawing { sweep: &sweep, number, case, arguments, folder: &folder };
+    for design in &designs {
+        let drawing = Drawing { design, case: design.case(), arguments, folder: &folder };
         if arguments.flexure {
             drawing.flexure(&mut files)?;
         } else {
@@ -39,37 +41,35 @@ pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-/// The designs of `sweep` that `numbers` name.
-pub fn designs(
-    sweep: &Sweep,
-    path: &Path,
-    numbers: &[String],
-) -> anyhow::Result<Vec<(DesignNumber, Case)>> {
-    let design = |number: &String| {
-        let grid = sweep.grid();
-        let index = grid.parse_number(number.trim());
-        let index = index.with_context(|| format!("{}: --design {number}", path.display()))?;
-        Ok((grid.number(index), grid.case(index)))
-    };
-    numbers.iter().map(design).collect()
+/// Refuses places that no path of puncture goes through.
+fn check_places(arguments: &args::DrawArguments) -> anyhow::Result<()> {
+    let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
+    check_place("--at", "a displacement u/t", displacements)?;
+    check_place("--force", "a force F*", &arguments.force)
+}
+
+/// Refuses values of a quantity that rises from zero.
+pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Result<()> {
+    for value in values {
+        ensure!(
+            *value >= 0.0 && value.is_finite(),
+            "{option} {value}: out of range, expected {quantity} of at least 0"
+        );
+    }
+    Ok(())
 }
 
 /// One design to be drawn.
 struct Drawing<'a> {
-    sweep: &'a Sweep,
-    number: DesignNumber,
+    design: &'a SelectedDesign,
     case: Case,
     arguments: &'a args::DrawArguments,
-    folder: &'a PathBuf,
+    folder: &'a Path,
 }
 
 impl Drawing<'_> {
-    fn name(&self) -> String {
-        format!("{} design {}", self.sweep.name(), self.number)
-    }
-
     fn file(&self, what: &str) -> String {
-        format!("design-{}-{what}", self.number)
+        format!("design-{}-{what}", self.design.label())
     }
 
     fn puncture(&self, files: &mut Written) -> anyhow::Result<()> {
@@ -82,7 +82,7 @@ impl Drawing<'_> {
             at => at.iter().map(|&u| puncture::At::Displacement(u)).collect(),
         };
         let states = self.puncture_states(&at)?;
-        let name = self.name();
+        let name = self.design.title();
         let drawing = drawings::PunctureDrawing {
             name: &name,
             design: &case.design,
@@ -118,7 +118,7 @@ impl Drawing<'_> {
             puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
             Some(state) => Ok(state),
-            None => bail!("design {}: the path does not reach {}", self.number, place(*at)),
+            None => bail!("design {}: the path does not reach {}", self.design.label(), place(*at)),
         };
         at.iter().zip(solved.at).map(reached).collect()
     }
@@ -136,10 +136,12 @@ impl Drawing<'_> {
         let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
         let reached = |(at, state): (&f64, Option<flexure::StripSnapshot>)| match state {
             Some(state) => Ok(state),
-            None => bail!("design {}: bending does not turn the ends by {at}°", self.number),
+            None => {
+                bail!("design {}: bending does not turn the ends by {at}°", self.design.label())
+            }
         };
         let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
-        let name = self.name();
+        let name = self.design.title();
         let drawing = drawings::FlexureDrawing {
             name: &name,
             design: &self.case.design,
@@ -169,7 +171,7 @@ fn places(at: &[f64], quantity: &str, otherwise: &str) -> String {
         return otherwise.to_owned();
     }
     let values: Vec<_> = at.iter().map(ToString::to_string).collect();
-    format!("{quantity}-{}", values.join("-"))
+    format!("{quantity}-{}", joined(&values, "places"))
 }
 
 fn place(at: puncture::At) -> String {

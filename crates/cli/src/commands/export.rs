@@ -1,18 +1,25 @@
 //! `squama export`.
 
-use super::DONE;
+use std::path::Path;
+
+use super::source::{require_folder_of, verified_folder};
+use super::{DONE, derived};
 use crate::args;
-use crate::interrupt::Interrupt;
-use crate::print::{aligned, counted, print};
+use crate::print::{aligned, counted, print, shortfall};
 
 /// Writes the tables of a run as one workbook.
 pub fn export(arguments: &args::ExportArguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
-    Interrupt::survive_file_limits()?;
-    let exported = report::export(&arguments.results, &arguments.xlsx)?;
+    require_folder_of("--xlsx", &arguments.xlsx)?;
+    let results = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let exported = report::export(&results, &arguments.xlsx)?;
+    let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
+    let name = name.unwrap_or_default().to_string_lossy();
+    derived::note(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
     let row = |(table, rows): &(String, u32)| [table.clone(), counted(u64::from(*rows), "row")];
     let rows: Vec<_> = exported.tables.iter().map(row).collect();
-    print(&format!("{}\n{}", arguments.xlsx.display(), aligned(&rows)))?;
+    let from = shortfall(&results);
+    print(&format!("{}\n{from}{}", arguments.xlsx.display(), aligned(&rows)))?;
     Ok(DONE)
 }

@@ -11,10 +11,32 @@ use results::AtomicFile;
 pub struct Written(Vec<String>);
 
 impl Written {
+    /// The names of the files.
+    pub fn names(&self) -> &[String] {
+        &self.0
+    }
+
     /// A line for each file that was written, for people.
     pub fn report(&self, folder: &Path) -> String {
         let line = |file: &String| format!("{}\n", folder.join(file).display());
         self.0.iter().map(line).collect()
+    }
+}
+
+/// The longest list of names in the name of a file.
+const LONGEST: usize = 100;
+
+/// `names` with hyphens between, for the name of a file; the first and the last with their number if there are too many
+/// `things` for one.
+pub fn joined(names: &[String], things: &str) -> String {
+    let all = names.join("-");
+    match names {
+        [first, .., last] if all.len() > LONGEST => {
+            let ends = format!("{first}-to-{last}-");
+            let ends = if ends.len() > LONGEST { String::new() } else { ends };
+            format!("{ends}{}-{things}", names.len())
+        }
+        _ => all,
     }
 }
 
@@ -64,4 +86,17 @@ fn write(folder: &Path, name: String, bytes: &[u8], files: &mut Written) -> anyh
     file.finish()?;
     files.0.push(name);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_names_are_cut_short() {
+        let numbers = |count: u32| (1..=count).map(|n| format!("{n:04}")).collect::<Vec<_>>();
+        assert_eq!(joined(&numbers(3), "designs"), "0001-0002-0003");
+        assert_eq!(joined(&numbers(45), "designs"), "0001-to-0045-45-designs");
+        assert_eq!(joined(&["x".repeat(90), "y".repeat(90)], "designs"), "2-designs");
+    }
 }

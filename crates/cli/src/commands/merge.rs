@@ -2,10 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use super::run::summary;
+use super::run::{conclude, summary};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::args;
-use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
 
 /// Runs of missing designs that are named before the list is cut short.
@@ -13,9 +12,8 @@ const NAMED: usize = 20;
 
 /// Puts the shards of a sweep together.
 pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
-    // A merger is short and may be repeated: signals end it, but a limit on files is an error.
-    Interrupt::survive_file_limits()?;
     let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
+    conclude(&arguments.out, &merged.finished);
     if !arguments.quiet {
         print(&report(arguments, &merged))?;
     }

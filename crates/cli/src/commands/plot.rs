@@ -7,12 +7,14 @@ use report::{DesignCurves, curves, figures};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
-use sweep::{Case, DesignNumber, Sweep};
+use sweep::Case;
 
-use super::draw::{designs, substrate};
-use super::figure_file::{Written, write_svg};
+use super::draw::{check_place, substrate};
+use super::figure_file::{Written, joined, write_svg};
 use super::results_folder::ResultsFolder;
-use super::{DONE, INCOMPLETE, folder_of, read};
+use super::selection::{SelectedDesign, select};
+use super::source::{folder_within, verified_folder};
+use super::{DONE, INCOMPLETE, derived};
 use crate::args;
 use crate::print::print;
 
@@ -32,40 +34,45 @@ pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(results)?;
+    let results =
+        ResultsFolder::read(&verified_folder(results, arguments.partial.completeness())?)?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
     let mut files = Written::default();
     let ranking = results.ranking()?;
-    for figure in figures(results.sweep.name(), &results.designs, ranking.as_ref()) {
-        write_svg(&folder, figure.name, &figure.svg, arguments.png, &mut files)?;
+    for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
+        write_svg(&folder, &figure.name, &figure.svg, arguments.png, &mut files)?;
     }
+    derived::note(results.verified(), "figures", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }
 
 fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
-    let sweep = read(&arguments.definition)?;
-    let chosen = designs(&sweep, &arguments.definition.path, &arguments.designs)?;
-    let solve = |(_, case): &(DesignNumber, Case)| solve(case, arguments.to);
-    let solved = chosen.iter().map(solve).collect::<anyhow::Result<Vec<_>>>()?;
-    let shown: Vec<_> = solved
-        .iter()
-        .zip(&chosen)
-        .map(|((puncture, flexure), (number, case))| DesignCurves {
-            number: number.to_string(),
+    check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
+    let designs = select(&arguments.definition, &arguments.selection)?;
+    let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();
+    let solved = cases.iter().map(|case| solve(case, arguments.to));
+    let solved = solved.collect::<anyhow::Result<Vec<_>>>()?;
+    let shown = solved.iter().zip(&designs).zip(&cases);
+    let shown: Vec<_> = shown
+        .map(|(((puncture, flexure), design), case)| DesignCurves {
+            number: number(design),
             design: &case.design,
             puncture: Some(puncture),
             flexure: Some(flexure),
         })
         .collect();
-    let folder = arguments.out.clone().unwrap_or_else(|| folder_of(&sweep, None).join("curves"));
+    let sweep = &designs[0].sweep;
+    let folder = || folder_within(&arguments.definition, sweep, "curves");
+    let folder = arguments.out.clone().unwrap_or_else(folder);
     results::make_folder(&folder)?;
     let mut files = Written::default();
-    let names = numbers(&sweep, &arguments.designs);
+    let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
+    let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown) {
         // Where a puncture ends is a part of what its curves show.
-        let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name));
+        let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
         write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
@@ -91,15 +98,12 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
+        puncture.folds.retain(|fold| fold.point.displacement <= to);
     }
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// The numbers of designs, for the name of a file.
-fn numbers(sweep: &Sweep, designs: &[String]) -> String {
-    let number = |text: &String| {
-        let index = sweep.grid().parse_number(text.trim());
-        index.map_or_else(|_| text.clone(), |index| sweep.grid().number(index).to_string())
-    };
-    designs.iter().map(number).collect::<Vec<_>>().join("-")
+/// The number of a design, for a legend, which tells its geometry too.
+fn number(design: &SelectedDesign) -> String {
+    design.number.map_or("beside the grid".to_owned(), |number| number.to_string())
 }

@@ -1,31 +1,111 @@
 //! `squama rank`.
 
-use std::fmt::Write as _;
-use std::path::Path;
+mod record;
+mod report;
 
 use anyhow::Context as _;
-use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
-use results::Results;
+use ranking::{
+    CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
+    TetrahedralGrid, Unmet, Weights, check_comparable,
+};
+use results::{Results, RunFolder};
 
-use super::DONE;
+use super::source::verified_folder;
+use super::{DONE, INCOMPLETE, derived};
 use crate::args;
-use crate::print::{aligned, counted, digits, print};
-
-/// Winners that are listed before the list is cut short.
-const LISTED: usize = 10;
+use crate::json;
+use crate::print::print;
+use record::{ranking_record, unmet_record};
+use report::{RankReport, unmet_report};
 
 /// Finds the best designs of a run and writes them down.
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
-    let weights: Weights = option("--weights", &arguments.weights)?;
+    let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
-    let results = Results::read(&arguments.results)?;
-    let ranking = Ranking::new(&results, grid)?;
-    let folder = arguments.out.as_deref().unwrap_or(&arguments.results);
-    let files = ranking::write_ranking(folder, &ranking, weights)?;
-    let report = RankReport { results: &results, ranking: &ranking };
-    let text = report.text(weights, arguments.top);
-    print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = Results::read_from(&verified)?;
+    check_comparable(&results, &preferences)?;
+    match Ranking::by(&results, preferences.clone(), grid) {
+        Ok(ranking) => ranked(arguments, &results, &ranking),
+        Err(InvalidRanking::Unmet(unmet)) => none_meets(arguments, &results, &preferences, &unmet),
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn ranked(
+    arguments: &args::RankArguments,
+    results: &Results,
+    ranking: &Ranking<'_>,
+) -> anyhow::Result<u8> {
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
+    let files = ranking::write_ranking(folder, ranking)?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    if arguments.json {
+        json::print(&ranking_record(results, ranking, arguments.top))?;
+    } else {
+        let text = RankReport { results, ranking, top: arguments.top }.text();
+        print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
+    }
     Ok(DONE)
+}
+
+fn none_meets(
+    arguments: &args::RankArguments,
+    results: &Results,
+    preferences: &Preferences,
+    unmet: &Unmet,
+) -> anyhow::Result<u8> {
+    let folder = arguments.out.as_deref().unwrap_or(results.folder());
+    let file = ranking::write_unmet(folder, preferences)?;
+    derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &[file])?;
+    if arguments.json {
+        json::print(&unmet_record(results, unmet))?;
+    } else {
+        let text = unmet_report(results, preferences, unmet);
+        print(&format!("{text}\n{}: {file}\n", folder.display()))?;
+    }
+    Ok(INCOMPLETE)
+}
+
+/// What the ranking goes by.
+fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
+    let require = |text: &String| option::<Requirement>("--require", text);
+    let requirements = arguments.require.iter().map(require).collect::<anyhow::Result<_>>()?;
+    let scale: Scale = option("--scale", &arguments.scale)?;
+    let given = arguments.weights.as_ref();
+    let weights: Option<Weights> = given.map(|text| option("--weights", text)).transpose()?;
+    let preferences = Preferences::new(requirements, criteria(arguments)?, weights, scale);
+    match given {
+        Some(text) => preferences.with_context(|| format!("--weights {text}")),
+        None => Ok(preferences?),
+    }
+}
+
+/// The criteria that are asked for, or those of the paper.
+fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
+    let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
+    let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
+        columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
+    };
+    let own: Vec<_> = goals.into_iter().flat_map(of).collect();
+    match &arguments.criteria {
+        Some(criteria) => {
+            let read = |text: &str| option::<Criterion>("--criteria", text);
+            criteria.split(',').map(read).collect()
+        }
+        None if own.is_empty() && arguments.sound => Ok(sound_criteria()),
+        None if own.is_empty() => Ok(CRITERIA.to_vec()),
+        None => Ok(own),
+    }
+}
+
+/// The criteria of the paper with the force that the model can answer for.
+fn sound_criteria() -> Vec<Criterion> {
+    let sound = |criterion: &Criterion| match criterion.column.as_ref() {
+        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        _ => criterion.clone(),
+    };
+    CRITERIA.iter().map(sound).collect()
 }
 
 /// The value of an option.
@@ -34,97 +114,4 @@ where
     T::Err: std::error::Error + Send + Sync + 'static,
 {
     text.parse().with_context(|| format!("{name} {text}"))
-}
-
-struct RankReport<'a> {
-    results: &'a Results,
-    ranking: &'a Ranking<'a>,
-}
-
-impl RankReport<'_> {
-    fn text(&self, weights: Weights, top: usize) -> String {
-        let folder = self.results.folder();
-        let best = self.ranking.by_fitness(weights);
-        let best: Vec<_> = best.iter().take(top).collect();
-        let mut text = self.title(folder);
-        let _ = write!(text, "\nBest by {weights}\n{}", self.table(&best, "fitness", fitness));
-        let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
-        let _ = write!(text, "\n{}", self.winners());
-        let front = counted(self.ranking.front().len() as u64, "design");
-        let _ = writeln!(text, "\nBeaten by no other in every criterion: {front}");
-        text
-    }
-
-    /// How many designs are ranked, and why the others are not.
-    fn title(&self, folder: &Path) -> String {
-        let (ranked, all) = (self.ranking.len(), self.results.len());
-        let mut text = format!("{}: {ranked} of {} ranked\n", folder.display(), designs(all));
-        let left_out = self.ranking.left_out().iter();
-        let rows: Vec<_> =
-            left_out.map(|(why, count)| [format!("{count} left out"), why.to_string()]).collect();
-        text.push_str(&aligned(&rows));
-        for criterion in self.ranking.ties() {
-            let name = CRITERIA[criterion].name;
-            let _ = writeln!(text, "  {name} is the same for all of them and does not count");
-        }
-        text
-    }
-
-    /// The best design by each criterion.
-    fn corners(&self) -> String {
-        let corners = CRITERIA.iter().zip(Weights::alone());
-        let mut rows = vec![self.header("criterion")];
-        rows.extend(corners.map(|(criterion, weights)| {
-            self.row(&self.ranking.winner(weights), criterion.name.to_owned())
-        }));
-        aligned(&rows)
-    }
-
-    /// The designs that win most of the weights.
-    fn winners(&self) -> String {
-        let winners = self.ranking.winners();
-        let count = winners.len();
-        let listed: Vec<_> = winners.iter().take(LISTED).collect();
-        let more = count.saturating_sub(LISTED);
-        let more = if more > 0 { format!("  and {more} more\n") } else { String::new() };
-        let table = self.table(&listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
-        format!(
-            "Best for some weights: {}, with their share of all weights\n{table}{more}",
-            designs(count)
-        )
-    }
-
-    fn table(
-        &self,
-        standings: &[&RankedDesign<'_>],
-        first: &str,
-        cell: fn(&RankedDesign<'_>) -> String,
-    ) -> String {
-        let mut rows = vec![self.header(first)];
-        rows.extend(standings.iter().map(|standing| self.row(standing, cell(standing))));
-        aligned(&rows)
-    }
-
-    fn header(&self, first: &str) -> Vec<String> {
-        let mut header = vec![first, "design"];
-        header.extend(self.results.parameters().map(|parameter| parameter.key));
-        header.extend(CRITERIA.iter().map(|criterion| criterion.column));
-        header.into_iter().map(str::to_owned).collect()
-    }
-
-    fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
-        let mut row = vec![first, standing.design().to_owned()];
-        let parameters = self.results.parameters();
-        row.extend(parameters.map(|p| self.results.parameter(standing.row(), p).to_owned()));
-        row.extend(standing.values().map(digits));
-        row
-    }
-}
-
-fn fitness(standing: &RankedDesign<'_>) -> String {
-    format!("{:.6}", standing.fitness)
-}
-
-fn designs(count: usize) -> String {
-    counted(count as u64, "design")
 }

@@ -2,35 +2,44 @@
 
 use std::path::PathBuf;
 
-use ranking::{Ranking, Weights};
+use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{Fact, Page, RankingEntry, drawings};
+use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
-use skin::puncture;
+use results::shell_word;
+use skin::{flexure, puncture};
+use sweep::Case;
 
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
-use super::{DONE, PROGRAM};
+use super::source::{require_folder_of, verified_folder};
+use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
 /// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
 const DRAWN: usize = 24;
+/// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
+const CURVE_STEP: f64 = 0.01;
 /// Bytes of all their drawings, at most.
 const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&arguments.results)?;
-    let page = page(&results)?;
+    let results = ResultsFolder::read(&verified_folder(
+        &arguments.results,
+        arguments.partial.completeness(),
+    )?)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
+    require_folder_of("--out", &out)?;
+    let page = page(&results)?;
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    results::make_folder(&folder)?;
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
     let mut files = Written::default();
     write_html(&folder, &name, &page.html(), &mut files)?;
+    derived::note(results.verified(), "page", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }
@@ -39,7 +48,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let sweep = &results.sweep;
     let known = design_columns(sweep);
     let column = |header: &String| {
-        let column = known.iter().find(|column| column.name == header);
+        let column = known.iter().find(|column| column.name == *header);
         column.map_or_else(
             || ("-".to_owned(), String::new()),
             |column| (column.unit.to_owned(), column.meaning.to_owned()),
@@ -50,22 +59,35 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     });
     let ranking = results.ranking()?;
     Ok(Page {
-        name: sweep.name().to_owned(),
+        name: results.title(),
         version: PROGRAM.version.to_owned(),
-        folder: results.folder.display().to_string(),
+        folder: shell_word(&results.folder.display().to_string()),
         axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        drawings: ranking.as_ref().map_or_else(Vec::new, |ranking| drawn(results, ranking)),
-        ranking: ranking.as_ref().map_or_else(Vec::new, RankingEntry::all),
+        solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
+        opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
     })
 }
 
-/// Drawings of the designs that are best for all criteria alike, for one alone, or for other weights,
-/// as many as there is room for.
-fn drawn(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<Fact> {
+/// What the last ranking went by, as the address of the page has it.
+fn opening(preferences: &Preferences) -> String {
+    let list = |texts: Vec<String>| texts.join(",");
+    let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
+    let weights = list(preferences.weights.values().iter().map(ToString::to_string).collect());
+    let scale = preferences.scale;
+    let required =
+        preferences.requirements.iter().map(|requirement| format!("require={requirement}"));
+    let ranked = format!("criteria={criteria}&weights={weights}&scale={scale}");
+    // In an address a plus stands for a space.
+    required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
+}
+
+/// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings
+/// and curves: as many as there is room for.
+fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<SolvedDesign> {
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let mut rows: Vec<usize> = Vec::new();
@@ -74,20 +96,21 @@ fn drawn(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<Fact> {
             rows.push(winner);
         }
     }
-    let drawings: Vec<_> = rows.par_iter().filter_map(|&row| drawing(results, row)).collect();
+    let all: Vec<_> = rows.par_iter().filter_map(|&row| solve(results, row)).collect();
     let mut room = ROOM;
-    let fits = |(_, svg): &Fact| {
-        room = room.saturating_sub(svg.len());
+    let fits = |design: &SolvedDesign| {
+        room = room.saturating_sub(design.svg.len());
         room > 0
     };
-    drawings.into_iter().take_while(fits).collect()
+    all.into_iter().take_while(fits).collect()
 }
 
-/// A drawing, or none if the design cannot be solved: its row in the table says why.
-fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
+/// A design with drawing and curves, or none if it cannot be solved: its row in the table says why.
+fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
-    let case = grid.case(grid.parse_number(number).ok()?);
+    let mut case = grid.case(grid.parse_number(number).ok()?);
+    case.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
     let solved =
@@ -100,5 +123,18 @@ fn drawing(results: &ResultsFolder, row: usize) -> Option<Fact> {
         load_position: case.puncture.load_position,
         states: &states,
     };
-    Some((number.to_owned(), drawing.svg().ok()?))
+    let path = solved.puncture.path.iter();
+    Some(SolvedDesign {
+        number: number.to_owned(),
+        svg: drawing.svg().ok()?,
+        puncture: path.map(|point| [point.displacement, point.force]).collect(),
+        flexure: bending(&case),
+    })
+}
+
+/// Curvatures and moments along the path of bending; none if it cannot be solved.
+fn bending(case: &Case) -> Vec<[f64; 2]> {
+    let solved = flexure::solve(&case.design, &case.common, &case.flexure);
+    let path = solved.map_or_else(|_| Vec::new(), |solved| solved.path);
+    path.iter().map(|point| [point.curvature, point.moment]).collect()
 }

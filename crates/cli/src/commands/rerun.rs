@@ -3,7 +3,8 @@
 use run::{Filter, Rerun};
 use sweep::Setting;
 
-use super::run::{exit_code, options, summary};
+use super::run::{conclude, exit_code, options, summary};
+use super::source::results_folder;
 use super::{DONE, PROGRAM};
 use crate::args;
 use crate::interrupt::Interrupt;
@@ -14,26 +15,33 @@ use crate::progress::ProgressDisplay;
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::RerunArguments) -> anyhow::Result<u8> {
+pub fn rerun(arguments: &args::RerunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
-    let rerun = Rerun::plan(&arguments.results, &filter(arguments), &settings, &PROGRAM)?;
-    if arguments.dry_run || rerun.designs().len() == 0 {
+    let folder = results_folder(&arguments.results)?;
+    let rerun = Rerun::plan(&folder, &filter(arguments), &settings, &PROGRAM)?;
+    if rerun.designs().len() == 0 {
+        print(&format!("{}: no design is as asked, nothing is solved again\n", folder.display()))?;
+        return Ok(DONE);
+    }
+    if arguments.dry_run {
         print(&plan(&rerun))?;
         return Ok(DONE);
     }
-    let interrupt = Interrupt::listen()?;
-    let options = options(&arguments.work, &arguments.format, &interrupt);
-    let mut display = ProgressDisplay::new(arguments.work.quiet);
-    let progress = |progress| display.show(progress, interrupt.stop());
+    interrupt.ask_first();
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let options = options(&arguments.work, &arguments.format, interrupt, &display);
+    let progress = |progress| display.show(progress);
     let finished = rerun.run(&options, &PROGRAM, progress);
+    let threads = options.threads;
     drop(display);
     let finished = finished?;
+    conclude(&folder, &finished);
     if !arguments.work.quiet {
-        let results = summary("all results", &arguments.results, options.threads, &finished);
+        let results = summary("all results", &folder, threads, &finished);
         print(&format!("{}{results}", plan(&rerun)))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    Ok(exit_code(&finished, interrupt))
 }
 
 fn filter(arguments: &args::RerunArguments) -> Filter {

@@ -1,10 +1,10 @@
 //! A folder of results, as figures and the page need it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
 use report::{Designs, Fact};
-use results::{InvalidResults, Results};
+use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
 use sweep::toml_source::{self, KeyValue, Value};
 
@@ -22,11 +22,27 @@ pub struct ResultsFolder {
 }
 
 impl ResultsFolder {
+    /// The folder as it was checked.
+    pub fn verified(&self) -> &VerifiedFolder {
+        self.results.verified_folder()
+    }
+
+    /// The name of the sweep, with how much of it is there if that is not the whole.
+    pub fn title(&self) -> String {
+        let name = self.sweep.name();
+        let held = self.verified().shortfall();
+        held.map_or_else(|| name.to_owned(), |held| format!("{name} ({held})"))
+    }
+}
+
+impl ResultsFolder {
     /// Reads `run.toml` and `designs.csv`.
-    pub fn read(folder: &Path) -> anyhow::Result<Self> {
-        let sweep = Sweep::read(&folder.join("run.toml"), &[])?;
-        let results = Results::read(folder)?;
-        let run = std::fs::read_to_string(folder.join("run.toml")).unwrap_or_default();
+    pub fn read(verified: &VerifiedFolder) -> anyhow::Result<Self> {
+        let folder = verified.path();
+        let run = verified.text(RunFolder::RUN_INFO)?;
+        let record = folder.join(RunFolder::RUN_INFO).display().to_string();
+        let sweep = Sweep::parse(&run, &record, &[])?;
+        let results = Results::read_from(verified)?;
         let designs = Designs::of(&results);
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }

@@ -5,34 +5,58 @@ use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options, Start};
 use sweep::{RandomSample, Subset, Sweep};
 
-use super::{DONE, INCOMPLETE, PROGRAM, folder_of, read};
+use super::source::{folder_of, read};
+use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::args;
 use crate::interrupt::Interrupt;
-use crate::print::{aligned, counted, print};
+use crate::print::{aligned, counted, note, print, time};
 use crate::progress::ProgressDisplay;
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::RunArguments) -> anyhow::Result<u8> {
+pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
-    let interrupt = Interrupt::listen()?;
-    let options = options(&arguments.work, &arguments.format, &interrupt);
-    let mut display = ProgressDisplay::new(arguments.work.quiet);
-    let progress = |progress| display.show(progress, interrupt.stop());
+    interrupt.ask_first();
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let options = options(&arguments.work, &arguments.format, interrupt, &display);
+    let progress = |progress| display.show(progress);
     let (subset, start) = (subset(arguments), start(arguments));
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
-    drop(display);
+    let threads = options.threads;
     let finished = finished?;
+    let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
+    let audited = audited.map(|share| run::Audit::of(&folder, share.0, &options)).transpose()?;
+    drop(display);
+    conclude(&folder, &finished);
     if !arguments.work.quiet {
-        print(&summary(sweep.name(), &folder, options.threads, &finished))?;
+        print(&summary(sweep.name(), &folder, threads, &finished))?;
     }
-    Ok(exit_code(&finished, &interrupt))
+    let code = exit_code(&finished, interrupt);
+    let Some(audit) = audited else { return Ok(code) };
+    print(&audit::report(&audit))?;
+    Ok(if audit::agrees(&audit) { code } else { INCOMPLETE })
+}
+
+/// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from
+/// earlier tables.
+pub(super) fn conclude(folder: &Path, finished: &Finished) {
+    for text in &finished.notes {
+        note(text);
+    }
+    let verified = VerifiedFolder::open(folder, Completeness::Partial);
+    for made in verified.iter().flat_map(VerifiedFolder::outdated) {
+        note(&format!(
+            "{} is made from earlier tables; {} makes it again",
+            made.product, made.command
+        ));
+    }
 }
 
 fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {
@@ -63,6 +87,7 @@ pub(super) fn options<'i>(
     work: &args::Work,
     format: &args::Format,
     interrupt: &'i Interrupt,
+    display: &'i ProgressDisplay,
 ) -> Options<'i> {
     let cores = || available_parallelism().map_or(1, usize::from);
     Options {
@@ -71,6 +96,7 @@ pub(super) fn options<'i>(
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,
         stop: interrupt.stop(),
+        work: display.work(),
     }
 }
 
@@ -82,7 +108,7 @@ pub(super) fn exit_code(finished: &Finished, interrupt: &Interrupt) -> u8 {
 pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Finished) -> String {
     let designs = counted(finished.summary.designs, "design");
     let threads = counted(threads as u64, "thread");
-    let time = short(finished.duration);
+    let time = time(finished.duration);
     let mut text = format!("{name}: {designs} in {time} on {threads}\n");
     let mut rows = Vec::new();
     if finished.missing > 0 {
@@ -90,6 +116,7 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
         rows.push(["missing".to_owned(), format!("{missing}, --resume goes on")]);
     }
     rows.extend(status_rows(finished));
+    rows.extend(folded_row(finished));
     rows.extend(best_rows(finished));
     let tables = finished.tables.join(" ");
     rows.push(["tables", &format!("{}: {tables} run.toml", folder.display())].map(str::to_owned));
@@ -104,17 +131,21 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     })
 }
 
-fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    let row =
-        |best: &Best| [best.what.to_owned(), format!("{:.6} (design {})", best.value, best.design)];
-    finished.summary.best().map(row)
+/// Designs whose numbers are not to be trusted to the end.
+fn folded_row(finished: &Finished) -> Option<[String; 2]> {
+    let folded = finished.summary.folded;
+    let designs = counted(folded, "design");
+    let what = format!("{designs}: two bases pass each other, see fold_force and sound_force");
+    (folded > 0).then(|| ["folded over".to_owned(), what])
 }
 
-/// `duration` to the hundredth of a second, or to the second if it is long.
-pub(super) fn short(duration: Duration) -> String {
-    if duration < Duration::from_secs(60) {
-        format!("{:.2} s", duration.as_secs_f64())
-    } else {
-        humantime::format_duration(Duration::from_secs(duration.as_secs())).to_string()
-    }
+fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
+    let row = |Best { what, leader }: Best| {
+        let ties = match leader.ties {
+            0 => String::new(),
+            ties => format!(", and {ties} more"),
+        };
+        [what.to_owned(), format!("{:.6} (design {}{ties})", leader.value, leader.first)]
+    };
+    finished.summary.best().map(row)
 }

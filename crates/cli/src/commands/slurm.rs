@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use results::{make_folder, write_text};
+use results::{make_folder, quoted, shell_word, write_text};
 use sweep::Sweep;
 
-use super::{DONE, folder_of, read};
+use super::DONE;
+use super::source::{folder_of, read};
 use crate::args;
 use crate::print::print;
 
@@ -40,7 +41,7 @@ pub fn slurm(arguments: &args::SlurmArguments) -> anyhow::Result<u8> {
         folder.display(),
         sweep.grid().len(),
         arguments.shards,
-        folder.join("submit.sh").display()
+        shell_word(&folder.join("submit.sh").display().to_string())
     ))?;
     Ok(DONE)
 }
@@ -73,11 +74,6 @@ fn settings(sweep: &Sweep, shards: u64) -> anyhow::Result<String> {
         quoted(sweep.name()),
         quoted(&program.display().to_string())
     ))
-}
-
-/// `text` as one word of a shell.
-fn quoted(text: &str) -> String {
-    format!("'{}'", text.replace('\'', r"'\''"))
 }
 
 #[cfg(unix)]

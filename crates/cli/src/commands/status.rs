@@ -2,18 +2,25 @@
 
 use std::time::Duration;
 
+use serde_json::{Value, json};
 use sweep::DesignNumber;
 
-use super::run::short;
+use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
 use crate::args;
-use crate::print::{aligned, counted, print};
+use crate::json;
+use crate::print::{aligned, counted, print, time};
 
 /// Says how far a run is.
 pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
-    let status = run::RunStatus::of(&arguments.results)?;
-    print(&report(&status))?;
+    let status = run::RunStatus::of(&results_folder(&arguments.results)?)?;
+    if arguments.json {
+        json::print(&as_json(&status))?;
+    } else {
+        print(&report(&status))?;
+    }
     let complete = status.failed == 0 && status.archive.missing().is_empty();
+    let complete = complete && status.problems.is_empty();
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
@@ -33,7 +40,43 @@ fn report(status: &run::RunStatus) -> String {
     rows.push(row("definition", format!("sha256 {}", header.definition_sha256())));
     let state = if status.in_use { "running" } else { "not running" };
     let name = status.archive.sweep().name();
-    format!("{name}: {state}\n{}{}{}", aligned(&rows), reasons(status), slowest(status))
+    let lists = [problems(status), outdated(status), reasons(status), slowest(status)].concat();
+    format!("{name}: {state}\n{}{lists}", aligned(&rows))
+}
+
+/// What is wrong with the files of the run.
+fn problems(status: &run::RunStatus) -> String {
+    let rows = status.problems.iter().map(|problem| [problem.clone()]);
+    titled("what is wrong", &rows.collect::<Vec<_>>())
+}
+
+/// What was made from tables that are no longer there, and the commands that make it again.
+fn outdated(status: &run::RunStatus) -> String {
+    let rows = status.outdated.iter().map(|made| [made.product.clone(), made.command.clone()]);
+    titled("out of date", &rows.collect::<Vec<_>>())
+}
+
+fn as_json(status: &run::RunStatus) -> Value {
+    let (archive, header) = (&status.archive, status.archive.header());
+    let reason = |((measure, reason), count): (&(&str, &str), &u64)| json!({ "measure": measure, "reason": reason, "designs": count });
+    let slow = |(seconds, number): &(f64, DesignNumber)| json!({ "design": number.to_string(), "seconds": seconds });
+    json!({
+        "sweep": archive.sweep().name(),
+        "is_running": status.in_use,
+        "designs": archive.designs().len(),
+        "subset": header.subset().to_string(),
+        "done": archive.done(),
+        "solved_again": status.solved_again,
+        "failed": status.failed,
+        "running": status.running(),
+        "missing": status.missing(),
+        "designs_per_second": status.rate(),
+        "sessions": archive.sessions().len(),
+        "program": header.program(),
+        "definition_sha256": header.definition_sha256(),
+        "failures": status.reasons.iter().map(reason).collect::<Vec<_>>(),
+        "slowest": status.slowest.iter().map(slow).collect::<Vec<_>>(),
+    })
 }
 
 fn row(what: &str, value: String) -> [String; 2] {
@@ -52,7 +95,7 @@ fn rate(status: &run::RunStatus) -> Option<String> {
     let rate = status.rate()?;
     let left = (status.running() + status.missing()) as f64 / rate;
     let left = match Duration::try_from_secs_f64(left) {
-        Ok(left) if !left.is_zero() => format!(", {} for the rest", short(left)),
+        Ok(left) if !left.is_zero() => format!(", {} for the rest", time(left)),
         _ => String::new(),
     };
     Some(format!("{rate:.1} designs/s{left}"))

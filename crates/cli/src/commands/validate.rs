@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use sweep::Sweep;
 use validation::{SettingSearch, Validation};
 
+use super::source::require_folder_of;
 use super::{DONE, INCOMPLETE};
 use crate::args;
 use crate::print::print;
@@ -21,10 +22,9 @@ pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     let name = out.file_name().with_context(|| {
         format!("--out {}: not accepted, expected the name of a file", out.display())
     })?;
+    require_folder_of("--out", out)?;
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    // What cannot be written in the end is refused in the beginning.
-    results::make_folder(folder)?;
     let validation = with_bar()?;
     let page = validation.page();
     results::write_text(folder, &name.to_string_lossy(), &page)?;

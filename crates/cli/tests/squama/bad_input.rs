@@ -62,6 +62,43 @@ fn of_the_command_line() {
 }
 
 #[test]
+fn all_errors_of_a_definition_are_told_at_once() {
+    let place = Place::with("names = 'x'\n[designs]\ngap = 0.1\n[contact]\nc2 = 0\n");
+    let assert = place.squama("run x.toml --set solver.max_step=0").assert().code(2).stdout("");
+    let message = String::from_utf8(assert.get_output().stderr.clone()).expect("text");
+    insta::assert_snapshot!(message, @r#"
+    error: x.toml:1: names: unknown key (its value is "x"), did you mean name?
+    error: x.toml:3: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?
+    error: x.toml:5: contact.c2: 0 is out of range, expected a number above 0 and at most 10
+    error: --set solver.max_step=0: solver.max_step: 0 is out of range, expected a fraction above 0 and at most 1
+    error: x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
+    "#);
+}
+
+#[test]
+fn tips_lead_somewhere() {
+    let place = Place::with(FEW);
+    insta::assert_snapshot!(place.refused("draw x.toml --design 1 --at -1"), @"error: --at -1: out of range, expected a displacement u/t of at least 0");
+    insta::assert_snapshot!(place.refused("draw x.toml --design 1 --force -1"), @"error: --force -1: out of range, expected a force F* of at least 0");
+    insta::assert_snapshot!(place.refused("plot curves x.toml --design 1 --to -0.5"), @"error: --to -0.5: out of range, expected a displacement u/t of at least 0");
+    insta::assert_snapshot!(place.refused("run x.toml --threads -1"), @"error: invalid value '-1' for '--threads <N>': -1 is not in 1..=1024");
+    insta::assert_snapshot!(place.refused("rnu x.toml"), @"error: there is no command rnu, did you mean run?");
+    insta::assert_snapshot!(place.refused("frobnicate"), @"error: there is no command frobnicate, expected one of init, run, rerun, status, merge, slurm, design, rank, compare, draw, plot, report, export, check, calibrate, validate, completions, man");
+    insta::assert_snapshot!(place.refused("run x.toml --set designs.gap=0.1"), @"error: --set designs.gap=0.1: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?");
+    assert_eq!(place.list("."), "x.toml", "nothing is written");
+}
+
+#[test]
+fn a_mistyped_path_makes_no_folders() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    insta::assert_snapshot!(place.refused("export r --xlsx reslts/x.xlsx"), @"error: --xlsx reslts/x.xlsx: there is no folder reslts, expected one that exists");
+    insta::assert_snapshot!(place.refused("report r --out reslts/x.html"), @"error: --out reslts/x.html: there is no folder reslts, expected one that exists");
+    insta::assert_snapshot!(place.refused("validate --out reslts/x.md"), @"error: --out reslts/x.md: there is no folder reslts, expected one that exists");
+    assert_eq!(place.list("."), "r x.toml", "nothing is written");
+}
+
+#[test]
 fn a_file_that_is_no_text() {
     let place = Place::new();
     std::fs::write(place.path("x.toml"), [0xff, 0xfe, 0x00]).expect("writable");

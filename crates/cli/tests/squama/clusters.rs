@@ -56,6 +56,23 @@ fn the_merger_waits_for_any_end_of_an_array_of_the_right_size() {
 }
 
 #[test]
+fn a_per_cent_sign_in_a_path_stays_one() {
+    let place = Place::with(FEW);
+    place.prints("slurm x.toml --shards 3 --out r");
+    std::fs::create_dir(place.path("50%a")).expect("a folder");
+    std::fs::rename(place.path("r"), place.path("50%a/r")).expect("a folder");
+    std::os::unix::fs::symlink(place.path("50%a/r"), place.path("r")).expect("a link");
+    std::fs::write(place.path("sbatch"), SBATCH).expect("writable");
+    assert_cmd::Command::new("chmod").arg("+x").arg(place.path("sbatch")).assert().success();
+    let path = format!("{}:{}", place.path("").display(), std::env::var("PATH").expect("a path"));
+    let mut submit = assert_cmd::Command::new(place.path("50%a/r/slurm/submit.sh"));
+    submit.current_dir(place.path("")).env("PATH", path).assert().code(0);
+    let calls = place.read("sbatch.txt");
+    assert!(calls.contains("/50%%a/r/slurm/log/%A_%a.txt"), "{calls}");
+    assert!(calls.contains("/50%a/r/slurm/array.sh"), "{calls}");
+}
+
+#[test]
 fn shards_that_slurm_or_the_sweep_does_not_have_are_refused() {
     let place = Place::with(FEW);
     let refused = |shards: u32| place.refused(&format!("slurm x.toml --out r --shards {shards}"));

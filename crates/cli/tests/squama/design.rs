@@ -5,7 +5,7 @@ use crate::{FEW, Place};
 
 /// The files of the path of a design.
 const COURSE: &str = "design.toml events.csv flexure_events.csv flexure_path.csv \
-                      flexure_scales.csv flexure_steps.csv path.csv scales.csv steps.csv";
+                      flexure_scales.csv flexure_steps.csv measures.csv path.csv scales.csv steps.csv";
 
 #[test]
 fn prints_what_the_sweep_writes() {
@@ -16,11 +16,25 @@ fn prints_what_the_sweep_writes() {
     let table = place.read("results/few/designs.csv");
     for name in columns(&table).skip(1) {
         let value = cell(&table, "0006", name);
-        let value = if value.is_empty() { "none" } else { value };
         let printed = text.lines().find(|line| line.split_whitespace().next() == Some(name));
-        let printed = printed.expect("every column is printed");
-        assert!(printed.contains(value), "{printed} should say {value}");
+        let printed = printed.expect("every column is printed").trim_start_matches([' ']);
+        let printed = printed.strip_prefix(name).expect("its name").trim_start();
+        match (value.parse::<f64>(), printed.split("  ").next().map(str::parse::<f64>)) {
+            (Ok(value), Some(Ok(printed))) => {
+                assert!((value - printed).abs() <= 5e-6 * value.abs(), "{name}: {printed}");
+            }
+            _ if value.is_empty() => assert!(printed.starts_with("none"), "{name}: {printed}"),
+            _ => assert!(printed.starts_with(value), "{name}: {printed} should say {value}"),
+        }
     }
+    let longest = text.split_whitespace().filter(|word| word.parse::<f64>().is_ok()).map(str::len);
+    assert!(longest.max() <= Some("-1.23457e-10".len()), "{text}");
+    // Every digit is in the table.
+    let measures = place.read("results/few/designs/0006/measures.csv");
+    assert_eq!(measures.lines().next(), Some("measure,value,unit,meaning"));
+    let rows = measures.lines().skip(1).map(|line| line.split(',').take(2).collect::<Vec<_>>());
+    let cells = columns(&table).map(|name| vec![name, cell(&table, "0006", name)]);
+    assert!(rows.eq(cells), "{measures}");
 }
 
 #[test]
@@ -36,12 +50,13 @@ fn writes_its_course() {
     };
     let course = COURSE.split_whitespace().filter(|file| *file != "design.toml");
     insta::assert_snapshot!(course.map(header).collect::<String>(), @r"
-    events.csv: displacement,force,tilt_deg,left_scale,kind,change
+    events.csv: displacement,force,tilt_deg,left_scale,kind,change,drop
     flexure_events.csv: curvature,moment,end_rotation_deg,gap,kind,change
     flexure_path.csv: curvature,moment,stiffness,end_rotation_deg,bending_energy,axial_energy,contact_energy,contacts,membrane_strain
     flexure_scales.csv: scale,displacement_x,displacement_y,rotation_deg
     flexure_steps.csv: step,iteration,residual,end_rotation_deg
-    path.csv: displacement,force,tilt_deg,contacts
+    measures.csv: measure,value,unit,meaning
+    path.csv: displacement,force,tilt_deg,contacts,unstable_under_load,unstable_under_depth,unstable_under_tilt
     scales.csv: scale,displacement_x,displacement_y,rotation_deg,reaction
     steps.csv: step,iteration,residual,tilt_deg
     ");

@@ -2,17 +2,21 @@
 
 mod agreement;
 mod bad_input;
+mod beginnings;
 mod clusters;
+mod contents;
 mod couplings;
 mod design;
 mod images;
 mod imperfections;
+mod json;
 mod kills;
 mod output;
 mod process;
 mod rankings;
 mod reruns;
 mod runs;
+mod selection;
 mod shards;
 mod survival;
 mod table;

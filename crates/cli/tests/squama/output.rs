@@ -45,6 +45,12 @@ fn help_shows_examples() {
         "compare ",
         "check ",
         "calibrate ",
+        "init ",
+        "completions ",
+        "man ",
+        "draw ",
+        "plot ",
+        "plot curves ",
     ];
     for command in commands {
         let text = place.prints(&format!("{command}--help"));

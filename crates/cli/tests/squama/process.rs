@@ -1,6 +1,8 @@
 //! A process of `squama` that goes on while a test watches it. No wait is without an end: a process that dies too
 //! early, or does not do what is waited for, is an error.
 
+#[cfg(unix)]
+use std::io::Read as _;
 use std::path::Path;
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
@@ -24,7 +26,7 @@ impl Running {
             .args(arguments.split_whitespace())
             .current_dir(folder)
             .stdout(Stdio::null())
-            .stderr(Stdio::null())
+            .stderr(Stdio::piped())
             .spawn();
         Self { child: child.expect("the command") }
     }
@@ -38,6 +40,14 @@ impl Running {
             assert!(begun.elapsed() < PATIENCE, "waited in vain for {PATIENCE:?}");
             sleep(PAUSE);
         }
+    }
+
+    /// Waits until the process says `word` on its standard error.
+    #[cfg(unix)]
+    pub fn until_said(&mut self, word: &str) {
+        let mut said = vec![0; word.len()];
+        self.child.stderr.as_mut().expect("a pipe").read_exact(&mut said).expect("a word");
+        assert_eq!(String::from_utf8_lossy(&said), word);
     }
 
     /// The exit status of the process, if it ends within `time`.

@@ -29,7 +29,10 @@ fn put(place: &Place, folder: &str, table: &str) {
 fn the_best_designs_are_printed() {
     let place = place();
     insta::assert_snapshot!(place.prints("rank a --top 3 --resolution 10"));
-    assert_eq!(place.list("a"), "designs.csv pareto.csv quaternary.csv ranking.csv winners.csv");
+    assert_eq!(
+        place.list("a"),
+        "designs.csv pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv"
+    );
     insta::assert_snapshot!(place.read("a/ranking.csv"));
     insta::assert_snapshot!(place.read("a/winners.csv"));
 }
@@ -39,7 +42,7 @@ fn the_tables_may_go_elsewhere() {
     let place = place();
     place.prints("rank a --weights 0.4,0.3,0.2,0.1 --out b");
     assert_eq!(place.list("a"), "designs.csv");
-    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv winners.csv");
+    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv");
 }
 
 #[test]
@@ -59,7 +62,7 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
     let message = place.refused("rank results/few");
     insta::assert_snapshot!(message, @"error: results/few/designs.csv: no design can be ranked (4: coverage is 0; 4: no critical_force), expected one with all of coverage, critical_force, penetration, compliance");
@@ -69,10 +72,16 @@ fn a_run_takes_the_ranking_of_an_earlier_one_away() {
 fn wrong_weights_and_results_are_refused() {
     let place = place();
     let messages = [
-        "rank a --weights 0.5,0.6,0,0",
+        "rank a --weights 0,0,0,0",
         "rank a --weights -0.5,0.5,0.5,0.5",
         "rank a --weights 1,0,0",
         "rank a --weights a,b,c,d",
+        "rank a --criteria slant_deg",
+        "rank a --criteria max:critical_forc",
+        "rank a --criteria coverage --maximize coverage",
+        "rank a --require coverage=1",
+        "rank a --require puncture_status>=1",
+        "rank a --scale cubic",
         "rank a --resolution 0",
         "rank a --out a/designs.csv",
         "rank b",
@@ -83,6 +92,28 @@ fn wrong_weights_and_results_are_refused() {
     let messages = messages.map(|arguments| place.refused(arguments));
     insta::assert_snapshot!(messages.concat());
     assert_eq!(place.list("a"), "designs.csv", "nothing is written");
+}
+
+#[test]
+fn the_design_that_meets_all_requirements_is_found() {
+    let place = place();
+    insta::assert_snapshot!(
+        place.prints("rank a --require coverage>=0.3 --require penetration<=0.2 --minimize length_over_t --maximize critical_force")
+    );
+    insta::assert_snapshot!(place.read("a/ranking.toml"));
+    let text = place.prints("rank a --require coverage>=0.3 --minimize penetration --scale log");
+    assert!(text.contains("\nBest by penetration resistance, log scale\n"), "{text}");
+    assert_eq!(place.list("a"), "designs.csv pareto.csv ranking.csv ranking.toml");
+}
+
+#[test]
+fn where_none_meets_the_requirements_the_nearest_one_is_told() {
+    let place = place();
+    place.prints("rank a");
+    let arguments = "rank a --require coverage>=0.8 --require critical_force>3";
+    let output = place.squama(arguments).assert().code(1).get_output().stdout.clone();
+    insta::assert_snapshot!(String::from_utf8(output).expect("text"));
+    assert_eq!(place.list("a"), "designs.csv ranking.toml", "the ranking before is gone");
 }
 
 #[test]
@@ -112,4 +143,37 @@ fn a_run_with_another_base_is_compared_design_by_design() {
         "{text}"
     );
     assert!(text.lines().any(|line| line.trim_start().starts_with("coverage  8 ")), "{text}");
+}
+
+#[test]
+fn tables_that_a_spreadsheet_has_saved_are_ranked() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let ranked = place.prints("rank r");
+    let table = place.read("r/designs.csv");
+    std::fs::write(place.path("r/designs.csv"), format!("\u{feff}{table}")).expect("writable");
+    assert_eq!(place.prints("rank r"), ranked, "commas after a byte-order mark");
+    place.squama("run x.toml -q --out eu --csv excel-eu").assert().code(0);
+    let table = place.read("eu/designs.csv");
+    let without = table.trim_start_matches('\u{feff}');
+    assert_ne!(without, table);
+    std::fs::write(place.path("eu/designs.csv"), without).expect("writable");
+    assert_eq!(place.prints("rank eu"), ranked.replace("r: ", "eu: "), "semicolons without one");
+}
+
+#[test]
+fn round_off_is_no_difference() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out a").assert().code(0);
+    place.squama("run x.toml -q --out b").assert().code(0);
+    let table = place.read("a/designs.csv");
+    let force = crate::table::cell(&table, "0004", "critical_force");
+    let next = force.parse::<f64>().expect("a number").next_up().to_string();
+    assert_ne!(force, next);
+    std::fs::write(place.path("b/designs.csv"), table.replace(force, &next)).expect("writable");
+    let text = place.prints("compare a b --exit-code");
+    assert!(text.contains("\nno difference above 1e-12: "), "{text}");
+    let text = place.squama("compare a b --exit-code --tolerance 0").assert().code(1);
+    let text = String::from_utf8_lossy(&text.get_output().stdout).into_owned();
+    assert!(text.lines().any(|line| line.trim_start().starts_with("critical_force ")), "{text}");
 }

@@ -28,7 +28,8 @@ fn a_failure_says_where_and_how_to_see_it() {
     let path = place.read("r/designs/0004/path.csv");
     let cells: Vec<_> = row.split(',').collect();
     let last = path.lines().last().expect("a point");
-    assert_eq!(last, format!("{},{},{},{}", cells[8], cells[7], cells[6], cells[9]));
+    let begin = format!("{},{},{},{},", cells[8], cells[7], cells[6], cells[9]);
+    assert!(last.starts_with(&begin), "{last} should begin with {begin}");
 }
 
 #[test]
@@ -65,7 +66,9 @@ fn designs_are_chosen_by_number_and_by_value() {
     assert_eq!(chosen(&["--design", "7,0002,2"]), "0002 0007");
     assert_eq!(chosen(&["--where", "slant_deg=45.0"]), "0002 0004 0006 0008");
     assert_eq!(chosen(&["--where", "slant_deg=45", "--where", "gap_over_t=0.5"]), "0006 0008");
-    assert_eq!(chosen(&["--where", "puncture_status=row limit"]), "");
+    let text =
+        place.squama("rerun r --dry-run").args(["--where", "puncture_status=row limit"]).assert();
+    text.code(0).stdout("r: no design is as asked, nothing is solved again\n");
     let refused = |choice: &[&str]| {
         let mut command = place.squama("rerun r --dry-run");
         String::from_utf8(command.args(choice).assert().code(2).get_output().stderr.clone())

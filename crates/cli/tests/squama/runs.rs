@@ -1,5 +1,6 @@
 //! `squama run`: its files, its exit code, and that threads do not matter.
 
+use crate::table::cell;
 use crate::{FEW, Place};
 
 /// The files of a run that must not depend on when and with how many threads it ran.
@@ -18,7 +19,7 @@ fn writes_its_tables_to_the_folder_of_its_name() {
     place.squama("run x.toml --quiet").assert().code(0).stdout("").stderr("");
     assert_eq!(
         place.list("results/few"),
-        "compliance.csv coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
+        "compliance.csv contents.toml coverage.csv critical_force.csv designs.csv failures.csv journal.jsonl \
          penetration.csv run.toml"
     );
     let table = place.read("results/few/designs.csv");
@@ -68,7 +69,11 @@ fn a_design_that_stops_early_is_a_row_and_an_exit_code() {
     place.squama("run x.toml --set solver.max_points=3").assert().code(1);
     let table = place.read("results/few/critical_force.csv");
     let row = table.lines().nth(1).expect("a row");
-    assert!(row.starts_with("0001,0.1,0.2,0,,too many points,,,"), "{row}");
+    assert!(row.starts_with("0001,0.1,0.2,0,,too many points,"), "{row}");
+    // The largest force that it bore stays, and the measures at the critical tilt are none.
+    let none = ["critical_force", "critical_displacement", "secant_stiffness"];
+    assert!(none.iter().all(|column| cell(&table, "0001", column).is_empty()), "{row}");
+    assert!(!cell(&table, "0001", "peak_force").is_empty(), "{row}");
     assert!(place.read("results/few/run.toml").contains("\"too many points\" = 8"));
 }
 
@@ -79,7 +84,7 @@ fn what_is_not_measured_is_empty_and_has_no_table() {
     place.squama("run x.toml -q --set measures=coverage --fresh").assert().code(0);
     assert_eq!(
         place.list("results/few"),
-        "coverage.csv designs.csv failures.csv journal.jsonl run.toml"
+        "contents.toml coverage.csv designs.csv failures.csv journal.jsonl run.toml"
     );
     let table = place.read("results/few/designs.csv");
     let row = table.lines().nth(8).expect("a row");

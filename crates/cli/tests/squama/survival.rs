@@ -45,8 +45,16 @@ fn a_torn_last_line_is_solved_again() {
     std::fs::write(place.path("b/journal.jsonl"), torn).expect("writable");
     let status = place.squama("status b").assert().code(1).get_output().stdout.clone();
     assert!(String::from_utf8_lossy(&status).contains("missing     1\n"));
-    place.squama("run x.toml -q --out b --resume").assert().code(0);
+    let run = place.squama("run x.toml -q --out b --resume").assert().code(0);
     place.assert_same_tables("a", "b");
+    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    let tail = torn.rsplit('\n').next().expect("a tail");
+    let expected = format!(
+        "note: b/journal.jsonl: {} bytes at its end are damaged and cut off, a copy of them is in b/journal.cut-1\n",
+        tail.len()
+    );
+    assert_eq!(said, expected);
+    assert_eq!(place.read("b/journal.cut-1"), tail);
 }
 
 #[test]
@@ -61,7 +69,56 @@ fn results_are_not_overwritten_unasked() {
     place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
     assert_ne!(place.read("results/few/designs.csv"), before);
     std::fs::remove_file(place.path("results/few/journal.jsonl")).expect("a file");
-    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR");
+    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds coverage.csv without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results");
+}
+
+#[test]
+fn what_is_a_strangers_is_not_touched() {
+    let names = ["run.toml", "failures.csv", "penetration.csv", "reruns.csv", "contents.toml"];
+    for name in names {
+        let place = Place::with(FEW);
+        std::fs::create_dir(place.path("r")).expect("a folder");
+        std::fs::write(place.path("r").join(name), "a stranger's").expect("writable");
+        let message = place.refused("run x.toml --out r");
+        assert!(
+            message.starts_with(&format!("error: r: holds {name} without a journal")),
+            "{message}"
+        );
+        place.refused("run x.toml --out r --resume");
+        assert_eq!(place.list("r"), name);
+        assert_eq!(place.read(&format!("r/{name}")), "a stranger's");
+    }
+    // A journal that is not ours, and tables that nobody asked to be replaced.
+    let place = Place::with(FEW);
+    std::fs::create_dir(place.path("r")).expect("a folder");
+    std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
+    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this), expected it as it was written, or --fresh to throw all of it away");
+    assert_eq!(place.read("r/journal.jsonl"), "{\"a\": 1}");
+}
+
+#[test]
+fn a_gigabyte_of_zeros_is_no_journal() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let journal = place.read("r/journal.jsonl");
+    let grow = |file: &str| {
+        let file = std::fs::OpenOptions::new().append(true).create(true).open(place.path(file));
+        let file = file.expect("writable");
+        // A hole: it takes no room on the disk.
+        file.set_len(file.metadata().expect("a file").len() + (1 << 30)).expect("a hole");
+    };
+    std::fs::create_dir(place.path("zeros")).expect("a folder");
+    grow("zeros/journal.jsonl");
+    for command in ["run x.toml --out zeros", "status zeros", "merge zeros --out all"] {
+        let message = place.refused(command);
+        assert!(message.contains("not the first line of a journal"), "{message}");
+    }
+    // Behind sound lines they are a damaged tail.
+    grow("r/journal.jsonl");
+    let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
+    assert!(String::from_utf8_lossy(&status).contains("done        8\n"));
+    std::fs::write(place.path("r/journal.jsonl"), journal).expect("writable");
+    place.prints("status r");
 }
 
 #[test]
@@ -98,24 +155,38 @@ fn the_second_run_on_a_folder_is_refused() {
 
 #[cfg(unix)]
 mod signals {
-    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
     use super::*;
 
     #[test]
     fn the_first_finishes_what_is_in_hand() {
-        for (signal, code) in [(SIGINT, 130), (SIGTERM, 143)] {
+        for (signal, code) in [(SIGINT, 130), (SIGTERM, 143), (SIGHUP, 129)] {
             let place = Place::with(MANY);
             let mut run =
                 place.spawn("run x.toml -q --threads 2 --resume --set solver.max_step=0.002");
             run.until(|| place.lines("results/many/journal.jsonl") >= 4);
             run.send(signal);
+            run.send(signal);
             assert_eq!(run.end().code(), Some(code));
+            assert!(place.path("results/many/contents.toml").exists(), "all is written");
             let journal = place.lines("results/many/journal.jsonl");
             let rows = place.lines("results/many/designs.csv");
             assert_eq!(rows, journal - 1, "a header and a session; a header");
             assert!((3..54).contains(&rows), "{rows}");
         }
+    }
+
+    #[test]
+    fn the_first_is_answered() {
+        let place = Place::with(ENDLESS);
+        let mut run = place.spawn("run x.toml --threads 1");
+        run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
+        run.send(SIGINT);
+        let word = "ending once the designs in hand are done; a second signal ends at once, --resume goes on\n";
+        run.until_said(word);
+        run.send(SIGINT);
+        assert_eq!(run.end().code(), Some(130));
     }
 
     /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes.
@@ -129,12 +200,56 @@ mod signals {
         let mut run = place.spawn("run x.toml -q --threads 1");
         // Once the journal has the first design, after its header and the session, the second is in hand.
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
+        // As `timeout` does: one to the process, one to its group.
         run.send(SIGINT);
-        let ended = run.end_within(Duration::from_millis(200));
+        run.send(SIGINT);
+        let ended = run.end_within(Duration::from_millis(1200));
         assert_eq!(ended, None, "it waits for what is in hand");
         run.send(SIGINT);
         assert_eq!(run.end().code(), Some(130));
         assert_eq!(place.lines("results/endless/journal.jsonl"), 3);
+    }
+
+    #[test]
+    fn a_command_that_is_ended_leaves_no_half_of_a_file() {
+        let place = Place::with(
+            "name = 'x'\nmeasures = ['coverage']\n[designs]\n\
+                                 gap_over_t = { from = 0.1, to = 2, step = 0.005 }\n\
+                                 slant_deg = { from = 0, to = 75, step = 5 }\n",
+        );
+        place.squama("run x.toml -q --out r").assert().code(0);
+        let partial = || place.list("r").contains(".partial");
+        for signal in [SIGTERM, SIGHUP] {
+            let mut export = place.spawn("export r --xlsx r/x.xlsx");
+            export.until(partial);
+            export.send(signal);
+            assert_eq!(export.end().code(), Some(128 + signal));
+            assert!(!partial(), "{}", place.list("r"));
+        }
+        // What a kill leaves, the next run takes away.
+        let mut export = place.spawn("export r --xlsx r/x.xlsx");
+        export.until(partial);
+        export.kill();
+        assert!(partial());
+        place.squama("run x.toml -q --out r --resume").assert().code(0);
+        assert!(!partial(), "{}", place.list("r"));
+    }
+
+    #[test]
+    fn a_pipe_is_no_journal() {
+        let place = Place::with(FEW);
+        std::fs::create_dir(place.path("r")).expect("a folder");
+        let journal = place.path("r/journal.jsonl");
+        let made = std::process::Command::new("mkfifo").arg(&journal).status();
+        assert!(made.is_ok_and(|status| status.success()), "a pipe");
+        for command in
+            ["run x.toml --out r", "status r", "merge r --out all", "rerun r --failed", "rank r"]
+        {
+            let mut squama = place.spawn(command);
+            let code = squama.end_within(Duration::from_secs(20)).expect("it does not hang").code();
+            assert_eq!(code, Some(2), "{command}");
+        }
+        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is no regular file, expected the journal of a run");
     }
 
     #[test]

@@ -6,6 +6,7 @@ use crate::{FEW, Place};
 fn a_run_becomes_a_workbook() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r --set solver.max_points=3").assert().code(1);
+    std::fs::create_dir(place.path("out")).expect("a folder");
     let text = place.prints("export r --xlsx out/x.xlsx");
     insta::assert_snapshot!(text, @r"
     out/x.xlsx

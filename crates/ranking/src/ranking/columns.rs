@@ -4,22 +4,28 @@ use results::Column;
 use results::columns::{Cell, explain_value, number};
 use sweep::Parameter;
 
-use super::RankedDesign;
-use crate::criteria::{CRITERIA, Criterion};
+use super::{FOUR, RankedDesign};
+use crate::criterion::Criterion;
+use crate::preferences::Preferences;
 
 type RankedColumns<'a> = Vec<Column<RankedDesign<'a>>>;
 
 /// The columns of `ranking.csv` for designs with these parameters.
-pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
-    let rank =
-        Column::new("rank", "-", "place by fitness, 1 is the best", |s: &RankedDesign<'a>| {
-            s.rank.into()
-        });
+pub fn ranking_columns<'a>(
+    parameters: &[&'static Parameter],
+    preferences: &Preferences,
+) -> RankedColumns<'a> {
+    let rank = Column::new(
+        "rank",
+        "-",
+        "place by fitness, 1 is the best; equal designs share their place",
+        |s: &RankedDesign<'a>| s.rank.into(),
+    );
     let mut columns = vec![rank];
     columns.extend(design(parameters));
     columns.push(fitness("fitness by the weights of the ranking, from 0 to 1"));
-    columns.extend(criteria());
-    columns.extend(rescaled());
+    columns.extend(criteria(preferences));
+    columns.extend(rescaled(preferences));
     columns.push(Column::new(
         "pareto",
         "-",
@@ -30,39 +36,46 @@ pub fn ranking_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'
 }
 
 /// The columns of `pareto.csv`.
-pub fn pareto_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+pub fn pareto_columns<'a>(
+    parameters: &[&'static Parameter],
+    preferences: &Preferences,
+) -> RankedColumns<'a> {
     let mut columns = design(parameters);
-    columns.extend(criteria());
-    columns.push(share("part of all weights for which it is the best design"));
+    columns.extend(criteria(preferences));
+    if preferences.criteria.len() == FOUR {
+        columns.push(share("part of all weights for which it is the best design"));
+    }
     columns
 }
 
 /// The columns of `winners.csv`.
-pub fn winner_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
+pub fn winner_columns<'a>(
+    parameters: &[&'static Parameter],
+    preferences: &Preferences,
+) -> RankedColumns<'a> {
     let mut columns = design(parameters);
     columns.push(share("part of all weights for which it is the best design"));
     columns.push(Column::new("nodes", "-", "nodes of the grid of weights that it wins", |s| {
         Cell::Count(i64::try_from(s.candidate.nodes).unwrap_or(i64::MAX))
     }));
-    columns.extend(criteria());
-    columns.extend(rescaled());
+    columns.extend(criteria(preferences));
+    columns.extend(rescaled(preferences));
     columns
 }
 
 /// The columns of `quaternary.csv`.
-pub fn quaternary_columns<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
-    let mut columns: RankedColumns<'a> = vec![
-        Column::new("coverage_weight", "-", "weight m of the coverage", |s| s.weight(0)),
-        Column::new("critical_force_weight", "-", "weight n of the critical force", |s| {
-            s.weight(1)
-        }),
-        Column::new("penetration_weight", "-", "weight k of the resistance to penetration", |s| {
-            s.weight(2)
-        }),
-        Column::new("compliance_weight", "-", "weight l of the flexural compliance", |s| {
-            s.weight(3)
-        }),
-    ];
+pub fn quaternary_columns<'a>(
+    parameters: &[&'static Parameter],
+    preferences: &Preferences,
+) -> RankedColumns<'a> {
+    let weight = |(c, criterion): (usize, &Criterion)| {
+        let name = format!("{}_weight", criterion.column);
+        Column::indexed(name, "-", "weight of the criterion", c, |s: &RankedDesign<'a>, c| {
+            s.weights.values()[c].into()
+        })
+    };
+    let mut columns: RankedColumns<'a> =
+        preferences.criteria.iter().enumerate().map(weight).collect();
     columns.extend(design(parameters));
     columns.push(fitness("fitness of the best design by these weights"));
     columns.push(share("part of all weights for which the same design is the best"));
@@ -89,47 +102,24 @@ fn share<'a>(meaning: &'static str) -> Column<RankedDesign<'a>> {
     Column::new("share", "-", meaning, |s| s.share().into())
 }
 
-/// The values that the criteria are made from, as in `designs.csv`.
-fn criteria<'a>() -> RankedColumns<'a> {
-    let cells: [fn(&RankedDesign<'a>) -> Cell; 4] =
-        [|s| s.measured(0), |s| s.measured(1), |s| s.measured(2), |s| s.measured(3)];
-    let column = |(criterion, cell): (&'static Criterion, fn(&RankedDesign<'a>) -> Cell)| {
-        let (unit, meaning) = explain_value(criterion.column).unwrap_or(("-", ""));
-        Column::new(criterion.column, unit, meaning, cell)
+/// The values that the criteria are made from, as in `designs.csv`. A parameter stands there already.
+fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
+    let is_measured = |(_, criterion): &(usize, &Criterion)| {
+        results::columns::parameter_of(&criterion.column).is_none()
     };
-    CRITERIA.iter().zip(cells).map(column).collect()
+    let column = |(c, criterion): (usize, &Criterion)| {
+        let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
+        let name = criterion.column.clone().into_owned();
+        Column::indexed(name, unit, meaning, c, |s: &RankedDesign<'a>, c| s.values()[c].into())
+    };
+    preferences.criteria.iter().enumerate().filter(is_measured).map(column).collect()
 }
 
-fn rescaled<'a>() -> RankedColumns<'a> {
-    vec![
-        Column::new(
-            "coverage_rescaled",
-            "-",
-            "coverage from 0, the least of all ranked designs, to 1, the most",
-            |s| s.rescaled()[0].into(),
-        ),
-        Column::new("critical_force_rescaled", "-", "critical force, likewise", |s| {
-            s.rescaled()[1].into()
-        }),
-        Column::new(
-            "penetration_resistance_rescaled",
-            "-",
-            "inverse of the penetration, likewise",
-            |s| s.rescaled()[2].into(),
-        ),
-        Column::new("compliance_rescaled", "-", "flexural compliance, likewise", |s| {
-            s.rescaled()[3].into()
-        }),
-    ]
-}
-
-impl RankedDesign<'_> {
-    fn weight(&self, criterion: usize) -> Cell {
-        self.weights.values()[criterion].into()
-    }
-
-    /// The value that a criterion is made from.
-    fn measured(&self, criterion: usize) -> Cell {
-        self.values()[criterion].into()
-    }
+fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
+    let column = |(c, criterion): (usize, &Criterion)| {
+        let name = format!("{}_rescaled", criterion.key());
+        let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
+        Column::indexed(name, "-", meaning, c, |s: &RankedDesign<'a>, c| s.rescaled()[c].into())
+    };
+    preferences.criteria.iter().enumerate().map(column).collect()
 }

@@ -1,7 +1,10 @@
 //! The best designs of a run.
 
 use proptest::prelude::*;
-use ranking::{RankedDesign, Ranking, TetrahedralGrid, Weights, write_ranking};
+use ranking::{
+    InvalidRanking, Preferences, RankedDesign, Ranking, TetrahedralGrid, UnmetRequirement, Weights,
+    check_comparable, write_ranking, write_unmet,
+};
 use results::Results;
 use tempfile::TempDir;
 
@@ -107,7 +110,7 @@ fn results_that_are_none_say_why() {
         let message = Results::read(folder.path()).expect_err("none").to_string();
         message.replace(&folder.path().display().to_string(), "x")
     };
-    insta::assert_snapshot!(message(None), @"x/designs.csv: cannot be read (No such file or directory), expected the table that squama run writes");
+    insta::assert_snapshot!(message(None), @"x/designs.csv: cannot be read (No such file or directory), expected the file that squama run writes");
     insta::assert_snapshot!(message(Some("")), @r#"x/designs.csv: the first column is "", expected design"#);
     insta::assert_snapshot!(message(Some("a,b\n1,2")), @r#"x/designs.csv: the first column is "a", expected design"#);
     insta::assert_snapshot!(message(Some("design,b\n1,2\n3")), @"x/designs.csv: cannot be read (line 3 has 1 cells, the first one 2), expected the table that squama run writes");
@@ -119,11 +122,12 @@ fn the_tables_of_a_ranking() {
     write_results(folder.path(), 4, Criteria::Independent, 0);
     let results = Results::read(folder.path()).expect("results");
     let ranking = Ranking::new(&results, grid("5")).expect("a ranking");
-    let files = write_ranking(folder.path(), &ranking, Weights::BALANCED).expect("writable");
+    let files = write_ranking(folder.path(), &ranking).expect("writable");
     let table = |file: &str| std::fs::read_to_string(folder.path().join(file)).expect("a table");
+    let headers = files.iter().filter(|file| **file != "ranking.toml");
     let headers =
-        files.map(|file| format!("{file}: {}\n", table(file).lines().next().expect("a header")));
-    insta::assert_snapshot!(headers.concat());
+        headers.map(|file| format!("{file}: {}\n", table(file).lines().next().expect("a header")));
+    insta::assert_snapshot!(headers.collect::<String>());
     // Three of four slants have no coverage.
     assert_eq!(table("ranking.csv").lines().count(), 1 + 2500);
     assert_eq!(table("quaternary.csv").lines().count(), 1 + 56);
@@ -144,6 +148,139 @@ fn whoever_wins_at_some_weights_is_first_in_the_ranking_by_them() {
             (first.design(), first.fitness.to_bits())
         );
     }
+}
+
+/// The ranking of `results` by a file of preferences.
+fn by<'r>(results: &'r Results, text: &str) -> Result<Ranking<'r>, InvalidRanking> {
+    let preferences = Preferences::parse(text, "x.toml").expect("preferences");
+    Ranking::by(results, preferences, grid("2"))
+}
+
+#[test]
+fn only_designs_that_meet_every_requirement_are_ranked() {
+    let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40", "0.7,,0.1,50"]);
+    let text = "requirements = ['coverage >= 0.6', 'critical_force < 4']";
+    let ranking = by(&results, text).expect("a ranking");
+    let order = ranking.by_fitness(Weights::BALANCED);
+    assert_eq!(order.iter().map(RankedDesign::design).collect::<Vec<_>>(), ["0003"]);
+    let left_out: Vec<_> = ranking.left_out().iter().map(|(why, n)| format!("{n} {why}")).collect();
+    // A value that does not exist meets nothing.
+    assert_eq!(left_out, ["1 not coverage >= 0.6", "2 not critical_force < 4"]);
+}
+
+#[test]
+fn where_no_design_meets_all_the_nearest_one_and_what_stands_in_the_way_are_told() {
+    let results = results(&["0.5,1,1,1", "0.8,2,1,1", "0.9,1.5,1,1"]);
+    let text = "requirements = ['coverage >= 0.9', 'critical_force >= 2']";
+    let Err(InvalidRanking::Unmet(unmet)) = by(&results, text) else { panic!("none meets both") };
+    // 0002 lacks a ninth of the coverage, 0003 a quarter of the force.
+    assert_eq!(unmet.nearest, Some(1));
+    let [coverage, force] = unmet.requirements.as_slice() else { panic!("two") };
+    assert!((coverage.shortfall - 1.0 / 9.0).abs() < 1e-12 && force.shortfall == 0.0);
+    assert_eq!((coverage.met, coverage.met_without, force.met, force.met_without), (1, 1, 1, 1));
+    assert!(coverage.binds() && force.binds());
+
+    let text = "requirements = ['coverage >= 2', 'critical_force >= 1']";
+    let Err(InvalidRanking::Unmet(unmet)) = by(&results, text) else { panic!("none meets both") };
+    assert_eq!(unmet.nearest, Some(2));
+    assert_eq!(
+        unmet.requirements.iter().map(UnmetRequirement::binds).collect::<Vec<_>>(),
+        [true, false]
+    );
+}
+
+#[test]
+fn columns_of_ones_own_are_criteria() {
+    let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20", "1,3,0.2,40", "0,9,9,9"]);
+    let text = "criteria = ['max:critical_force', 'min:length_over_t']\nweights = [3, 1]";
+    let ranking = by(&results, text).expect("a ranking");
+    // The length of a design is its number, and exposed designs count where coverage is no criterion.
+    assert_eq!(ranking.len(), 4);
+    let winner = ranking.winner(ranking.preferences().weights);
+    // Rescaled: (1 - 1)/8, 1; (5 - 1)/8, (1/2 - 1/4)/(1 - 1/4); ...
+    assert_eq!((winner.design(), winner.rescaled()[0]), ("0002", 0.5));
+    assert!((winner.fitness - 0.5_f64.powf(0.75) * (1.0_f64 / 3.0).powf(0.25)).abs() < 1e-12);
+    assert!(ranking.winners().is_empty(), "two criteria fill no tetrahedron");
+    let front: Vec<_> = ranking.front().iter().map(RankedDesign::design).collect();
+    assert_eq!(front, ["0001", "0002", "0004"]);
+    // Over the front: 0 + 1, 0.5 + 1/3, 1 + 0: the ends are as good, the first of them counts.
+    assert_eq!(ranking.knee().expect("a knee").design(), "0001");
+}
+
+#[test]
+fn the_knee_bulges_out_of_the_front() {
+    let rows = ["0.1,10,1,1", "0.9,9,1,1", "0.95,5,1,1", "1,1,1,1"];
+    let results = results(&rows);
+    let ranking = by(&results, "criteria = ['coverage', 'critical_force']").expect("a ranking");
+    assert_eq!(ranking.front().len(), 4);
+    assert_eq!(ranking.knee().expect("a knee").design(), "0002");
+}
+
+#[test]
+fn a_weighted_mean_ruins_nobody() {
+    let results = results(&["1,1,1,1", "0.9,100,1,10", "0.8,1000,1,100"]);
+    let criteria = "criteria = ['coverage', 'critical_force']\nscale = ";
+    let fitness = |scale: &str| {
+        let ranking = by(&results, &format!("{criteria}'{scale}'")).expect("a ranking");
+        let mut ranked = ranking.by_fitness(ranking.preferences().weights);
+        ranked.sort_by_key(RankedDesign::row);
+        ranked.iter().map(|design| design.fitness).collect::<Vec<_>>()
+    };
+    assert_eq!(fitness("paper")[0], 0.0);
+    let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
+    close(fitness("linear")[0], 0.5);
+    close(fitness("linear")[1], 0.5 * (0.5 + 99.0 / 999.0));
+    close(fitness("log")[1], 0.5 * ((0.9_f64 / 0.8).ln() / (1.0_f64 / 0.8).ln() + 2.0 / 3.0));
+}
+
+#[test]
+fn equal_designs_share_their_place_and_round_off_makes_none_better() {
+    let results =
+        results(&["0.5,1,1,0.7999999999", "0.5,1,1,0.8", "0.5,1,1,0.5", "0.5,1,1,0.80000000001"]);
+    let ranking = by(&results, "criteria = ['compliance']").expect("a ranking");
+    let ranks = ranking.by_fitness(Weights::equal(1));
+    let ranks: Vec<_> = ranks.iter().map(|design| (design.rank, design.design())).collect();
+    assert_eq!(ranks, [(1, "0001"), (1, "0002"), (1, "0004"), (4, "0003")]);
+    assert_eq!(ranking.winner(Weights::equal(1)).design(), "0001");
+    assert_eq!(ranking.equals(Weights::equal(1)), 2);
+
+    let all = by(&results, "requirements = ['compliance > 0.7']").expect("a ranking");
+    assert_eq!(all.ties(), [0, 1, 2, 3], "round-off is no difference");
+}
+
+#[test]
+fn what_cannot_be_compared_is_refused() {
+    let folder = TempDir::new().expect("a folder");
+    let table = "design,gap_over_t,critical_tilt_deg,membrane_thickness_over_t,coverage,\
+                 critical_force,penetration,compliance,flexural_rigidity_N_mm2\n\
+                 0001,0.1,5,0.1,1,1,1,1,1\n0002,0.1,8,0.1,1,2,1,1,1\n0003,0.1,8,0.2,1,3,1,1,1";
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    let results = Results::read(folder.path()).expect("results");
+    let check = |text: &str| {
+        let preferences = Preferences::parse(text, "x").expect("preferences");
+        let message = check_comparable(&results, &preferences).err().map(|e| e.to_string());
+        message.unwrap_or_default().replace(&folder.path().display().to_string(), "x")
+    };
+    insta::assert_snapshot!(check(""), @"x/designs.csv: critical_force cannot be compared between designs of different critical_tilt_deg (5, 8), expected one of them, e.g. --require 'critical_tilt_deg == 5', or other criteria");
+    insta::assert_snapshot!(check("requirements = ['critical_tilt_deg == 8']"), @"x/designs.csv: compliance cannot be compared between designs of different membrane_thickness_over_t (0.1, 0.2), expected one of them, e.g. --require 'membrane_thickness_over_t == 0.1', or other criteria, e.g. --minimize flexural_rigidity_N_mm2 with a [material]");
+    assert_eq!(check("criteria = ['flexural_rigidity_N_mm2']"), "");
+    assert_eq!(check("requirements = ['critical_tilt_deg == 5']"), "");
+}
+
+#[test]
+fn what_a_ranking_goes_by_stands_beside_its_tables() {
+    let folder = TempDir::new().expect("a folder");
+    let results = results(&["0.2,1,0.5,10", "0.6,5,0.25,20"]);
+    write_ranking(folder.path(), &by(&results, "").expect("a ranking")).expect("writable");
+    let own = "criteria = ['min:critical_force']\nrequirements = ['coverage > 0.1']";
+    let ranking = by(&results, own).expect("a ranking");
+    let files = write_ranking(folder.path(), &ranking).expect("writable");
+    assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
+    assert!(!folder.path().join("quaternary.csv").exists(), "that of other criteria is gone");
+    let read = Preferences::read(folder.path()).expect("readable");
+    assert_eq!(read.as_ref(), Some(ranking.preferences()));
+    write_unmet(folder.path(), ranking.preferences()).expect("writable");
+    assert!(!folder.path().join("ranking.csv").exists());
 }
 
 proptest! {

@@ -7,6 +7,7 @@ use skin::puncture::{RowSnapshot, ScaleState};
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
+use super::surface;
 use super::view::View;
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
@@ -161,13 +162,16 @@ impl RowSheet {
             self.substrate(&poses, self.bars - 18.0),
             self.ghosts(),
             self.scales(&poses),
+            surface::folds(&self.row, &self.view, &poses),
             self.overlaps(state),
             self.contacts(state),
             self.load(state),
             self.tilt(state),
             self.reactions(&shown, state.force * self.length),
         ];
-        lifted(free, self.height, self.caption(state), inside)
+        let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
+        let caption = self.caption(state) + &surface::folds_label(&self.row, &all);
+        lifted(free, self.height, caption, inside)
     }
 
     fn caption(&self, state: &RowSnapshot) -> String {

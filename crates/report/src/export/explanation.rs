@@ -1,8 +1,8 @@
 //! The meaning of a column of a table, looked up by the names of both.
 
 use ranking::{
-    comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
-    winner_columns,
+    Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    ranking_columns, winner_columns,
 };
 use results::columns::{Cell, explain_value, number, parameter_of};
 use results::{Column, MEASURE_TABLES, RERUN_COLUMNS, failure_detail_columns};
@@ -28,10 +28,10 @@ impl Explanation {
         match table {
             "failures" => among(&failure_detail_columns(), name),
             "reruns" => among(RERUN_COLUMNS, name),
-            "ranking" => among(&ranking_columns(&[]), name),
-            "pareto" => among(&pareto_columns(&[]), name),
-            "winners" => among(&winner_columns(&[]), name),
-            "quaternary" => among(&quaternary_columns(&[]), name),
+            "ranking" => among(&ranking_columns(&[], &Preferences::paper()), name),
+            "pareto" => among(&pareto_columns(&[], &Preferences::paper()), name),
+            "winners" => among(&winner_columns(&[], &Preferences::paper()), name),
+            "quaternary" => among(&quaternary_columns(&[], &Preferences::paper()), name),
             "compare" => among(comparison_columns(), name),
             "differences" => among(&difference_columns(&[]), name),
             _ => None,
@@ -82,13 +82,13 @@ mod tests {
         let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
         for table in tables(&sweep) {
             for column in table.columns {
-                let explained = Explanation::of(table.file.trim_end_matches(".csv"), column.name);
-                let Column { unit, meaning, .. } = column;
-                assert_eq!(explained, Some(Explanation { unit, meaning }), "{}", column.name);
+                let explained = Explanation::of(table.file.trim_end_matches(".csv"), &column.name);
+                let Column { name, unit, meaning, .. } = column;
+                assert_eq!(explained, Some(Explanation { unit, meaning }), "{name}");
             }
         }
         for Column { name, .. } in results::failure_columns(&sweep) {
-            assert!(Explanation::of("failures", name).is_some(), "{name}");
+            assert!(Explanation::of("failures", &name).is_some(), "{name}");
         }
     }
 

@@ -201,6 +201,13 @@ impl Guide {
         Ok(())
     }
 
+    /// Says something of all tables.
+    pub fn note(&mut self, text: &str) -> Result<(), XlsxError> {
+        self.row += 1;
+        self.page.write_string(self.row, 3, text)?;
+        Ok(())
+    }
+
     /// The sheet.
     pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
         self.page.autofilter(0, 0, self.row, 3)?;

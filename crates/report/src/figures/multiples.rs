@@ -5,7 +5,7 @@ use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, NAME, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label, upright};
-use crate::palette::{INK, slant_color};
+use crate::palette::{INK, SlantPalette};
 use crate::svg::{Element, Spot, polyline};
 
 const WIDTH: f64 = 1000.0;
@@ -59,17 +59,18 @@ pub(super) fn figure(
     let y = ChartAxis::fit(quantity.label, designs.numbers(quantity.column));
     let values = some(designs.values(lengths.across));
     let columns = columns(values.len());
-    let slants = designs.values("slant_deg");
-    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0])];
-    inside.extend(filled.map(|_| contact_legend([LEFT + 470.0, 50.0])));
+    let palette = designs.palette();
+    let mut inside = vec![slant_legend(&palette, [LEFT, 50.0])];
+    inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 470.0, 50.0])));
     for (k, &value) in values.iter().enumerate() {
         let title = format!("{} = {value}", lengths.across_symbol);
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
         let area = area(k, columns);
         let panel = ChartPanel { area, x: &x, y: &y, title, x_labels, y_labels };
         inside.push(panel.frame());
-        let here = PanelSeries { designs, lengths: &lengths, value, quantity, filled };
-        inside.extend(slants.iter().map(|&slant| here.series(&panel, slant)));
+        let here =
+            PanelSeries { designs, palette: &palette, lengths: &lengths, value, quantity, filled };
+        inside.extend(palette.slants().iter().map(|&slant| here.series(&panel, slant)));
     }
     let bottom = area(values.len().saturating_sub(1), columns).bottom();
     let middle = 0.5 * (LEFT + WIDTH - RIGHT);
@@ -103,6 +104,7 @@ fn some(values: Vec<f64>) -> Vec<f64> {
 /// The designs of one panel.
 struct PanelSeries<'a> {
     designs: &'a Designs,
+    palette: &'a SlantPalette,
     lengths: &'a Lengths,
     value: f64,
     quantity: Quantity,
@@ -127,14 +129,21 @@ impl PanelSeries<'_> {
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
-            let spots: Vec<Spot> = points.iter().map(|point| point.1).collect();
-            series.add(polyline(&spots).with("stroke", slant_color(slant)).at("stroke-width", 1.2));
+            let color = self.palette.color(slant);
+            // No line crosses the place where contact begins: the value jumps there.
+            for part in points.chunk_by(|a, b| self.is_filled(a.2) == self.is_filled(b.2)) {
+                let spots: Vec<Spot> = part.iter().map(|point| point.1).collect();
+                series.add(polyline(&spots).with("stroke", color.as_str()).at("stroke-width", 1.2));
+            }
         }
         for (_, at, row) in points {
-            let filled = self.filled.is_none_or(|column| is_true(designs.text(column, row)));
-            series.add(mark(slant, at, 3.2, filled));
+            series.add(mark(self.palette, slant, at, 3.2, self.is_filled(row)));
         }
         series
+    }
+
+    fn is_filled(&self, row: usize) -> bool {
+        self.filled.is_none_or(|column| is_true(self.designs.text(column, row)))
     }
 }
 
@@ -142,11 +151,12 @@ fn is_true(text: &str) -> bool {
     matches!(text, "true" | "yes" | "1")
 }
 
-fn contact_legend([x, y]: Spot) -> Element {
+fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
+    let slant = palette.slants().first().copied().unwrap_or(0.0);
     Element::group("legend").containing([
-        mark(0.0, [x, y], 4.5, true),
+        mark(palette, slant, [x, y], 4.5, true),
         label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
-        mark(0.0, [x + 76.0, y], 4.5, false),
+        mark(palette, slant, [x + 76.0, y], 4.5, false),
         label("no contact: the same for all slants", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
             .with("fill", INK),
     ])

@@ -1,4 +1,4 @@
-//! The Pareto front of the four criteria, two at a time.
+//! The Pareto fronts of the four criteria, two at a time.
 
 use ranking::{RankedDesign, Ranking, Weights};
 
@@ -7,8 +7,8 @@ use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::INK;
-use crate::svg::{Element, circle};
+use crate::palette::{FAINT, INK, SlantPalette};
+use crate::svg::{Element, Spot, circle, polyline};
 
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 74.0;
@@ -16,59 +16,81 @@ const BETWEEN: [f64; 2] = [74.0, 62.0];
 const TOP: f64 = 80.0;
 const PANEL: [f64; 2] = [244.0, 240.0];
 
-/// The criteria, each the larger the better.
+/// The criteria, each the larger the better; all labels fit along a panel.
 const LABELS: [&str; 4] = [
     COVERAGE.label,
     "critical force $F_c^*$, dimensionless",
-    "penetration resistance $t/u_{max}$, dimensionless",
-    "flexural compliance $C_f^*$, dimensionless",
+    "resistance $t/u_{max}$, dimensionless",
+    "compliance $C_f^*$, dimensionless",
 ];
 
-/// Draws the figure; `None` if fewer than two designs have every criterion.
+/// Draws the figure; `None` if fewer than two designs have every criterion of the paper.
 pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> Option<String> {
     let all = ranking.by_fitness(Weights::BALANCED);
-    (all.len() > 1).then(|| draw(name, designs, &all))
+    let is_drawn = all.len() > 1 && ranking.preferences().are_the_papers();
+    is_drawn.then(|| draw(name, designs, &all))
 }
 
 fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
     let axis = |k: usize| ChartAxis::fit(LABELS[k], all.iter().map(|design| design.criteria()[k]));
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
-    let (front, beaten): (Vec<_>, Vec<_>) = all.iter().partition(|design| design.on_front());
-    let slants = designs.values("slant_deg");
-    let mut inside = vec![slant_legend(&slants, [LEFT, 50.0]), legend(front.len(), beaten.len())];
+    let palette = designs.palette();
+    let mut inside = vec![slant_legend(&palette, [LEFT, 50.0]), legend()];
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
     for (k, (i, j)) in pairs.into_iter().enumerate() {
-        let panel = ChartPanel {
-            area: Area {
-                left: LEFT + (k % 3) as f64 * (PANEL[0] + BETWEEN[0]),
-                top: TOP + (k / 3) as f64 * (PANEL[1] + BETWEEN[1]),
-                width: PANEL[0],
-                height: PANEL[1],
-            },
-            x: &axes[i],
-            y: &axes[j],
-            title: String::new(),
-            x_labels: true,
-            y_labels: true,
+        let area = Area {
+            left: LEFT + (k % 3) as f64 * (PANEL[0] + BETWEEN[0]),
+            top: TOP + (k / 3) as f64 * (PANEL[1] + BETWEEN[1]),
+            width: PANEL[0],
+            height: PANEL[1],
         };
+        let (x, y, title) = (&axes[i], &axes[j], String::new());
+        let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(48.0)]);
-        let at = |design: &RankedDesign<'_>| {
-            let criteria = design.criteria();
-            panel.place(criteria[i], criteria[j])
-        };
-        let dot =
-            |design: &&RankedDesign<'_>| Some(circle(at(design)?, 1.6).with("fill", "#b5b5b5"));
-        inside.push(Element::group("beaten").containing(beaten.iter().filter_map(dot)));
-        let marked = |design: &&RankedDesign<'_>| {
-            Some(mark(designs.number("slant_deg", design.row())?, at(design)?, 3.4, true))
-        };
-        inside.push(Element::group("front").containing(front.iter().filter_map(marked)));
+        let points: Vec<Point> =
+            all.iter().filter_map(|design| point(&panel, design, (i, j))).collect();
+        inside.extend(dots(&points, designs, &palette));
     }
-    let title = format!("{name}: designs that no other beats in all four criteria");
+    let title = format!("{name}: designs that no other beats in two criteria");
     sheet(WIDTH, TOP + 2.0 * (PANEL[1] + BETWEEN[1]), &title, inside)
 }
 
-fn legend(front: usize, beaten: usize) -> Element {
-    let text = format!("{front} designs on the front; grey: the other {beaten}");
-    label(&text, [LEFT + 520.0, 54.0], 12.0, Anchor::Start).with("fill", INK)
+/// A design in a panel.
+struct Point {
+    row: usize,
+    criteria: [f64; 2],
+    spot: Spot,
+}
+
+fn point(panel: &ChartPanel, design: &RankedDesign<'_>, (i, j): (usize, usize)) -> Option<Point> {
+    let criteria = [design.criteria()[i], design.criteria()[j]];
+    Some(Point { row: design.row(), criteria, spot: panel.place(criteria[0], criteria[1])? })
+}
+
+/// Returns grey dots for the designs that are beaten, and the front with its line.
+fn dots(points: &[Point], designs: &Designs, palette: &SlantPalette) -> [Element; 3] {
+    let criteria: Vec<_> =
+        points.iter().map(|&Point { criteria: [a, b], .. }| [a, b, 0.0, 0.0]).collect();
+    let on_front = ranking::pareto_front(&criteria);
+    let split = |is_front: bool| {
+        let all = points.iter().zip(&on_front);
+        all.filter(move |(_, on)| **on == is_front).map(|(point, _)| point)
+    };
+    let beaten = split(false).map(|point| circle(point.spot, 1.6).with("fill", "#b5b5b5"));
+    let mut front: Vec<&Point> = split(true).collect();
+    front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
+    let spots: Vec<Spot> = front.iter().map(|point| point.spot).collect();
+    let marked = |point: &&Point| {
+        Some(mark(palette, designs.number("slant_deg", point.row)?, point.spot, 3.4, true))
+    };
+    [
+        Element::group("beaten").containing(beaten),
+        polyline(&spots).with("stroke", FAINT).at("stroke-width", 1.2),
+        Element::group("front").containing(front.iter().filter_map(marked)),
+    ]
+}
+
+fn legend() -> Element {
+    let text = "on the line: designs that no other beats in both criteria; grey: the others";
+    label(text, [LEFT + 450.0, 54.0], 12.0, Anchor::Start).with("fill", INK)
 }

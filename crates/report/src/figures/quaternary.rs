@@ -3,10 +3,10 @@
 use geometry::{Parallelogram, Row};
 use ranking::{RankedDesign, Ranking, Weights};
 
-use super::sheet;
+use super::{in_words, sheet};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK, shaded, slant_color};
+use crate::palette::{FAINT, INK, shaded};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 const WIDTH: f64 = 1000.0;
@@ -48,7 +48,7 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
         winners: ranking
             .quaternary()
             .iter()
-            .map(|best| (best.weights.values(), best.row()))
+            .map(|best| (std::array::from_fn(|c| best.weights.values()[c]), best.row()))
             .collect(),
     };
     let mut inside = vec![edges(&[[1, 2], [1, 3], [2, 3]], "4 3")];
@@ -145,9 +145,10 @@ fn colors(designs: &Designs, regions: &[Region]) -> Vec<String> {
     const SHADES: [f64; 6] = [0.0, 0.55, -0.45, 0.3, -0.25, 0.78];
     let slant = |region: &Region| designs.number("slant_deg", region.row).unwrap_or(90.0);
     let listed = &regions[..regions.len().min(LISTED)];
+    let palette = designs.palette();
     let color = |(k, region): (usize, &Region)| {
         let before = listed[..k].iter().filter(|other| slant(other) == slant(region)).count();
-        shaded(&slant_color(slant(region)), SHADES[before % SHADES.len()])
+        shaded(&palette.color(slant(region)), SHADES[before % SHADES.len()])
     };
     listed.iter().enumerate().map(color).collect()
 }
@@ -156,15 +157,24 @@ fn letter(k: usize) -> String {
     char::from(b'A' + u8::try_from(k).unwrap_or(0)).to_string()
 }
 
-/// Returns the letter of each listed design on the dot of its region that is nearest to the reader.
+/// Returns the letter of each listed design on the dot of its region that is seen best; none where other dots hide all.
 fn letters(all: &Dots, regions: &[Region]) -> Element {
+    let dots: Vec<_> =
+        all.winners.iter().map(|(weights, row)| (projected(*weights), *row)).collect();
     let letter = |(k, region): (usize, &Region)| {
-        let own = all.winners.iter().filter(|(_, row)| *row == region.row);
-        let nearest =
-            own.map(|(weights, _)| projected(*weights)).max_by(|a, b| a.1.total_cmp(&b.1));
-        Some(badge(&letter(k), nearest?.0))
+        let own = dots.iter().filter(|(_, row)| *row == region.row);
+        let seen = own.map(|(place, row)| (place.0, clearance(&dots, *place, *row)));
+        let best = seen.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (best.1 > all.radius).then(|| badge(&letter(k), best.0))
     };
     Element::group("letters").containing(regions.iter().take(LISTED).enumerate().filter_map(letter))
+}
+
+/// Returns how far the nearest dot of another design in front of a place is from it on paper.
+fn clearance(dots: &[((Spot, f64), usize)], (spot, depth): (Spot, f64), row: usize) -> f64 {
+    let before = dots.iter().filter(|((_, near), other)| *near > depth && *other != row);
+    let away = before.map(|((other, _), _)| (other[0] - spot[0]).hypot(other[1] - spot[1]));
+    away.fold(SIZE, f64::min)
 }
 
 fn badge(text: &str, [x, y]: Spot) -> Element {
@@ -177,8 +187,10 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
 /// Returns a design of the list: its letter, parameters, share, and row at rest.
 fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: Spot) -> Element {
     let value = |column| designs.text(column, region.row);
+    let more = designs.further_axes().into_iter();
+    let more: String = more.map(|axis| format!(",  {} {}", in_words(axis), value(axis))).collect();
     let text = format!(
-        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°",
+        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°{more}",
         value("design"),
         value("gap_over_t"),
         value("length_over_t"),

@@ -23,8 +23,8 @@ const STIFFNESSES: [(&str, &str, &str); 2] = [
 ];
 
 pub(super) fn figure(name: &str, designs: &Designs) -> String {
-    let slants = designs.values("slant_deg");
-    let mut inside = vec![slant_legend(&slants, [78.0, 50.0])];
+    let palette = designs.palette();
+    let mut inside = vec![slant_legend(&palette, [78.0, 50.0])];
     let x = ChartAxis::fit(FORCE.label, designs.numbers(FORCE.column));
     let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
     for (k, (column, title, label)) in STIFFNESSES.into_iter().enumerate() {
@@ -46,7 +46,7 @@ pub(super) fn figure(name: &str, designs: &Designs) -> String {
         inside.extend((0..designs.count()).filter_map(|row| {
             let at =
                 panel.place(designs.number(FORCE.column, row)?, designs.number(column, row)?)?;
-            Some(mark(designs.number("slant_deg", row)?, at, 3.4, true))
+            Some(mark(&palette, designs.number("slant_deg", row)?, at, 3.4, true))
         }));
     }
     let title = format!("{name}: puncture stiffness against critical force");

@@ -4,14 +4,14 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use ranking::{
-    comparison_columns, difference_columns, pareto_columns, quaternary_columns, ranking_columns,
-    winner_columns,
+    Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
+    ranking_columns, winner_columns,
 };
 use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
     design_columns,
 };
-use results::{Column, Outcome, RERUN_COLUMNS, failure_detail_columns};
+use results::{Column, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns};
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -47,6 +47,7 @@ fn the_guide_to_the_results_explains_every_column() {
     for outcome in Outcome::ALL {
         let _ = writeln!(statuses, "| `{outcome}` | {} |", outcome.meaning());
     }
+    let paper = Preferences::paper();
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
     let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
@@ -59,6 +60,7 @@ fn the_guide_to_the_results_explains_every_column() {
             columns(&failure_detail_columns()),
         ),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
+        ("`measures.csv`", columns(MEASURE_COLUMNS)),
         ("`path.csv`", columns(PATH)),
         ("`events.csv`", columns(EVENTS)),
         ("`scales.csv`", columns(SCALES)),
@@ -67,10 +69,10 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
         ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
         ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),
-        ("`ranking.csv`", columns(&ranking_columns(geometry))),
-        ("`pareto.csv`", columns(&pareto_columns(geometry))),
-        ("`winners.csv`", columns(&winner_columns(geometry))),
-        ("`quaternary.csv`", columns(&quaternary_columns(geometry))),
+        ("`ranking.csv`", columns(&ranking_columns(geometry, &paper))),
+        ("`pareto.csv`", columns(&pareto_columns(geometry, &paper))),
+        ("`winners.csv`", columns(&winner_columns(geometry, &paper))),
+        ("`quaternary.csv`", columns(&quaternary_columns(geometry, &paper))),
         ("`compare.csv`", columns(comparison_columns())),
         ("`differences.csv`", columns(&difference_columns(geometry))),
     ];
@@ -100,6 +102,7 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
 #[test]
 fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/paper-as-written.toml").grid().len(), 720);
+    assert_eq!(read("sweeps/paper-neo-hookean.toml").grid().len(), 720);
     assert_eq!(read("sweeps/smoke.toml").grid().len(), 12);
     assert_eq!(read("sweeps/sensitivity/coupling.toml").grid().len(), 2 * 6 * 8 * 6);
     assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use calamine::{Data, Reader as _, Xlsx, open_workbook};
+use results::{Completeness, VerifiedFolder};
 
 use crate::samples::{Criteria, write_results};
 
@@ -33,9 +34,14 @@ fn expected(table: &str, separator: char) -> Vec<Vec<Data>> {
     table.lines().map(|line| line.split(separator).map(cell).collect()).collect()
 }
 
+/// Results that nobody states anything of, or as they are stated.
+fn opened(results: &Path) -> VerifiedFolder {
+    VerifiedFolder::open(results, Completeness::Whole).expect("results")
+}
+
 fn exported(results: &Path) -> std::path::PathBuf {
     let file = results.join("x.xlsx");
-    report::export(results, &file).expect("a workbook");
+    report::export(&opened(results), &file).expect("a workbook");
     file
 }
 
@@ -150,7 +156,8 @@ fn zip_text(workbook: &Path, name: &str) -> String {
 fn what_is_no_workbook_or_no_table_is_refused() {
     let place = tempfile::tempdir().expect("a folder");
     let refused = |name: &str| {
-        let error = report::export(place.path(), &place.path().join(name)).expect_err("refused");
+        let error =
+            report::export(&opened(place.path()), &place.path().join(name)).expect_err("refused");
         error.to_string().replace(&place.path().display().to_string(), "R")
     };
     insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run");
@@ -173,7 +180,7 @@ fn a_table_longer_than_a_sheet_is_refused() {
     assert_eq!(sheet(&file, "designs").len(), 1_048_576);
     let before = fs::read(&file).expect("a workbook");
     fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
-    let error = report::export(place.path(), &file).expect_err("refused").to_string();
+    let error = report::export(&opened(place.path()), &file).expect_err("refused").to_string();
     let error = error.replace(&place.path().display().to_string(), "R");
     insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample 1048575");
     assert!(fs::read(&file).expect("a workbook") == before, "the old one stays");

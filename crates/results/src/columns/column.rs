@@ -1,5 +1,7 @@
 //! One column of a table: its header, its meaning, and the function that makes its cells.
 
+use std::borrow::Cow;
+
 use sweep::{PARAMETERS, Parameter};
 
 use super::cell::Cell;
@@ -7,7 +9,7 @@ use super::cell::Cell;
 /// A column of a table whose rows are `R`.
 pub struct Column<R> {
     /// The header of the column.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Unit, `-` if it has none.
     pub unit: &'static str,
     /// The meaning of its cells, in half a sentence.
@@ -19,6 +21,7 @@ pub struct Column<R> {
 enum CellSource<R> {
     Value(fn(&R) -> Cell),
     Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
+    Indexed(usize, fn(&R, usize) -> Cell),
 }
 
 impl<R> Column<R> {
@@ -29,13 +32,24 @@ impl<R> Column<R> {
         meaning: &'static str,
         cell: fn(&R) -> Cell,
     ) -> Self {
-        Self { name, unit, meaning, cell: CellSource::Value(cell) }
+        Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Value(cell) }
+    }
+
+    /// One of several columns that differ by an index, from which `cell` makes the cells.
+    pub fn indexed(
+        name: String,
+        unit: &'static str,
+        meaning: &'static str,
+        index: usize,
+        cell: fn(&R, usize) -> Cell,
+    ) -> Self {
+        Self { name: name.into(), unit, meaning, cell: CellSource::Indexed(index, cell) }
     }
 
     /// The column of a parameter, whose cells `cell` makes.
     pub fn parameter(parameter: &'static Parameter, cell: fn(&R, &Parameter) -> Cell) -> Self {
         Self {
-            name: header(parameter),
+            name: Cow::Borrowed(header(parameter)),
             unit: parameter.unit,
             meaning: parameter.meaning,
             cell: CellSource::Parameter(parameter, cell),
@@ -47,6 +61,7 @@ impl<R> Column<R> {
         match self.cell {
             CellSource::Value(cell) => cell(row),
             CellSource::Parameter(parameter, cell) => cell(row, parameter),
+            CellSource::Indexed(index, cell) => cell(row, index),
         }
     }
 }

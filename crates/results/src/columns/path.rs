@@ -1,35 +1,152 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{PuncturePoint, ScaleState};
+use skin::puncture::{Fold, Instability, Puncture, PuncturePoint, ScaleState, Snap};
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
 
+/// An equilibrium of a puncture and its instability.
+pub type StabilityPoint = (PuncturePoint, Instability);
+
 /// The columns of `path.csv`.
-pub static PATH: &[Column<PuncturePoint>] = &[
-    Column::new("displacement", "t", "downward displacement of the punctured point", |p| {
+pub static PATH: &[Column<StabilityPoint>] = &[
+    Column::new("displacement", "t", "downward displacement of the punctured point", |(p, _)| {
         p.displacement.into()
     }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |p| p.force.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |p| p.tilt_deg.into()),
-    Column::new("contacts", "-", "closed contacts", |p| p.contacts.into()),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |(p, _)| p.force.into()),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
+        p.tilt_deg.into()
+    }),
+    Column::new("contacts", "-", "closed contacts", |(p, _)| p.contacts.into()),
+    Column::new(
+        "unstable_under_load",
+        "-",
+        "negative eigenvalues of the stiffness if the load is held, as the path leaves",
+        |(_, i)| i.load.into(),
+    ),
+    Column::new(
+        "unstable_under_depth",
+        "-",
+        "negative eigenvalues of the stiffness if the depth of the punctured point is held",
+        |(_, i)| i.depth.into(),
+    ),
+    Column::new(
+        "unstable_under_tilt",
+        "-",
+        "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
+        |(_, i)| i.tilt.into(),
+    ),
+    Column::new(
+        "gap_stretch_min",
+        "-",
+        "width of the tightest gap between bases over that at rest",
+        |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
+    ),
+    Column::new(
+        "gap_stretch_max",
+        "-",
+        "width of the widest gap between bases over that at rest",
+        |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
+    ),
 ];
 
+/// An event of a puncture.
+pub enum PunctureEvent {
+    /// A contact changes its state.
+    Contact(ContactEvent<PuncturePoint>),
+    /// The row snaps.
+    Snap(Snap),
+    /// The surface of the substrate folds over in a gap, or unfolds.
+    Fold(Fold),
+}
+
+impl PunctureEvent {
+    /// The events of a puncture, in order.
+    pub fn all(puncture: &Puncture) -> Vec<Self> {
+        let mut snaps = puncture.snaps.iter().peekable();
+        let mut folds = puncture.folds.iter().peekable();
+        let mut all = Vec::with_capacity(puncture.events.len());
+        for count in 0..=puncture.events.len() {
+            let is_last = count == puncture.events.len();
+            while let Some(fold) = folds.next_if(|fold| is_last || fold.events_before <= count) {
+                all.push(Self::Fold(*fold));
+            }
+            while let Some(snap) = snaps.next_if(|snap| is_last || snap.events_before <= count) {
+                all.push(Self::Snap(*snap));
+            }
+            all.extend(puncture.events.get(count).copied().map(Self::Contact));
+        }
+        all
+    }
+
+    fn point(&self) -> PuncturePoint {
+        match self {
+            Self::Contact(event) => event.point,
+            Self::Snap(snap) => snap.point,
+            Self::Fold(fold) => fold.point,
+        }
+    }
+
+    fn left_scale(&self) -> Option<i64> {
+        match self {
+            Self::Contact(event) => event.left_scale,
+            Self::Snap(_) => None,
+            Self::Fold(fold) => Some(fold.left_scale),
+        }
+    }
+
+    fn kind(&self) -> Option<&'static str> {
+        match self {
+            Self::Contact(event) => Some(event.corner_edge.name()),
+            Self::Snap(_) => None,
+            Self::Fold(_) => Some("gap"),
+        }
+    }
+
+    fn change(&self) -> &'static str {
+        match self {
+            Self::Contact(event) => event.change.name(),
+            Self::Snap(_) => "snap",
+            Self::Fold(fold) => fold.name(),
+        }
+    }
+
+    fn drop(&self) -> Option<f64> {
+        match self {
+            Self::Contact(_) | Self::Fold(_) => None,
+            Self::Snap(snap) => snap.drop,
+        }
+    }
+}
+
 /// The columns of `events.csv`.
-pub static EVENTS: &[Column<ContactEvent<PuncturePoint>>] = &[
+pub static EVENTS: &[Column<PunctureEvent>] = &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |e| {
-        e.point.displacement.into()
+        e.point().displacement.into()
     }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point.force.into()),
+    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |e| e.point().force.into()),
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |e| {
-        e.point.tilt_deg.into()
+        e.point().tilt_deg.into()
     }),
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
-        e.left_scale.into()
+        e.left_scale().into()
     }),
-    Column::new("kind", "-", "which corner meets which edge", |e| e.corner_edge.name().into()),
-    Column::new("change", "-", "what happens to the contact", |e| e.change.name().into()),
+    Column::new("kind", "-", "which corner meets which edge; gap between two bases", |e| {
+        e.kind().into()
+    }),
+    Column::new(
+        "change",
+        "-",
+        "what happens to the contact, or to the surface in the gap; snap where a needle that only goes deeper leaves the path",
+        |e| e.change().into(),
+    ),
+    Column::new(
+        "drop",
+        "E_s L t/(1-nu^2)",
+        "force before a snap less that after it, at the same depth; empty if the path ends before",
+        |e| e.drop().into(),
+    ),
 ];
 
 /// The columns of `scales.csv`.

@@ -1,5 +1,6 @@
 //! The columns of `reruns.csv`.
 
+use super::cell::Cell;
 use super::column::Column;
 use crate::design::rerun_change::RerunChange;
 
@@ -16,7 +17,7 @@ pub static RERUN_COLUMNS: &[Column<RerunChange>] = &[
     }),
     Column::new("old_settings", "-", "settings before", |c| c.settings[0].clone().into()),
     Column::new("column", "-", "column of `designs.csv` that changed, empty if none did", |c| {
-        c.column.into()
+        Cell::Text(c.column.clone())
     }),
     Column::new("old", "as the column", "its value before", |c| c.values[0].clone()),
     Column::new("new", "as the column", "its value after", |c| c.values[1].clone()),

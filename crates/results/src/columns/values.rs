@@ -19,7 +19,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         tables: &["coverage"],
         name: "coverage",
         unit: "-",
-        meaning: "share of the thickness that scales fill below the top right corner of a scale",
+        meaning: "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
         cell: |r| r.result.coverage.into(),
     },
     MeasuredValue {
@@ -47,7 +47,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         tables: FORCE,
         name: "peak_force",
         unit: "E_s L t/(1-nu^2)",
-        meaning: "largest puncture force up to the critical tilt",
+        meaning: "largest puncture force up to the critical tilt, or up to where the path stopped",
         cell: |r| measured(r, |m| m.peak_force),
     },
     MeasuredValue {
@@ -160,7 +160,7 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         name: "flexure_contact",
         unit: "-",
         meaning: "yes or no: whether bending brings scales into contact",
-        cell: |r| bent(r, |m| m.contact.map(|contact| if contact { "yes" } else { "no" })),
+        cell: |r| bent(r, |m| m.contact.map(yes_or_no)),
     },
     MeasuredValue {
         tables: COMPLIANCE,
@@ -225,10 +225,105 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
         cell: |r| bent(r, |m| m.membrane_strain_max),
     },
+    MeasuredValue {
+        tables: FORCE,
+        name: "peak_displacement",
+        unit: "t",
+        meaning: "downward displacement of the punctured point at the largest force",
+        cell: |r| measured(r, |m| m.peak_displacement),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "peak_tilt_deg",
+        unit: "deg",
+        meaning: "tilt of the punctured scale at the largest force",
+        cell: |r| measured(r, |m| m.peak_tilt_deg),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "stable_under_load",
+        unit: "-",
+        meaning: "yes or no: whether the row is stable at the critical tilt if the load is held",
+        cell: |r| measured(r, |m| m.stable_under_load.map(yes_or_no)),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "stable_under_depth",
+        unit: "-",
+        meaning: "yes or no: whether the row is stable at the critical tilt if the depth of the punctured point is held",
+        cell: |r| measured(r, |m| m.stable_under_depth.map(yes_or_no)),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "load_stability_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at which a row under a held load becomes unstable; empty if it does not",
+        cell: |r| measured(r, |m| m.load_stability_force),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "depth_stability_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at which a row under a held depth becomes unstable; empty if it does not",
+        cell: |r| measured(r, |m| m.depth_stability_force),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "snaps",
+        unit: "-",
+        meaning: "times that the row snaps under a needle that only goes deeper",
+        cell: |r| punctured(r, |p| p.measures.snaps),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "gap_stretch_min",
+        unit: "-",
+        meaning: "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over",
+        cell: |r| measured(r, |m| m.gap_stretch_min),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "gap_stretch_max",
+        unit: "-",
+        meaning: "width of the widest gap between bases at the critical tilt over that at rest",
+        cell: |r| measured(r, |m| m.gap_stretch_max),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at which the surface first folds over; empty if it does not",
+        cell: |r| measured(r, |m| m.fold_force),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_displacement",
+        unit: "t",
+        meaning: "displacement of the punctured point at which the surface first folds over",
+        cell: |r| measured(r, |m| m.fold_displacement),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "fold_tilt_deg",
+        unit: "deg",
+        meaning: "tilt of the punctured scale at which the surface first folds over",
+        cell: |r| measured(r, |m| m.fold_tilt_deg),
+    },
+    MeasuredValue {
+        tables: FORCE,
+        name: "sound_force",
+        unit: "E_s L t/(1-nu^2)",
+        meaning: "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
+        cell: |r| measured(r, |m| m.sound_force),
+    },
 ];
 
 fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureMeasures) -> Option<T>) -> Cell {
     row.result.puncture.and_then(|puncture| value(&puncture.measures)).into()
+}
+
+fn yes_or_no(holds: bool) -> &'static str {
+    if holds { "yes" } else { "no" }
 }
 
 fn punctured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureResult) -> T) -> Cell {

@@ -143,7 +143,7 @@ fn finite_or<M, const N: usize>(
     }
 }
 
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
+fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
     [
         measures.critical_force,
         measures.peak_force,
@@ -154,6 +154,16 @@ fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 9] {
         measures.initial_stiffness,
         measures.max_stiffness,
         measures.secant_stiffness,
+        measures.peak_displacement,
+        measures.peak_tilt_deg,
+        measures.load_stability_force,
+        measures.depth_stability_force,
+        measures.gap_stretch_min,
+        measures.gap_stretch_max,
+        measures.fold_force,
+        measures.fold_displacement,
+        measures.fold_tilt_deg,
+        measures.sound_force,
     ]
 }
 
@@ -183,7 +193,8 @@ mod tests {
             ..PunctureMeasures::default()
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
-        Puncture { status, measures, path, events, scales, history }
+        let (instability, snaps, folds) = (vec![], vec![], vec![]);
+        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
     }
 
     #[test]

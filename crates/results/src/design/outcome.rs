@@ -34,11 +34,15 @@ pub enum Outcome {
     Calibration,
     /// The program is at fault.
     Internal,
+    /// The load came back to zero.
+    Unloaded,
+    /// Load, depth and tilt turned back together and did not recover.
+    LimitPoint,
 }
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -50,6 +54,8 @@ impl Outcome {
         Self::OffEdge,
         Self::Calibration,
         Self::Internal,
+        Self::Unloaded,
+        Self::LimitPoint,
     ];
 
     /// The text of the outcome in the tables.
@@ -66,6 +72,8 @@ impl Outcome {
             Self::OffEdge => "off the edge",
             Self::Calibration => "no calibration",
             Self::Internal => "internal error",
+            Self::Unloaded => "unloaded",
+            Self::LimitPoint => "limit point",
         }
     }
 
@@ -83,6 +91,12 @@ impl Outcome {
             Self::OffEdge => "a contact carries beyond the end of its edge",
             Self::Calibration => "the springs of the substrate could not be found",
             Self::Internal => "the program is at fault; please report the design",
+            Self::Unloaded => {
+                "the load came back to zero: a needle only pushes, and the scale has let go"
+            }
+            Self::LimitPoint => {
+                "load, depth and tilt turned back together, and the path ends before any of them recovers"
+            }
         }
     }
 }
@@ -100,6 +114,7 @@ impl From<Status> for Outcome {
             Status::RowLimit => Self::RowLimit,
             Status::Interpenetration => Self::Interpenetration,
             Status::OffEdge => Self::OffEdge,
+            Status::LimitPoint => Self::LimitPoint,
             Status::Stopped(stop) => stop.into(),
         }
     }
@@ -113,6 +128,7 @@ impl From<Stop> for Outcome {
             Stop::TooManyPoints => Self::TooManyPoints,
             Stop::Cycling => Self::Cycling,
             Stop::NotFinite => Self::NotFinite,
+            Stop::Unloaded => Self::Unloaded,
             // A path that reached its target has not stopped early.
             Stop::Reached => Self::Internal,
         }

@@ -1,5 +1,7 @@
 //! Values that changed when a design was solved again.
 
+use std::borrow::Cow;
+
 use sweep::DesignNumber;
 
 use crate::columns::cell::Cell;
@@ -14,7 +16,7 @@ pub struct RerunChange {
     /// The settings before and after.
     pub settings: [String; 2],
     /// The column, empty if no value changed.
-    pub column: &'static str,
+    pub column: Cow<'static, str>,
     /// The cell before and after.
     pub values: [Cell; 2],
 }

@@ -9,6 +9,7 @@ use sweep::{Case, DesignNumber};
 use super::design_result::{DesignResult, SEPARATOR};
 use super::failure::Failure;
 use super::parameter_derivative::ParameterDerivative;
+use crate::shell::shell_word;
 
 /// A row of `designs.csv`: a design and its result.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,7 +83,7 @@ impl FailureRow {
         let settings = self.design.result.settings.split(SEPARATOR);
         for setting in settings.filter(|text| !text.is_empty()) {
             command.push_str(" --set ");
-            command.push_str(setting);
+            command.push_str(&shell_word(setting));
         }
         command
     }

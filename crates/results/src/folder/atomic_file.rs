@@ -4,7 +4,11 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use sha2::{Digest as _, Sha256};
 use sweep::reason;
+
+use super::partial_file::PartialFile;
+use crate::digest::digits;
 
 /// A file or a folder that cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -39,8 +43,8 @@ impl OutputError {
 #[derive(Debug)]
 pub struct AtomicFile {
     path: PathBuf,
-    partial: PathBuf,
-    file: Option<File>,
+    partial: PartialFile,
+    hasher: Sha256,
 }
 
 impl AtomicFile {
@@ -49,9 +53,9 @@ impl AtomicFile {
     /// # Errors
     /// If the folder cannot be written.
     pub fn create(folder: &Path, name: &str) -> Result<Self, OutputError> {
-        let partial = partial(folder, name);
-        let file = File::create(&partial).map_err(|error| OutputError::folder(folder, &error))?;
-        Ok(Self { path: folder.join(name), partial, file: Some(file) })
+        let partial = PartialFile::create(folder, name);
+        let partial = partial.map_err(|error| OutputError::folder(folder, &error))?;
+        Ok(Self { path: folder.join(name), partial, hasher: Sha256::new() })
     }
 
     /// The path of the file once it is complete.
@@ -59,48 +63,27 @@ impl AtomicFile {
         &self.path
     }
 
-    /// Puts the file in its place.
+    /// Puts the file in its place and returns its SHA-256.
     ///
     /// # Errors
     /// If it does not reach the disk.
-    pub fn finish(mut self) -> Result<(), OutputError> {
-        let moved = match self.file.take() {
-            Some(file) => file.sync_all().and_then(|()| fs::rename(&self.partial, &self.path)),
-            None => Ok(()),
-        };
-        moved.map_err(|error| {
-            let _ = fs::remove_file(&self.partial);
-            OutputError::file(&self.path, &error)
-        })
+    pub fn finish(self) -> Result<String, OutputError> {
+        let moved = self.partial.move_to(&self.path);
+        moved.map_err(|error| OutputError::file(&self.path, &error))?;
+        Ok(digits(self.hasher))
     }
 }
 
 impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.as_mut().map_or(Ok(0), |file| file.write(bytes))
+        let written = self.partial.file().write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.as_mut().map_or(Ok(()), Write::flush)
+        self.partial.file().flush()
     }
-}
-
-impl Drop for AtomicFile {
-    fn drop(&mut self) {
-        if self.file.is_some() {
-            let _ = fs::remove_file(&self.partial);
-        }
-    }
-}
-
-fn partial(folder: &Path, name: &str) -> PathBuf {
-    folder.join(format!(".{name}.partial"))
-}
-
-/// Removes what a killed process left of the file `name`.
-pub fn remove_partial(folder: &Path, name: &str) {
-    // Nearly always there is none.
-    let _ = fs::remove_file(partial(folder, name));
 }
 
 /// Makes `folder` and the folders above it.
@@ -111,11 +94,11 @@ pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
     fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))
 }
 
-/// Writes `text` as the file `name` in `folder`.
+/// Writes `text` as the file `name` in `folder`; returns its SHA-256.
 ///
 /// # Errors
 /// If it cannot be written.
-pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<(), OutputError> {
+pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, OutputError> {
     let mut file = AtomicFile::create(folder, name)?;
     let written = file.write_all(text.as_bytes());
     written.map_err(|error| OutputError::file(&file.path, &error))?;
@@ -140,6 +123,22 @@ mod tests {
         file.write_all(b"new").expect("writable");
         drop(file);
         assert_eq!(fs::read_to_string(folder.path().join("x.csv")).expect("there"), "old");
+        assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+    }
+
+    #[test]
+    fn two_writers_of_one_file_do_not_meet() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut files = ["one", "other"].map(|text| {
+            let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
+            file.write_all(text.as_bytes()).expect("writable");
+            Some(file)
+        });
+        let read = || fs::read_to_string(folder.path().join("x.csv")).expect("there");
+        for (file, text) in files.iter_mut().zip(["one", "other"]) {
+            let digest = file.take().expect("a file").finish().expect("writable");
+            assert_eq!((read().as_str(), digest), (text, crate::sha256(text)));
+        }
         assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
     }
 }

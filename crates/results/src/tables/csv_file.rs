@@ -29,7 +29,7 @@ impl<'c, R> CsvFile<'c, R> {
         let path = file.path().to_owned();
         let csv = format.writer(file).map_err(|error| OutputError::file(&path, &error))?;
         let mut table = Self { csv, format, columns };
-        let header = table.csv.write_record(columns.iter().map(|column| column.name));
+        let header = table.csv.write_record(columns.iter().map(|column| column.name.as_ref()));
         table.checked(header)?;
         Ok(table)
     }
@@ -48,11 +48,11 @@ impl<'c, R> CsvFile<'c, R> {
         self.checked(ended)
     }
 
-    /// Puts the table in its place.
+    /// Puts the table in its place and returns its SHA-256.
     ///
     /// # Errors
     /// If the disk does not take it.
-    pub fn finish(mut self) -> Result<(), OutputError> {
+    pub fn finish(mut self) -> Result<String, OutputError> {
         let flushed = self.csv.flush();
         self.checked(flushed.map_err(csv::Error::from))?;
         let path = self.csv.get_ref().path().to_owned();
@@ -76,7 +76,7 @@ pub fn write_rows<R>(
     format: CsvFormat,
     columns: &[Column<R>],
     rows: impl IntoIterator<Item = impl Borrow<R>>,
-) -> Result<(), OutputError> {
+) -> Result<String, OutputError> {
     let mut table = CsvFile::create(folder, name, format, columns)?;
     for row in rows {
         table.write(row.borrow())?;

@@ -66,9 +66,14 @@ impl CsvFormat {
         if is_decimal { cell.replace('.', ",").into() } else { cell.into() }
     }
 
-    /// The format of a file that begins so, and where its text begins.
+    /// The format of a file that begins so, and where its text begins. The header tells: a spreadsheet
+    /// puts the byte-order mark before either separator, or leaves it out.
     pub fn of(beginning: &[u8]) -> (Self, usize) {
-        if beginning.starts_with(MARK) { (Self::ExcelEu, MARK.len()) } else { (Self::Plain, 0) }
+        let start = if beginning.starts_with(MARK) { MARK.len() } else { 0 };
+        let header = beginning[start..].split(|byte| matches!(byte, b'\r' | b'\n')).next();
+        let header = header.unwrap_or_default();
+        let is_plain = header.contains(&b',') || (start == 0 && !header.contains(&b';'));
+        (if is_plain { Self::Plain } else { Self::ExcelEu }, start)
     }
 
     /// Reads the text of a file in this format.
@@ -119,6 +124,18 @@ mod tests {
             ["0,3", "1e-7", "1,5e-12", "0417", "solver.max_step=0.01", "complete", ""]
         );
         assert_eq!(cells.map(|cell| CsvFormat::Plain.cell(cell).into_owned()), cells);
+    }
+
+    #[test]
+    fn the_header_tells_the_format_with_and_without_a_mark() {
+        use CsvFormat::{ExcelEu, Plain};
+        let of = |text: &str| CsvFormat::of(text.as_bytes());
+        assert_eq!(of("design,gap\r\n1,\"2;3\""), (Plain, 0));
+        assert_eq!(of("design;gap\r\n1;2,3"), (ExcelEu, 0));
+        assert_eq!(of("\u{feff}design,gap\r\n1;2"), (Plain, 3));
+        assert_eq!(of("\u{feff}design;gap\r\n1;2,3"), (ExcelEu, 3));
+        assert_eq!((of("design\r\n1"), of("\u{feff}design\r\n1")), ((Plain, 0), (ExcelEu, 3)));
+        assert_eq!(of(""), (Plain, 0));
     }
 
     #[test]

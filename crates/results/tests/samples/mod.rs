@@ -25,7 +25,8 @@ pub fn write_results(folder: &Path, slants: u32, criteria: Criteria, seed: u64) 
         2 * (slants - 1)
     );
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
-    let names: Vec<_> = design_columns(&sweep).iter().map(|column| column.name).collect();
+    let names: Vec<_> =
+        design_columns(&sweep).into_iter().map(|column| column.name.into_owned()).collect();
     let mut table = names.join(",");
     let grid = sweep.grid();
     for index in 0..grid.len() {

@@ -5,14 +5,17 @@ use std::io::{self, BufRead, BufReader};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use results::{CsvFormat, DesignRow, RunFolder};
+use results::{Contents, CsvFormat, DesignRow, JournalExtent, RunFolder};
 use sweep::{SubsetDesigns, Sweep, reason};
 
 use super::entry::{JournalEntry, SessionStart};
 use super::error::JournalError;
 use super::header::{FORMAT, JournalHeader};
 use super::index::Index;
-use super::seal::{Line, Seal};
+use super::lines::Lines;
+use super::require_file;
+use super::seal::{BEFORE, Line, Seal};
+use super::windows::Windows;
 
 /// A journal that was read: what it is of, and where its designs stand.
 #[derive(Debug)]
@@ -30,6 +33,8 @@ pub struct Archive {
     latest: LatestSession,
     /// Bytes that are intact.
     length: u64,
+    /// Lines that are intact.
+    lines: u64,
 }
 
 /// The rate of the last session.
@@ -61,6 +66,7 @@ impl Archive {
             path: path.to_owned(),
             reason: reason(&error),
         };
+        require_file(path)?;
         let file = File::open(path).map_err(unreadable)?;
         Self::read_from(BufReader::with_capacity(1 << 16, file), path)
     }
@@ -71,20 +77,29 @@ impl Archive {
     /// # Errors
     /// If it cannot be read or is damaged.
     pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
-        let mut lines = Lines { source, path, bytes: Vec::new(), number: 0 };
-        let Some(first) = lines.next()?.filter(|bytes| bytes.ends_with(b"\n")) else {
+        let unreadable = |error: io::Error| JournalError::Unreadable {
+            path: path.to_owned(),
+            reason: reason(&error),
+        };
+        let mut lines = Lines::new(source);
+        if !lines.begin_with(BEFORE).map_err(unreadable)? {
+            let problem = "squama begins none like this".to_owned();
+            return Err(JournalError::NoHeader { path: path.to_owned(), problem });
+        }
+        let first = lines.next().map_err(unreadable)?;
+        let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else {
             return Ok(None);
         };
         let mut archive = Self::begin(first, path)?;
         let mut tail = Tail::default();
-        while let Some(bytes) = lines.next()? {
+        while let Some(bytes) = lines.next().map_err(unreadable)? {
             let length = bytes.len() as u64;
             match archive.line(bytes) {
                 Ok(line) => {
                     tail.refuse(path)?;
                     archive.add(&line, length);
                 }
-                Err(problem) => tail.note(lines.number, problem),
+                Err(problem) => tail.note(lines.number(), problem),
             }
         }
         Ok(Some(archive))
@@ -109,6 +124,7 @@ impl Archive {
             reruns: 0,
             latest: LatestSession::default(),
             length,
+            lines: 1,
         })
     }
 
@@ -144,6 +160,7 @@ impl Archive {
             }
         }
         self.length += length;
+        self.lines += 1;
     }
 
     /// The header.
@@ -169,9 +186,38 @@ impl Archive {
         self.length
     }
 
+    /// What is to be said if it has fewer lines than it had when the tables in `folder` were written.
+    pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
+        let stated = Contents::stated_in(folder)?.journal.lines;
+        let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
+        Some(format!(
+            "{lost} of the {stated} lines are missing that it had when its tables were written"
+        ))
+    }
+
+    /// Refuses it if it has lost lines.
+    pub(crate) fn require_all_lines(&self, folder: &RunFolder) -> Result<(), JournalError> {
+        let path = self.path.clone();
+        self.lost_lines(folder).map_or(Ok(()), |lost| Err(JournalError::LinesLost { path, lost }))
+    }
+
+    /// How far it has come.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
+    pub fn extent(&self) -> Result<JournalExtent, JournalError> {
+        let extent = JournalExtent::of(&self.path, self.length, self.lines);
+        extent.map_err(|error| self.unreadable(&error))
+    }
+
     /// The number of designs that are done.
     pub fn done(&self) -> u64 {
         self.index.done()
+    }
+
+    /// The designs that are done, as indices of the grid, in order.
+    pub(crate) fn held(&self) -> impl Iterator<Item = u64> {
+        self.index.lines_that_count().map(|(position, _)| self.designs.design(position))
     }
 
     /// Positions of the designs that are not done.
@@ -203,7 +249,7 @@ impl Archive {
     pub(crate) fn entries(&self) -> Result<Entries<'_>, JournalError> {
         let file = File::open(&self.path);
         let file = file.map_err(|error| self.unreadable(&error))?;
-        Ok(Entries { archive: self, file: BufReader::with_capacity(1 << 16, file), at: 0 })
+        Ok(Entries { archive: self, lines: Windows::new(file) })
     }
 
     /// The row that an entry gives in the tables.
@@ -233,28 +279,6 @@ fn read_header(bytes: &mut [u8], path: &Path) -> Result<JournalHeader, JournalEr
     }
 }
 
-/// The lines of a source, with their ends.
-struct Lines<'p, R> {
-    source: R,
-    path: &'p Path,
-    bytes: Vec<u8>,
-    /// Number of the line that was read last, from 1.
-    number: u64,
-}
-
-impl<R: BufRead> Lines<'_, R> {
-    fn next(&mut self) -> Result<Option<&mut [u8]>, JournalError> {
-        self.bytes.clear();
-        let read = self.source.read_until(b'\n', &mut self.bytes);
-        let read = read.map_err(|error| JournalError::Unreadable {
-            path: self.path.to_owned(),
-            reason: reason(&error),
-        })?;
-        self.number += 1;
-        Ok((read > 0).then_some(self.bytes.as_mut_slice()))
-    }
-}
-
 /// Damaged lines with nothing intact after them. They were torn by a crash, and are cut off; a
 /// damaged line before an intact one is refused, because nothing after it can be trusted to be
 /// complete.
@@ -281,14 +305,14 @@ impl Tail {
 /// Reads entries by where they stand.
 pub(crate) struct Entries<'a> {
     archive: &'a Archive,
-    file: BufReader<File>,
-    at: u64,
+    lines: Windows,
 }
 
 impl Entries<'_> {
     /// The last entry of each design that is done, in the order of the designs.
     pub fn in_order(mut self) -> impl Iterator<Item = Result<JournalEntry, JournalError>> {
-        self.archive.index.offsets().map(move |offset| self.at(offset))
+        let offsets = self.archive.index.lines_that_count();
+        offsets.map(move |(_, offset)| self.at(offset))
     }
 
     /// Entries that replaced an earlier one, after that.
@@ -311,13 +335,8 @@ impl Entries<'_> {
     }
 
     fn at(&mut self, offset: u64) -> Result<JournalEntry, JournalError> {
-        let mut bytes = Vec::new();
-        let read = self
-            .file
-            .seek_relative(offset.cast_signed() - self.at.cast_signed())
-            .and_then(|()| self.file.read_until(b'\n', &mut bytes));
-        read.map_err(|error| self.archive.unreadable(&error))?;
-        self.at = offset + bytes.len() as u64;
+        let read = self.lines.line(offset);
+        let mut bytes = read.map_err(|error| self.archive.unreadable(&error))?;
         match self.archive.line(&mut bytes) {
             Ok(Line::Design(entry)) => Ok(*entry),
             Ok(_) => Err(self.changed("it is no design any more")),

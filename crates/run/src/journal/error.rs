@@ -1,8 +1,7 @@
 //! Errors of journals that cannot be used.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::Start;
 use super::header::FORMAT;
 use results::OutputError;
 
@@ -16,10 +15,12 @@ pub enum JournalError {
         folder: PathBuf,
     },
     /// There are tables that no journal stands behind.
-    #[error("{}: holds tables without a journal, expected --fresh to throw them away or another folder with --out DIR", folder.display())]
+    #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
     NoJournal {
         /// The folder.
         folder: PathBuf,
+        /// The first such file.
+        file: String,
     },
     /// There is none.
     #[error("{}: holds no journal, expected the folder of a run", folder.display())]
@@ -32,6 +33,20 @@ pub enum JournalError {
     InUse {
         /// The folder.
         folder: PathBuf,
+    },
+    /// Something else stands in the place of the journal.
+    #[error("{}: is no regular file, expected the journal of a run", path.display())]
+    NoFile {
+        /// The path of the journal.
+        path: PathBuf,
+    },
+    /// Lines at the end of the journal are missing.
+    #[error("{}: {lost}; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing", path.display())]
+    LinesLost {
+        /// The path of the journal.
+        path: PathBuf,
+        /// How many there were and are.
+        lost: String,
     },
     /// The journal cannot be read.
     #[error("{}: cannot be read ({reason}), expected the journal of a run", path.display())]
@@ -80,11 +95,4 @@ pub enum JournalError {
     /// The disk does not take it.
     #[error(transparent)]
     Output(#[from] OutputError),
-}
-
-impl JournalError {
-    pub(super) fn exists(folder: &Path, start: Start) -> Self {
-        let folder = folder.to_owned();
-        if start == Start::New { Self::Exists { folder } } else { Self::NoJournal { folder } }
-    }
 }

@@ -1,12 +1,10 @@
 //! The header of a journal: what was solved, by which program.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::path::Path;
 
+use results::sha256;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest as _, Sha256};
-
 use sweep::toml_source::{self, Value};
 use sweep::{Subset, Sweep};
 
@@ -43,7 +41,7 @@ impl JournalHeader {
             format: FORMAT,
             version: program.version.to_owned(),
             revision: program.revision.to_owned(),
-            definition_sha256: digest(&definition),
+            definition_sha256: sha256(&definition),
             subset,
             definition,
         }
@@ -51,7 +49,7 @@ impl JournalHeader {
 
     /// Whether its checksum is that of its definition.
     pub(crate) fn is_sound(&self) -> bool {
-        self.definition_sha256 == digest(&self.definition)
+        self.definition_sha256 == sha256(&self.definition)
     }
 
     /// The designs that are solved.
@@ -103,15 +101,6 @@ impl JournalHeader {
         (self.subset != wanted.subset)
             .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
     }
-}
-
-fn digest(definition: &str) -> String {
-    let mut text = String::new();
-    for byte in Sha256::digest(definition) {
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{byte:02x}");
-    }
-    text
 }
 
 /// The keys in which two definitions differ.

@@ -4,12 +4,15 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU64;
 use std::ops::Range;
 
-/// For each design the offset of the line that counts: eight bytes per design, up to the last that is
-/// done. Of several lines of one design the one of the latest rerun counts, wherever it stands.
+/// Designs of a page.
+const PAGE: u64 = 512;
+
+/// For each design the offset of the line that counts: eight bytes per design, on pages of which only those exist that hold
+/// one. Of several lines of one design the one of the latest rerun counts, wherever it stands.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Index {
-    /// By position. The first line is no design, so none has offset 0.
-    offsets: Vec<Option<NonZeroU64>>,
+    /// By page and place. The first line is no design, so none has offset 0.
+    pages: BTreeMap<u64, Vec<Option<NonZeroU64>>>,
     done: u64,
     /// The offsets of all lines of the designs that were solved again, by position and rerun.
     reruns: BTreeMap<(u64, u64), u64>,
@@ -27,25 +30,21 @@ pub(crate) struct Replaced {
 impl Index {
     /// Notes the line of the design at `position` that holds its solution `rerun`.
     pub fn insert(&mut self, position: u64, rerun: u64, offset: u64) {
-        // Designs that fit into memory have positions that fit into a machine word.
-        let Ok(place) = usize::try_from(position) else { return };
-        if place >= self.offsets.len() {
-            self.offsets.resize(place + 1, None);
-        }
-        match self.offsets[place] {
+        match self.offset(position) {
             None => self.done += 1,
             // A line that is not listed yet is the first solution.
             Some(known) if self.lines(position).next().is_none() => {
-                self.reruns.insert((position, 0), known.get());
+                self.reruns.insert((position, 0), known);
             }
             Some(_) => {}
         }
-        if rerun > 0 || self.offsets[place].is_some() {
+        if rerun > 0 || self.offset(position).is_some() {
             // A line that was doubled is the same line.
             self.reruns.entry((position, rerun)).or_insert(offset);
         }
         let newest = self.lines(position).last().unwrap_or(offset);
-        self.offsets[place] = NonZeroU64::new(newest);
+        let page = self.pages.entry(position / PAGE).or_insert_with(|| vec![None; PAGE as usize]);
+        page[(position % PAGE) as usize] = NonZeroU64::new(newest);
     }
 
     /// The offsets of the lines of a design that was solved again, the first solution first.
@@ -55,13 +54,18 @@ impl Index {
 
     /// The offset of the line that counts for the design at `position`.
     pub fn offset(&self, position: u64) -> Option<u64> {
-        let slot = self.offsets.get(usize::try_from(position).ok()?)?;
-        slot.map(NonZeroU64::get)
+        let page = self.pages.get(&(position / PAGE))?;
+        page[(position % PAGE) as usize].map(NonZeroU64::get)
     }
 
-    /// The offsets of the lines that count, in the order of the designs.
-    pub fn offsets(&self) -> impl Iterator<Item = u64> {
-        self.offsets.iter().flatten().map(|offset| offset.get())
+    /// The positions of the designs that are done, in order, each with the offset of the line that counts.
+    pub fn lines_that_count(&self) -> impl Iterator<Item = (u64, u64)> {
+        self.pages.iter().flat_map(|(page, places)| {
+            let positions = page * PAGE..;
+            positions
+                .zip(places)
+                .filter_map(|(position, slot)| Some((position, slot.as_ref()?.get())))
+        })
     }
 
     /// The offsets of all lines of the design at `position`, the first solution first.
@@ -87,14 +91,11 @@ impl Index {
     pub fn missing(&self, count: u64) -> Vec<Range<u64>> {
         let mut missing = Vec::new();
         let mut next = 0;
-        for (position, slot) in (0..).zip(&self.offsets) {
-            if slot.is_some() {
-                missing.push(next..position);
-                next = position + 1;
-            }
+        for (position, _) in self.lines_that_count() {
+            missing.extend((next < position).then_some(next..position));
+            next = position + 1;
         }
-        missing.push(next..count);
-        missing.retain(|range| !range.is_empty());
+        missing.extend((next < count).then_some(next..count));
         missing
     }
 }
@@ -112,10 +113,22 @@ mod tests {
         }
         assert_eq!(index.missing(7), [0..1, 3..4, 5..7]);
         assert_eq!(index.missing(5), [0..1, 3..4]);
-        assert_eq!(index.offsets().collect::<Vec<_>>(), [40, 30, 10]);
+        assert_eq!(index.lines_that_count().collect::<Vec<_>>(), [(1, 40), (2, 30), (4, 10)]);
         assert_eq!(index.done(), 3);
         assert_eq!(index.replaced(), [Replaced { old: 20, new: 40 }]);
         assert_eq!((index.history(1), index.history(2)), (vec![20, 40], vec![30]));
+    }
+
+    #[test]
+    fn a_few_designs_of_a_billion_take_little_room() {
+        let mut index = Index::default();
+        for position in [999_999_999, 3, 500_000_000] {
+            index.insert(position, 0, position + 1);
+        }
+        let missing = [0..3, 4..500_000_000, 500_000_001..999_999_999];
+        assert_eq!(index.missing(1_000_000_000), missing);
+        assert_eq!((index.done(), index.pages.len()), (3, 3));
+        assert_eq!(index.offset(500_000_000), Some(500_000_001));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::entry::{JournalEntry, SessionStart};
 use super::header::JournalHeader;
 
 /// The bytes before the checksum of a line.
-const BEFORE: &[u8] = b"{\"crc\":\"";
+pub(super) const BEFORE: &[u8] = b"{\"crc\":\"";
 /// The bytes between the checksum and the content.
 const AFTER: &[u8] = b"\",";
 /// Digits of the checksum.

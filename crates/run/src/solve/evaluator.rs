@@ -13,6 +13,7 @@ use skin::puncture::{self, Puncture};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure};
 
+use super::work::{DesignWork, WorkMeter};
 use super::{samples, sensitivity};
 
 /// The most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
@@ -40,6 +41,17 @@ impl Evaluator {
 
     /// Solves `case`. Nothing that goes wrong inside ends more than this design.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
+        self.solve_metered(number, case, &WorkMeter::default())
+    }
+
+    /// As [`Self::solve`], and tells `meter` of the work as it is done.
+    pub(crate) fn solve_metered(
+        &self,
+        number: DesignNumber,
+        case: &Case,
+        meter: &WorkMeter,
+    ) -> SolvedDesign {
+        let work = DesignWork::new(meter, case, &self.measures);
         let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
         let mut sensitivity = Vec::new();
         if self.differentiates() && self.measures(Measure::Coverage) {
@@ -50,7 +62,7 @@ impl Evaluator {
         let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
         let bent = self.measures(Measure::Flexure).then(|| self.flexure(case, &mut sensitivity));
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
-        let (samples, settings) = (self.samples(case), String::new());
+        let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
         let result =
             DesignResult { coverage, puncture, flexure, samples, sensitivity, settings, failures };
@@ -104,14 +116,14 @@ impl Evaluator {
     }
 
     /// Solves the imperfect samples of `case`. If they cannot be solved at all, every sample failed.
-    fn samples(&self, case: &Case) -> SampleStatistics {
+    fn samples(&self, case: &Case, work: &DesignWork<'_>) -> SampleStatistics {
         let mut statistics = SampleStatistics::default();
         if case.imperfection.is_none() {
             return statistics;
         }
         if self.measures(Measure::Puncture) {
             let punctured = guarded(|| self.substrate(case)).flatten().and_then(|substrate| {
-                guarded(|| samples::puncture(case, &substrate, &mut statistics))
+                guarded(|| samples::puncture(case, &substrate, &mut statistics, work))
             });
             if punctured.is_err() {
                 statistics.puncture_failed = Some(case.samples.count);
@@ -119,7 +131,10 @@ impl Evaluator {
         }
         if self.measures(Measure::Flexure) {
             let bent = chain_fits(case);
-            if bent.and_then(|()| guarded(|| samples::flexure(case, &mut statistics))).is_err() {
+            if bent
+                .and_then(|()| guarded(|| samples::flexure(case, &mut statistics, work)))
+                .is_err()
+            {
                 statistics.flexure_failed = Some(case.samples.count);
             }
         }

@@ -6,11 +6,19 @@ use skin::puncture;
 use substrate::RowStiffness;
 use sweep::Case;
 
-/// Punctures the samples of `case` on `substrate`, and adds what they gave to `statistics`.
-pub(super) fn puncture(case: &Case, substrate: &RowStiffness, statistics: &mut SampleStatistics) {
+use super::work::DesignWork;
+
+/// Punctures the samples of `case` on `substrate`, and adds what they gave to `statistics`; tells `work` of each.
+pub(super) fn puncture(
+    case: &Case,
+    substrate: &RowStiffness,
+    statistics: &mut SampleStatistics,
+    work: &DesignWork<'_>,
+) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
         let measures = punctured(case, substrate, number).map(|result| result.measures);
+        work.row_done();
         force.extend(measures.and_then(|measures| measures.critical_force));
         penetration.extend(measures.and_then(|measures| measures.penetration));
     }
@@ -19,11 +27,13 @@ pub(super) fn puncture(case: &Case, substrate: &RowStiffness, statistics: &mut S
     statistics.penetration = Statistics::of(penetration);
 }
 
-/// Bends the samples of `case`, and adds what they gave to `statistics`.
-pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics) {
+/// Bends the samples of `case`, and adds what they gave to `statistics`; tells `work` of each.
+pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        let Some(flexure) = bent(case, number) else { continue };
+        let flexure = bent(case, number);
+        work.strip_done();
+        let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::new(&flexure).measures.compliance {
             compliance.push(value);
             closing_range.extend(flexure.closing_range());

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use sweep::{Grid, Sweep};
 
 use super::evaluator::Evaluator;
+use super::work::{WorkMeter, work_of};
 use crate::journal::JournalEntry;
 
 /// Solves designs of one sweep as entries of a journal.
@@ -15,13 +16,27 @@ pub(crate) struct Task<'a> {
     settings: String,
     rerun: u64,
     clock: Instant,
+    work: &'a WorkMeter,
 }
 
 impl<'a> Task<'a> {
-    /// The designs of `sweep`, solved for the `rerun`-th time; `clock` began with the session.
-    pub fn new(sweep: &'a Sweep, settings: String, rerun: u64, clock: Instant) -> Self {
+    /// The designs of `sweep`, solved for the `rerun`-th time; `clock` began with the session, and `work` is
+    /// told of what is done.
+    pub fn new(
+        sweep: &'a Sweep,
+        settings: String,
+        rerun: u64,
+        clock: Instant,
+        work: &'a WorkMeter,
+    ) -> Self {
         let evaluator = Evaluator::new(sweep.measures());
-        Self { sweep, evaluator, settings, rerun, clock }
+        Self { sweep, evaluator, settings, rerun, clock, work }
+    }
+
+    /// Tells how much work `designs` are.
+    pub fn measure(&self, designs: impl Iterator<Item = u64>) {
+        let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
+        self.work.begin(designs.map(work).fold(0, u64::saturating_add));
     }
 
     /// The designs of the sweep.
@@ -33,7 +48,7 @@ impl<'a> Task<'a> {
     pub fn solve(&self, index: u64) -> JournalEntry {
         let begun = self.clock.elapsed();
         let grid = self.grid();
-        let solved = self.evaluator.solve(grid.number(index), &grid.case(index));
+        let solved = self.evaluator.solve_metered(grid.number(index), &grid.case(index), self.work);
         let mut result = solved.row.result;
         result.settings.clone_from(&self.settings);
         let at = self.clock.elapsed();

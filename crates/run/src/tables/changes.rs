@@ -5,12 +5,12 @@ use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunC
 
 use crate::journal::{Archive, JournalError};
 
-/// Writes the table of what reruns have changed if there is anything to tell, and returns its name.
+/// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
 pub(super) fn write(
     archive: &Archive,
     folder: &RunFolder,
     format: CsvFormat,
-) -> Result<Option<String>, JournalError> {
+) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
     if pairs.peek().is_none() {
         return Ok(None);
@@ -23,8 +23,7 @@ pub(super) fn write(
         let rows = [archive.row(old), archive.row(new)];
         changes(&columns, rerun, &rows).iter().try_for_each(|change| table.write(change))?;
     }
-    table.finish()?;
-    Ok(Some(RunFolder::RERUNS.to_owned()))
+    Ok(Some((RunFolder::RERUNS.to_owned(), table.finish()?)))
 }
 
 /// Every value that changed; one change without a column if none did.
@@ -38,11 +37,12 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
     };
     // The settings have columns of their own.
     let columns = columns.iter().filter(|column| column.name != "settings");
-    let values = columns.map(|column| (column.name, rows.each_ref().map(|row| column.cell(row))));
+    let values =
+        columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
     if changes.is_empty() {
-        changes.push(change("", [Cell::Empty, Cell::Empty]));
+        changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }
     changes
 }

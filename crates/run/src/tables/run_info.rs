@@ -22,18 +22,23 @@ impl<'a> RunInfo<'a> {
         Self { program, threads: options.threads, clock }
     }
 
+    /// The program, in words.
+    pub fn program(&self) -> String {
+        format!("{} ({})", self.program.version, self.program.revision)
+    }
+
     /// The time since the session began.
     pub fn elapsed(&self) -> Duration {
         self.clock.elapsed()
     }
 
-    /// Writes the file to `folder`.
+    /// Writes the file to `folder`; returns its SHA-256.
     pub fn write(
         &self,
         archive: &Archive,
         folder: &RunFolder,
         summary: &Summary,
-    ) -> Result<(), OutputError> {
+    ) -> Result<String, OutputError> {
         let definition = archive.sweep().to_toml_under("definition");
         let text = format!("{}{}\n{definition}", self.run(archive, summary), statuses(summary));
         folder.write_text(RunFolder::RUN_INFO, &text)

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use results::round_off::Leader;
 use results::{DesignResult, DesignRow, Outcome};
 use sweep::{DesignNumber, Measure};
 
@@ -14,18 +15,18 @@ pub struct Summary {
     pub failed: u64,
     /// The number of designs of each status, by its text, for each measure that has a path.
     pub statuses: BTreeMap<Measure, BTreeMap<&'static str, u64>>,
-    best: [Option<Best>; 4],
+    /// Designs on whose path the surface of the substrate folds over.
+    pub folded: u64,
+    best: [Option<Leader<DesignNumber>>; 5],
 }
 
-/// A value and the first design that has it.
+/// The best value of its kind, and the first design that has it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Best {
     /// The name of the value, in words.
     pub what: &'static str,
-    /// The value.
-    pub value: f64,
-    /// The design.
-    pub design: DesignNumber,
+    /// The value, its first design, and how many others have it too.
+    pub leader: Leader<DesignNumber>,
 }
 
 /// A value of which the best is told.
@@ -35,8 +36,11 @@ struct Contest {
     value: fn(&DesignResult) -> Option<f64>,
 }
 
+/// The value that is told only if designs have folded: of all others it is the critical force.
+const SOUND: &str = "largest force before a fold";
+
 /// The values of which the best is told.
-static CONTESTS: [Contest; 4] = [
+static CONTESTS: [Contest; 5] = [
     Contest { what: "best coverage", is_better: f64::gt, value: |r| r.coverage },
     Contest {
         what: "largest critical force",
@@ -53,6 +57,7 @@ static CONTESTS: [Contest; 4] = [
         is_better: f64::gt,
         value: |r| r.flexure?.measures.compliance,
     },
+    Contest { what: SOUND, is_better: f64::gt, value: |r| r.puncture?.measures.sound_force },
 ];
 
 impl Summary {
@@ -69,6 +74,8 @@ impl Summary {
         for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
             contest.enter(row, best);
         }
+        let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
+        self.folded += u64::from(fold.is_some());
     }
 
     fn count(&mut self, measure: Measure, outcome: Outcome) {
@@ -76,17 +83,19 @@ impl Summary {
     }
 
     /// The best values, those that exist.
-    pub fn best(&self) -> impl Iterator<Item = &Best> {
-        self.best.iter().flatten()
+    pub fn best(&self) -> impl Iterator<Item = Best> {
+        let is_told = |contest: &Contest| contest.what != SOUND || self.folded > 0;
+        let contests = self.best.iter().zip(&CONTESTS).filter(move |(_, contest)| is_told(contest));
+        contests
+            .filter_map(|(leader, contest)| Some(Best { what: contest.what, leader: (*leader)? }))
     }
 }
 
 impl Contest {
-    /// Puts the value of a design in place of `best` if it is better.
-    fn enter(&self, row: &DesignRow, best: &mut Option<Best>) {
-        let Some(value) = (self.value)(&row.result) else { return };
-        if best.is_none_or(|best| (self.is_better)(&value, &best.value)) {
-            *best = Some(Best { what: self.what, value, design: row.number });
+    /// Enters the value of a design.
+    fn enter(&self, row: &DesignRow, best: &mut Option<Leader<DesignNumber>>) {
+        if let Some(value) = (self.value)(&row.result) {
+            Leader::enter(best, row.number, value, self.is_better);
         }
     }
 }
@@ -107,15 +116,22 @@ mod tests {
             let mut puncture = PunctureResult::without_path(outcome);
             puncture.measures.penetration = penetration;
             puncture.measures.critical_force = penetration.map(|_| 2.0);
+            puncture.measures.sound_force = penetration;
+            puncture.measures.fold_force = penetration.filter(|_| index == 2);
             let result = DesignResult { puncture: Some(puncture), ..DesignResult::default() };
             let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
             summary.add(&DesignRow { number, case, result });
         }
-        assert_eq!(summary.designs, 3);
+        assert_eq!((summary.designs, summary.folded), (3, 1));
         let counts = &summary.statuses[&Measure::Puncture];
         assert_eq!((counts["complete"], counts["row limit"]), (2, 1));
-        let best: Vec<_> = summary.best().map(|b| (b.what, b.design.to_string())).collect();
-        let expected = [("largest critical force", "0001"), ("least penetration", "0003")];
-        assert_eq!(best, expected.map(|(what, design)| (what, design.to_owned())));
+        let best: Vec<_> =
+            summary.best().map(|b| (b.what, b.leader.first.to_string(), b.leader.ties)).collect();
+        let expected = [
+            ("largest critical force", "0001", 1),
+            ("least penetration", "0003", 0),
+            ("largest force before a fold", "0001", 0),
+        ];
+        assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
     }
 }

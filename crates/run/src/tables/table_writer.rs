@@ -1,11 +1,12 @@
 //! Every table of a run, written from its journal now and then.
 
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use results::columns::tables;
 use results::{
-    CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, OutputError, RunFolder,
-    failure_columns,
+    Contents, CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, OutputError,
+    RunFolder, failure_columns,
 };
 use sweep::Measure;
 
@@ -17,6 +18,9 @@ use crate::progress::{Finished, RunError};
 
 /// Writing the tables takes at most one part in this many of the time of a run.
 const SHARE: u32 = 20;
+
+/// Names of tables, each with its SHA-256, in the order in which people read them.
+type WrittenTables = Vec<(String, String)>;
 
 /// Writes the tables of one run.
 pub(crate) struct TableWriter<'a> {
@@ -41,22 +45,39 @@ impl<'a> TableWriter<'a> {
         self.written.elapsed() > self.every.max(self.writing * SHARE)
     }
 
-    /// Writes the tables of what `journal` holds, and the record of the run.
+    /// Writes the tables of what `journal` holds, the record of the run, and last of all what they are.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
         journal.sync()?;
         let archive = journal.archive();
         let (summary, tables) = self.write_tables(archive)?;
-        self.info.write(archive, &self.folder, &summary)?;
+        let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
+        self.folder.remove_tables_but(&names);
+        let record = self.info.write(archive, &self.folder, &summary)?;
+        let record = (RunFolder::RUN_INFO.to_owned(), record);
+        let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
+        contents.write(&self.folder)?;
+        self.folder.sync();
         self.written = Instant::now();
         self.writing = begun.elapsed();
         let missing = archive.designs().len() - archive.done();
-        Ok(Finished { summary, missing, duration: self.info.elapsed(), tables })
+        let duration = self.info.elapsed();
+        Ok(Finished { summary, missing, duration, tables: names, notes: Vec::new() })
     }
 
-    /// Writes the tables; returns what the run comes to, and their names. Entries are read one by
+    fn contents(
+        &self,
+        archive: &Archive,
+        files: BTreeMap<String, String>,
+    ) -> Result<Contents, JournalError> {
+        let (designs, done) = (archive.designs().len(), archive.done());
+        let (program, journal) = (self.info.program(), archive.extent()?);
+        Ok(Contents { program, designs, done, journal, files })
+    }
+
+    /// Writes the tables; returns what the run comes to, and each with its SHA-256. Entries are read one by
     /// one, in the order of their designs.
-    fn write_tables(&self, archive: &Archive) -> Result<(Summary, Vec<String>), JournalError> {
+    fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), JournalError> {
         let (folder, format) = (&self.folder, self.format);
         let layouts = tables(archive.sweep());
         let mut designs = Vec::new();
@@ -74,14 +95,13 @@ impl<'a> TableWriter<'a> {
             derivatives.write(&row)?;
             summary.add(&row);
         }
-        designs.into_iter().try_for_each(CsvFile::finish)?;
-        failures.finish()?;
-        let mut files: Vec<_> = layouts.into_iter().map(|layout| layout.file).collect();
-        files.push(RunFolder::FAILURES.to_owned());
+        let mut files = Vec::new();
+        for (layout, table) in layouts.iter().zip(designs) {
+            files.push((layout.file.clone(), table.finish()?));
+        }
+        files.push((RunFolder::FAILURES.to_owned(), failures.finish()?));
         files.extend(derivatives.finish()?);
         files.extend(changes::write(archive, folder, format)?);
-        folder.remove_tables_but(&files);
-        folder.sync();
         Ok((summary, files))
     }
 }
@@ -107,10 +127,9 @@ impl Derivatives {
         row.derivatives().try_for_each(|derivative| table.write(&derivative))
     }
 
-    /// Puts the table in its place and returns its name, if there is one.
-    fn finish(self) -> Result<Option<String>, OutputError> {
+    /// Puts the table in its place and returns its name and what vouches for it, if there is one.
+    fn finish(self) -> Result<Option<(String, String)>, OutputError> {
         let Some(table) = self.0 else { return Ok(None) };
-        table.finish()?;
-        Ok(Some(RunFolder::SENSITIVITY.to_owned()))
+        Ok(Some((RunFolder::SENSITIVITY.to_owned(), table.finish()?)))
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng as _;
-use run::{Options, Program, RunError, Start};
+use run::{Options, Program, RunError, Start, WorkMeter};
 use sweep::{Subset, Sweep};
 
 /// Half a hundred designs; some of their punctures stop early.
@@ -30,6 +30,7 @@ pub fn resume(folder: &Path) -> Result<(), RunError> {
         fail_fast: false,
         tables_every: Duration::MAX,
         stop: &stop,
+        work: &WorkMeter::default(),
     };
     let program = Program { version: "0", revision: "none" };
     let all = Subset::default();

@@ -51,7 +51,7 @@ fn forty_designs_of_the_paper_sweep_are_as_the_reference_has_them() {
             let number = sweep.grid().number(index);
             let row = evaluator.solve(number, &sweep.grid().case(index)).row;
             let cells: Vec<_> =
-                columns.iter().map(|c| (c.name, c.cell(&row).to_string())).collect();
+                columns.iter().map(|c| (c.name.as_ref(), c.cell(&row).to_string())).collect();
             let wrong = differences(&cells, &reference, usize::try_from(index).expect("a row"));
             wrong.into_iter().map(|text| format!("{number}: {text}")).collect::<Vec<_>>()
         })

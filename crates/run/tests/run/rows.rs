@@ -25,7 +25,7 @@ fn rows(axes: &[(&str, Vec<f64>)]) -> BTreeSet<Vec<String>> {
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep");
     let (evaluator, mut columns) = (Evaluator::new(sweep.measures()), design_columns(&sweep));
     columns.retain(|column| column.name != "design");
-    columns.sort_by_key(|column| column.name);
+    columns.sort_by(|a, b| a.name.cmp(&b.name));
     let row = |index| {
         let row = evaluator.solve(sweep.grid().number(index), &sweep.grid().case(index)).row;
         columns.iter().map(|column| column.cell(&row).to_string()).collect()

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 use solver::Path;
 
+use super::PuncturePoint;
+use super::fold::Fold;
 use super::system::Chain;
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
@@ -12,7 +14,7 @@ use crate::record::{Record, Skin};
 pub struct PunctureMeasures {
     /// `F_c* = F (1−ν²)/(E_s L t)` at the critical tilt.
     pub critical_force: Option<f64>,
-    /// Largest `F*` up to the critical tilt.
+    /// Largest `F*` up to the critical tilt, or up to where the path stopped.
     pub peak_force: Option<f64>,
     /// `u_c* = u/t` of the punctured point at the critical tilt.
     pub critical_displacement: Option<f64>,
@@ -34,19 +36,48 @@ pub struct PunctureMeasures {
     pub max_stiffness: Option<f64>,
     /// Secant `K*` at the critical tilt.
     pub secant_stiffness: Option<f64>,
+    /// `u*` at the largest `F*`.
+    pub peak_displacement: Option<f64>,
+    /// Tilt of the punctured scale at the largest `F*`, degrees.
+    pub peak_tilt_deg: Option<f64>,
+    /// Whether the row is stable at the critical tilt if the load is held.
+    pub stable_under_load: Option<bool>,
+    /// Whether the row is stable at the critical tilt if the depth of the punctured point is held.
+    pub stable_under_depth: Option<bool>,
+    /// `F*` up to which the path is stable if the load is held; `None` if all of it is.
+    pub load_stability_force: Option<f64>,
+    /// `F*` up to which the path is stable if the depth is held; `None` if all of it is.
+    pub depth_stability_force: Option<f64>,
+    /// Snaps of the row under a needle that only goes deeper.
+    #[serde(default)]
+    pub snaps: usize,
+    /// Stretch of the tightest gap at the critical tilt (V1).
+    pub gap_stretch_min: Option<f64>,
+    /// Stretch of the widest gap at the critical tilt.
+    pub gap_stretch_max: Option<f64>,
+    /// `F*` at the first fold of the surface (V2).
+    pub fold_force: Option<f64>,
+    /// `u*` at the first fold.
+    pub fold_displacement: Option<f64>,
+    /// Tilt of the punctured scale at the first fold, degrees.
+    pub fold_tilt_deg: Option<f64>,
+    /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
+    pub sound_force: Option<f64>,
 }
 
 impl PunctureMeasures {
     /// The measures of a path that came to its end. Stiffness is measured in `E_s t`, the force in `E* t²`.
-    pub(crate) fn new(record: &Record<Chain>, path: &mut Path<Chain>) -> Self {
+    pub(crate) fn new(record: &Record<Chain>, folds: &[Fold], path: &mut Path<Chain>) -> Self {
         let max_stiffness = record.largest_stiffness(path);
         let (chain, state) = (path.system(), &path.point().state);
         let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);
+        let peak = peak(&record.path);
         let scales = 0..chain.layout.scales();
+        let fold = folds.first().map(|fold| fold.point);
         let nodes = scales.clone().map(|i| -chain.displacement(&state.z, i)[1]);
         Self {
             critical_force: Some(end.force),
-            peak_force: record.path.iter().map(|point| point.force).reduce(f64::max),
+            peak_force: peak.map(|point| point.force),
             critical_displacement: Some(end.displacement),
             penetration: scales.map(|i| chain.base_depth(&state.z, i)).reduce(f64::max),
             sink: nodes.reduce(f64::max),
@@ -57,18 +88,43 @@ impl PunctureMeasures {
             initial_stiffness: Some(modulus * record.initial_stiffness()),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
+            peak_displacement: peak.map(|point| point.displacement),
+            peak_tilt_deg: peak.map(|point| point.tilt_deg),
+            gap_stretch_min: end.gap_stretch.map(|stretch| stretch.min),
+            gap_stretch_max: end.gap_stretch.map(|stretch| stretch.max),
+            fold_force: fold.map(|fold| fold.force),
+            fold_displacement: fold.map(|fold| fold.displacement),
+            fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
+            sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
+            ..Self::default()
         }
     }
 
-    /// The measures of the beginning of a path, for one that did not end as it should.
+    /// The measures of the beginning and of the peak of a path, for one that did not end as it should.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
             first_contact_displacement: self.first_contact_displacement,
             scales: self.scales,
             initial_stiffness: self.initial_stiffness,
+            peak_force: self.peak_force,
+            peak_displacement: self.peak_displacement,
+            peak_tilt_deg: self.peak_tilt_deg,
+            load_stability_force: self.load_stability_force,
+            depth_stability_force: self.depth_stability_force,
+            snaps: self.snaps,
+            fold_force: self.fold_force,
+            fold_displacement: self.fold_displacement,
+            fold_tilt_deg: self.fold_tilt_deg,
             ..Self::default()
         }
     }
+}
+
+/// The first point of the largest force; `None` if the path never left its beginning. Extrema of the load are points of the path,
+/// so that this is the peak itself.
+fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
+    let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
+    path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })
 }
 
 /// Scales that touch a neighbour, from which pairs are `touching`.

@@ -1,5 +1,6 @@
 //! Equilibria of a row as they are recorded.
 
+use super::fold::GapStretch;
 use super::system::Chain;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
@@ -20,6 +21,8 @@ pub struct PuncturePoint {
     /// Elastic energy of the contacts, over `E* t³`. With that of the substrate it is the work
     /// `∫ F du` of the load.
     pub contact_energy: f64,
+    /// Stretch of the tightest and of the widest gap; `None` for a single scale.
+    pub gap_stretch: Option<GapStretch>,
 }
 
 /// One scale at the end of the path.
@@ -51,6 +54,7 @@ impl Skin for Chain {
             contacts: Contacts::closed(state),
             substrate_energy: self.substrate_energy(state),
             contact_energy: self.contacts.energy(state),
+            gap_stretch: self.gap_stretches(state),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Derivatives of the measures of a puncture.
 
 use geometry::OutOfRange;
-use solver::Path;
+use solver::{Anchor, Path};
 use substrate::RowStiffness;
 
 use super::system::{Chain, Layout};
@@ -57,8 +57,8 @@ impl Problem<'_> {
         followed: &mut Followed,
         variations: &[Variation<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let Followed { record, path, .. } = followed;
-        let spots = self.spots(record, path);
+        let Followed { record, folds, path, .. } = followed;
+        let spots = self.spots(record, path, !folds.is_empty());
         let system = path.system();
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
@@ -67,7 +67,12 @@ impl Problem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(&self, record: &Record<Chain>, path: &mut Path<Chain>) -> Vec<Spot<Chain>> {
+    fn spots(
+        &self,
+        record: &Record<Chain>,
+        path: &mut Path<Chain>,
+        folds: bool,
+    ) -> Vec<Spot<Chain>> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = stiffest
@@ -75,12 +80,15 @@ impl Problem<'_> {
         let highest = record.summit(path, LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
+        // The place of a smooth maximum moves along the path, and what is not the largest there with it.
+        let moves = highest.as_ref().is_none_or(|place| place.anchor == Anchor::Still);
+        let at_peak = at_peak(!moves);
         let chain = path.system();
         let touching = record.touching().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| Spot { place, quantities };
         vec![
-            spot(Some(end(path)), at_end()),
-            spot(highest, vec![Quantity { measure: "peak_force", ..at_end().remove(0) }]),
+            spot(Some(end(path)), at_end(folds)),
+            spot(highest, at_peak),
             spot(touching, vec![depth("first_contact_displacement")]),
             spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
             spot(stiffest, vec![stiffness("max_stiffness")]),
@@ -101,10 +109,27 @@ impl PunctureInput {
     }
 }
 
-/// The quantities at the critical tilt.
-fn at_end() -> Vec<Quantity<Chain>> {
+/// The quantities at the largest force, those besides it only where its place is known to first order.
+fn at_peak(with_place: bool) -> Vec<Quantity<Chain>> {
+    let mut quantities = vec![force("peak_force")];
+    if with_place {
+        let tilt = |chain: &Chain, state: &SkinState, _: &[f64], _| chain.angle_deg(state);
+        quantities.extend([depth("peak_displacement"), quantity("peak_tilt_deg", tilt)]);
+    }
+    quantities
+}
+
+/// The quantities at the critical tilt. The force there is one that the model can answer for unless the surface folds.
+fn at_end(folds: bool) -> Vec<Quantity<Chain>> {
+    let sound = (!folds).then(|| force("sound_force"));
+    let mut quantities = critical();
+    quantities.extend(sound);
+    quantities
+}
+
+fn critical() -> Vec<Quantity<Chain>> {
     vec![
-        quantity("critical_force", |chain, state, _, _| chain.force(state)),
+        force("critical_force"),
         depth("critical_displacement"),
         Quantity {
             largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
@@ -117,7 +142,37 @@ fn at_end() -> Vec<Quantity<Chain>> {
         quantity("secant_stiffness", |chain, state, _, _| {
             chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
         }),
+        Quantity {
+            largest: Some(|chain, state| extreme(chain, state, -1.0)),
+            ..quantity("gap_stretch_min", |chain, state, _, pair| stretch(chain, state, pair, -1.0))
+        },
+        Quantity {
+            largest: Some(|chain, state| extreme(chain, state, 1.0)),
+            ..quantity("gap_stretch_max", |chain, state, _, pair| stretch(chain, state, pair, 1.0))
+        },
     ]
+}
+
+/// The pair whose gap is stretched most, or least with the `sign` −1. Beyond the last pair there are those that are not solved for.
+fn extreme(chain: &Chain, state: &SkinState, sign: f64) -> usize {
+    let pairs = chain.layout.scales() - 1;
+    let signed = |pair: usize| sign * chain.gap_stretch(state, pair);
+    let within = (0..pairs).max_by(|&i, &j| signed(i).total_cmp(&signed(j)));
+    let beyond = sign * stretch(chain, state, pairs, sign);
+    within.filter(|&pair| signed(pair) >= beyond).unwrap_or(pairs)
+}
+
+/// The stretch of the gap of a pair, or the largest or least of all for a pair that is not solved for.
+fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
+    if pair < chain.layout.scales() - 1 {
+        return chain.gap_stretch(state, pair);
+    }
+    let all = chain.gap_stretches(state);
+    all.map_or(f64::NAN, |all| if sign > 0.0 { all.max } else { all.min })
+}
+
+fn force(measure: &'static str) -> Quantity<Chain> {
+    quantity(measure, |chain, state, _, _| chain.force(state))
 }
 
 fn quantity(

@@ -67,6 +67,11 @@ impl Layout {
         }
     }
 
+    /// The scale that an unknown belongs to; of a contact force the left one of its pair.
+    pub(crate) fn scale_of(self, unknown: usize) -> usize {
+        (unknown - usize::from(unknown > self.load())) / BLOCK
+    }
+
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
     fn units(self, direct: [f64; 3]) -> Vec<f64> {
         let mut units = vec![1.0; self.size()];
@@ -95,12 +100,14 @@ pub(crate) struct Chain {
     pub(crate) length: f64,
     /// `E*/E_s`, in which stiffness is measured.
     pub(crate) plane_modulus: f64,
-    half_base: f64,
+    pub(super) half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
-    direct: [f64; 3],
+    pub(super) direct: [f64; 3],
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
     /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
-    neighbours: Vec<Neighbour>,
+    pub(super) neighbours: Vec<Neighbour>,
+    /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
+    pub(super) bars: Option<f64>,
     /// The row beyond the ends, if this one is a part of an endless row; forces as above.
     surroundings: Option<Surroundings>,
     /// From the node of the punctured scale to the loaded point.
@@ -143,6 +150,7 @@ impl Chain {
             half_base: a,
             direct,
             neighbours: neighbours.collect(),
+            bars: None,
             surroundings: None,
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
@@ -162,6 +170,12 @@ impl Chain {
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
         let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
         self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
+    }
+
+    /// Stretches of the gaps beyond the ends of a part of an endless row, the limit far away among them; none of a row that ends.
+    pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
+        let beyond = |surroundings: &Surroundings| surroundings.stretches(self, z);
+        self.surroundings.as_ref().map_or_else(Vec::new, beyond)
     }
 
     fn far_field(&self) -> Option<&FarField> {
@@ -192,10 +206,20 @@ impl Chain {
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
 
+    /// From the node of the punctured scale to the loaded point, deformed.
+    pub(crate) fn loaded_arm(&self, z: &[f64]) -> Vec2 {
+        self.contacts.pose(z, self.layout.left).turn(self.load_arm)
+    }
+
+    /// Scales on each side that a scale is coupled with, by the substrate or by contact.
+    pub(crate) fn coupled_scales(&self) -> usize {
+        self.neighbours.len().max(1)
+    }
+
     /// Derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         -(direction[at + 1] + arm.x * direction[at + 2])
     }
 
@@ -205,8 +229,8 @@ impl Chain {
         self.half_base * rotation.sin().abs() - y
     }
 
-    /// Reaction of the substrate on a scale (force and moment), opposed to its displacement: minus
-    /// the `F_x, F_y, M` of Eq. (1), or of (S9).
+    /// Reaction of the linear substrate on a scale (force and moment), opposed to its displacement: minus
+    /// the `F_x, F_y, M` of Eq. (1), or of (S9). Bars change the force along the row and the moment.
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
         let own = self.displacement(z, scale);
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
@@ -224,7 +248,7 @@ impl Chain {
     }
 
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
-    fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
+    pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             for k in 0..3 {
@@ -258,13 +282,13 @@ impl Chain {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Elastic energy of the springs, over `E* t³`.
+    /// Elastic energy of springs and bars, over `E* t³`.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
         let springs = (0..self.layout.scales()).map(|i| {
             let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
             -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
         });
-        springs.sum()
+        springs.sum::<f64>() + self.bar_energy(&state.z)
     }
 }
 
@@ -277,7 +301,7 @@ impl System for Chain {
 
     fn half_bandwidth(&self) -> usize {
         // From x of a scale to φ of the last that it is coupled with, with the load between them.
-        BLOCK * self.neighbours.len().max(1) + 3
+        BLOCK * self.coupled_scales() + 3
     }
 
     fn blocks(&self) -> Option<&Blocks> {
@@ -286,6 +310,10 @@ impl System for Chain {
 
     fn load(&self) -> usize {
         self.layout.load()
+    }
+
+    fn load_only_pushes(&self) -> bool {
+        true
     }
 
     fn controls(&self) -> &[Control] {
@@ -315,8 +343,9 @@ impl System for Chain {
             residual.add(row, value * z[column]);
             matrix.add(row, column, value);
         });
+        self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         let at = self.layout.scale(self.layout.left);
-        let arm = self.contacts.pose(z, self.layout.left).turn(self.load_arm);
+        let arm = self.loaded_arm(z);
         residual.add(at + 1, z[load]);
         residual.add(at + 2, z[load] * arm.x);
         matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);

@@ -6,7 +6,7 @@
 
 use geometry::{Corner, OutOfRange, Vec2};
 use solver::{Change, Event};
-use substrate::{FarField, RowStiffness};
+use substrate::{FarField, RowStiffness, Strip, SubstrateLaw};
 
 use super::Rows;
 use super::system::{Chain, Layout};
@@ -24,6 +24,14 @@ const LOOKED_AT: usize = 12;
 
 /// Where nothing is known of the scales beyond an end, it must not move by more than this (over `t`; radians).
 const STILL: f64 = 1e-6;
+
+/// Force of bars beyond an end, above that of the springs that stand for them there, up to which the bars count as springs: over
+/// the stiffness of a scale, so it is a displacement (over `t`).
+const AS_SPRINGS: f64 = 1e-9;
+
+/// Part to which displacements decay from the scales that a row of bars begins with, besides those of a row of springs, to its
+/// ends.
+const DECAYED: f64 = 1e-3;
 
 /// Part of the distance to the next scale which, when closed, lets the row grow.
 const EARLY: f64 = 0.5;
@@ -44,6 +52,8 @@ pub(crate) enum Reach {
 pub(crate) struct Surroundings {
     /// How the scales beyond move; `None` if they are taken to be at rest.
     far: Option<FarField>,
+    /// Widths of the gaps beyond the left and the right end, from the nearest on.
+    gaps: [[f64; LOOKED_AT]; 2],
     /// Displacements of the left and of the right end, over `t`, that can close a gap beyond them.
     closing: [f64; 2],
     /// Distance of the farthest corner of a scale from its node.
@@ -61,7 +71,8 @@ impl Surroundings {
         layout: Layout,
     ) -> Result<Self, OutOfRange> {
         let Some(far) = stiffness.far_field() else {
-            return Ok(Self { far: None, closing: [STILL; 2], arm: 1.0 });
+            let gaps = [[f64::INFINITY; LOOKED_AT]; 2];
+            return Ok(Self { far: None, gaps, closing: [STILL; 2], arm: 1.0 });
         };
         let wider = Layout { left: layout.left + LOOKED_AT, right: layout.right + LOOKED_AT };
         let row = rows.row(wider)?;
@@ -77,7 +88,11 @@ impl Surroundings {
         let scale = row.scale(LOOKED_AT);
         let arm = |corner| Vec2::norm(&scale.corner(corner));
         let arm = arm(Corner::TopLeft).max(arm(Corner::TopRight));
-        Ok(Self { far: Some(far), closing, arm })
+        let gaps = [
+            std::array::from_fn(|k| row.gap(LOOKED_AT - 1 - k)),
+            std::array::from_fn(|k| row.gap(last + k)),
+        ];
+        Ok(Self { far: Some(far), gaps, closing, arm })
     }
 
     /// How the scales beyond move; `None` if they are taken to be at rest.
@@ -99,8 +114,11 @@ impl Surroundings {
         let last = chain.layout.scales() - 1;
         let [left, right] = Contacts::touching_at_ends(state);
         [(0, left, 0), (last, right, 1)].map(|(end, touches, side)| {
-            let [x, y, rotation] = chain.displacement(&state.z, end).map(f64::abs);
-            let part = (x + y + self.arm * rotation) / self.closing[side];
+            let displacement = chain.displacement(&state.z, end);
+            let [x, y, rotation] = displacement.map(f64::abs);
+            let close = (x + y + self.arm * rotation) / self.closing[side];
+            let excess = |far| chain.excess_beyond(displacement, far, &self.gaps[side]);
+            let part = close.max(self.far.as_ref().map_or(0.0, excess) / AS_SPRINGS);
             match part {
                 1.0.. => Reach::Beyond,
                 EARLY.. => Reach::Near,
@@ -109,14 +127,34 @@ impl Surroundings {
             }
         })
     }
+
+    /// Stretches of the gaps beyond the ends of a `chain`, and 1, that of a gap far away. Beyond those that are looked at all are
+    /// closer to 1.
+    pub(super) fn stretches(&self, chain: &Chain, z: &[f64]) -> Vec<f64> {
+        let mut stretches = vec![1.0];
+        if self.far.is_none() {
+            return stretches;
+        }
+        let last = chain.layout.scales().cast_signed() - 1;
+        for (side, gaps) in self.gaps.iter().enumerate() {
+            stretches.extend((0..).zip(gaps).map(|(distance, &width)| {
+                let left = if side == 0 { -1 - distance } else { last + distance };
+                let strip = Strip { width, half_base: chain.half_base };
+                let [left, right] = [left, left + 1].map(|k| chain.displacement_anywhere(z, k));
+                strip.stretch(left, right)
+            }));
+        }
+        stretches
+    }
 }
 
 impl Layout {
     /// The row with which a path begins.
-    pub(super) fn first(stiffness: &RowStiffness) -> Self {
-        let side = match stiffness.far_field() {
-            Some(_) => FIRST_SCALES,
-            None => still_beyond(stiffness),
+    pub(super) fn first(stiffness: &RowStiffness, law: SubstrateLaw) -> Self {
+        let side = match (stiffness.far_field(), law) {
+            (Some(_), SubstrateLaw::Linear) => FIRST_SCALES,
+            (Some(far), SubstrateLaw::NeoHookean) => FIRST_SCALES + decayed_beyond(&far),
+            (None, _) => still_beyond(stiffness),
         };
         Self { left: side, right: side }
     }
@@ -129,6 +167,13 @@ impl Layout {
         let right = right.min(room);
         Self { left: self.left + left.min(room - right), right: self.right + right }
     }
+}
+
+/// Scales over which displacements along a linear chain decay to a small part.
+fn decayed_beyond(far: &FarField) -> usize {
+    let x = far.decay[0].abs();
+    let decayed = (1_u8..50).find(|&n| x.powi(i32::from(n)) <= DECAYED);
+    decayed.map_or(50, usize::from)
 }
 
 /// Scales on each side of the punctured one beyond which no scale moves while none touch: a displacement decays along the chain by

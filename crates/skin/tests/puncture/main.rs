@@ -9,11 +9,17 @@
 //! | `rows` | rows of any length, and those that `Auto` chooses |
 //! | `scaling` | changes of units that must change nothing |
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
+//! | `folds` | where the surface of the substrate folds over |
+//! | `neo_hookean` | a substrate whose surface cannot fold over |
 //! | `outputs` | what the measures, events and scales mean |
+//! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
+mod ends;
 mod first_contact;
+mod folds;
 mod isolated_scale;
+mod neo_hookean;
 mod outputs;
 mod robustness;
 mod rows;
@@ -45,6 +51,8 @@ fn assert_same_measures(ours: &PunctureMeasures, theirs: &PunctureMeasures, max_
         [
             m.critical_force,
             m.peak_force,
+            m.peak_displacement,
+            m.peak_tilt_deg,
             m.critical_displacement,
             m.penetration,
             m.sink,

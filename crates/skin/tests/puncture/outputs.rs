@@ -106,7 +106,7 @@ fn every_point_of_the_path_has_its_iterations() {
     }
 }
 
-/// Of a path that stops only the values of its beginning are left.
+/// Of a path that stops only the values of its beginning and of its peak are left.
 #[test]
 fn a_path_that_stops_keeps_how_it_began() {
     let solver = Settings { max_points: 20, ..Settings::default() };
@@ -116,12 +116,18 @@ fn a_path_that_stops_keeps_how_it_began() {
     assert_eq!(cut.status, Status::Stopped(Stop::TooManyPoints));
     assert_eq!(cut.path.len(), 21);
     assert_eq!(cut.path[..], whole.path[..21]);
+    let cut_path = cut.path;
     let (cut, whole) = (cut.measures, complete(&whole));
     assert!(cut.first_contact_displacement.is_some());
     assert_eq!(cut.first_contact_displacement, whole.first_contact_displacement);
     assert_eq!(cut.initial_stiffness, whole.initial_stiffness);
     assert_eq!(cut.scales, 41);
-    assert_eq!(cut.critical_force.or(cut.peak_force).or(cut.critical_displacement), None);
+    let peak = cut_path.iter().max_by(|a, b| a.force.total_cmp(&b.force)).unwrap();
+    assert_eq!(
+        [cut.peak_force, cut.peak_displacement, cut.peak_tilt_deg],
+        [peak.force, peak.displacement, peak.tilt_deg].map(Some)
+    );
+    assert_eq!(cut.critical_force.or(cut.critical_displacement), None);
     assert_eq!(cut.penetration.or(cut.sink).or(cut.max_stiffness).or(cut.secant_stiffness), None);
     assert_eq!(cut.contacts.or(cut.engaged_scales), None);
 }

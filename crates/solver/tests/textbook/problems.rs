@@ -9,6 +9,7 @@ pub struct Smooth<const N: usize> {
     pub controls: Vec<Control>,
     pub equations: fn(&[f64]) -> Vec<f64>,
     pub derivatives: fn(&[f64]) -> Vec<[f64; N]>,
+    pub load_only_pushes: bool,
 }
 
 impl<const N: usize> System for Smooth<N> {
@@ -24,6 +25,10 @@ impl<const N: usize> System for Smooth<N> {
 
     fn load(&self) -> usize {
         N - 1
+    }
+
+    fn load_only_pushes(&self) -> bool {
+        self.load_only_pushes
     }
 
     fn controls(&self) -> &[Control] {
@@ -59,7 +64,13 @@ pub fn arch() -> Smooth<2> {
         controls: controls(&[(0, 2.5)]),
         equations: |z| vec![z[0] * (1.0 - z[0]) * (2.0 - z[0]) - z[1]],
         derivatives: |z| vec![[3.0 * z[0] * z[0] - 6.0 * z[0] + 2.0, -1.0]],
+        load_only_pushes: false,
     }
+}
+
+/// The arch under a load that only pushes: it comes back to zero at `u = 1`.
+pub fn pushed_arch() -> Smooth<2> {
+    Smooth { load_only_pushes: true, ..arch() }
 }
 
 /// Stiffness of the spring of [`arch_on_spring`].
@@ -76,6 +87,7 @@ pub fn arch_on_spring() -> Smooth<3> {
         derivatives: |z| {
             vec![[3.0 * z[0] * z[0] - 6.0 * z[0] + 2.0, 0.0, -1.0], [-SPRING, SPRING, -1.0]]
         },
+        load_only_pushes: false,
     }
 }
 
@@ -85,6 +97,7 @@ pub fn circle() -> Smooth<2> {
         controls: controls(&[(0, 2.0), (1, 2.0)]),
         equations: |z| vec![z[0] * z[0] + z[1] * z[1] - 1.0],
         derivatives: |z| vec![[2.0 * z[0], 2.0 * z[1]]],
+        load_only_pushes: false,
     }
 }
 
@@ -94,6 +107,7 @@ pub fn step() -> Smooth<2> {
         controls: controls(&[(0, 1.0)]),
         equations: |z| vec![(4.0 * (z[0] - 0.6)).tanh() - z[1]],
         derivatives: |z| vec![[4.0 / (4.0 * (z[0] - 0.6)).cosh().powi(2), -1.0]],
+        load_only_pushes: false,
     }
 }
 
@@ -103,6 +117,7 @@ pub fn parabola() -> Smooth<2> {
         controls: controls(&[(0, 1.0)]),
         equations: |z| vec![z[1] * z[1] - z[0]],
         derivatives: |z| vec![[-1.0, 2.0 * z[1]]],
+        load_only_pushes: false,
     }
 }
 
@@ -112,6 +127,7 @@ pub fn root() -> Smooth<2> {
         controls: controls(&[(0, 1.0)]),
         equations: |z| vec![(0.5 - z[0]).sqrt() - z[1]],
         derivatives: |z| vec![[-0.5 / (0.5 - z[0]).sqrt(), -1.0]],
+        load_only_pushes: false,
     }
 }
 
@@ -121,6 +137,7 @@ pub fn jump() -> Smooth<2> {
         controls: controls(&[(0, 1.0), (1, 1.0)]),
         equations: |z| vec![z[0] - f64::from(z[0] > 0.5) - z[1]],
         derivatives: |_| vec![[1.0, -1.0]],
+        load_only_pushes: false,
     }
 }
 
@@ -507,11 +524,23 @@ fn without_mode<M>(state: &State<M>) -> State {
     State { z: state.z.clone(), active: state.active.clone(), mode: () }
 }
 
-/// The kink with a constraint that refuses to become active, and is violated whichever way the path goes.
+/// The kink with a constraint that does not become active.
 #[derive(Clone)]
-pub struct Refusing(pub OneConstraint);
+pub enum Unwilling {
+    /// The constraint is violated whichever way the path goes.
+    Refusing(OneConstraint),
+    /// The constraint cannot change sides.
+    Stuck(OneConstraint),
+}
 
-impl System for Refusing {
+impl Unwilling {
+    fn kink(&self) -> &OneConstraint {
+        let (Self::Refusing(kink) | Self::Stuck(kink)) = self;
+        kink
+    }
+}
+
+impl System for Unwilling {
     type Mode = ();
 
     fn size(&self) -> usize {
@@ -527,7 +556,7 @@ impl System for Refusing {
     }
 
     fn controls(&self) -> &[Control] {
-        &self.0.controls
+        &self.kink().controls
     }
 
     fn constraints(&self) -> &[usize] {
@@ -537,62 +566,23 @@ impl System for Refusing {
     fn mode_at_rest(&self) {}
 
     fn residual(&self, state: &State, residual: &mut Residual) {
-        self.0.residual(state, residual);
+        self.kink().residual(state, residual);
     }
 
     fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
-        self.0.tangent(state, matrix);
+        self.kink().tangent(state, matrix);
     }
 
-    fn slope(&self, _state: &State, _constraint: usize, direction: &[f64]) -> f64 {
-        -direction[0].abs()
+    fn slope(&self, state: &State, constraint: usize, direction: &[f64]) -> f64 {
+        match self {
+            Self::Refusing(_) => -direction[0].abs(),
+            Self::Stuck(kink) => kink.slope(state, constraint, direction),
+        }
     }
 
     fn transition(&self, state: &mut State, change: Change) -> Option<usize> {
         state.active[change.constraint] = false;
-        Some(change.constraint)
-    }
-}
-
-/// The kink with a constraint that cannot change sides.
-#[derive(Clone)]
-pub struct Stuck(pub OneConstraint);
-
-impl System for Stuck {
-    type Mode = ();
-
-    fn size(&self) -> usize {
-        3
-    }
-
-    fn half_bandwidth(&self) -> usize {
-        2
-    }
-
-    fn load(&self) -> usize {
-        2
-    }
-
-    fn controls(&self) -> &[Control] {
-        &self.0.controls
-    }
-
-    fn constraints(&self) -> &[usize] {
-        &[1]
-    }
-
-    fn mode_at_rest(&self) {}
-
-    fn residual(&self, state: &State, residual: &mut Residual) {
-        self.0.residual(state, residual);
-    }
-
-    fn tangent(&self, state: &State, matrix: &mut impl Tangent) {
-        self.0.tangent(state, matrix);
-    }
-
-    fn transition(&self, _state: &mut State, _change: Change) -> Option<usize> {
-        None
+        matches!(self, Self::Refusing(_)).then_some(change.constraint)
     }
 }
 

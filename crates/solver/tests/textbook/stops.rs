@@ -1,16 +1,28 @@
 //! Every way in which a path can end.
 
 use approx::assert_relative_eq;
-use solver::{Condition, Newton, NewtonFailure, Path, Settings, State, Stop};
+use solver::{Condition, Event, Newton, NewtonFailure, Path, Settings, State, Stop};
 
-use crate::follow;
-use crate::problems::{Refusing, Stiff, Stuck, arch, circle, jump, kink, parabola, root};
+use crate::problems::{Stiff, Unwilling, arch, circle, jump, kink, parabola, pushed_arch, root};
+use crate::{extrema, follow, steps};
 
 #[test]
 fn a_path_ends_at_its_target() {
     let (points, stop) = follow(arch(), Settings::default());
     assert_eq!(stop, Stop::Reached);
     assert_relative_eq!(points.last().unwrap().state.z[0], 2.5, max_relative = 1e-12);
+}
+
+#[test]
+fn a_path_whose_load_only_pushes_ends_where_the_load_is_back_at_zero() {
+    for step in [0.01, 0.1, 0.5] {
+        let (points, stop) = follow(pushed_arch(), steps(step));
+        let last = points.last().unwrap();
+        assert_eq!((stop, &last.event), (Stop::Unloaded, &Some(Event::Unloaded)));
+        assert_relative_eq!(last.state.z[0], 1.0, max_relative = 1e-12);
+        assert!(last.state.z[1].abs() < 1e-15);
+        assert_relative_eq!(extrema(&points)[0][1], 2.0 / 27.0_f64.sqrt(), max_relative = 1e-12);
+    }
 }
 
 #[test]
@@ -46,14 +58,14 @@ fn a_path_that_leaves_the_domain_of_its_equations_is_not_finite() {
 
 #[test]
 fn a_constraint_that_never_settles_cycles() {
-    let (points, stop) = follow(Refusing(kink::<5>()), Settings::default());
+    let (points, stop) = follow(Unwilling::Refusing(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Cycling);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
 
 #[test]
 fn a_constraint_that_cannot_change_sides_leaves_no_direction() {
-    let (points, stop) = follow(Stuck(kink::<5>()), Settings::default());
+    let (points, stop) = follow(Unwilling::Stuck(kink::<5>()), Settings::default());
     assert_eq!(stop, Stop::Singular);
     assert!(points.last().unwrap().state.z[0] < 0.5);
 }
@@ -89,6 +101,7 @@ fn newtons_method_says_why_it_fails() {
 fn stops_have_names() {
     let stops = [
         Stop::Reached,
+        Stop::Unloaded,
         Stop::NoConvergence,
         Stop::Singular,
         Stop::TooManyPoints,
@@ -100,6 +113,7 @@ fn stops_have_names() {
         names,
         [
             "reached",
+            "unloaded",
             "no convergence",
             "singular tangent",
             "too many points",

@@ -5,7 +5,7 @@ use crate::parameter::WrongValue;
 use crate::toml_source::{Place, SyntaxError};
 
 /// A definition that cannot run. Each message is one line that names the file, the key, the value
-/// and what would be right.
+/// and what would be right; of a definition that has several errors, all are told.
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidDefinition {
     /// The file cannot be read.
@@ -19,6 +19,9 @@ pub enum InvalidDefinition {
     /// The file is no TOML.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
+    /// Several things are not right: one line for each.
+    #[error("{}", lines(.0))]
+    Several(Vec<Self>),
     /// A key or a value is not right.
     #[error("{place}: {key}: {problem}")]
     Refused {
@@ -29,6 +32,21 @@ pub enum InvalidDefinition {
         /// The problem, and what would be right.
         problem: Box<Problem>,
     },
+}
+
+impl InvalidDefinition {
+    /// Nothing if there are no `errors`; a single one stays as it is.
+    pub(crate) fn of(mut errors: Vec<Self>) -> Result<(), Self> {
+        match errors.len() {
+            0 => Ok(()),
+            1 => Err(errors.swap_remove(0)),
+            _ => Err(Self::Several(errors)),
+        }
+    }
+}
+
+fn lines(errors: &[InvalidDefinition]) -> String {
+    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// A problem with a key.

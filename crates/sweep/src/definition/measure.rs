@@ -11,7 +11,7 @@ use crate::toml_source::Value;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
-    /// The share of the substrate that the scales cover.
+    /// The share of the thickness that scales fill along a vertical line down from the top right corner of a scale.
     Coverage,
     /// The puncture of the middle scale of a row.
     Puncture,

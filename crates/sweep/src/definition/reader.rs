@@ -11,7 +11,10 @@ use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue};
 use crate::toml_source::{KeyValue, Place, Value};
 
-/// A reader of definitions, with the keys that it has understood so far.
+/// Keys that are refused before the rest is left unread: nobody corrects more at a time.
+const MOST: usize = 50;
+
+/// A reader of definitions, with the keys that it has understood so far, and what it has refused.
 #[derive(Debug, Default)]
 pub(crate) struct Reader {
     name: Option<String>,
@@ -19,6 +22,7 @@ pub(crate) struct Reader {
     case: Case,
     shared: Vec<(&'static Parameter, Place)>,
     axes: Vec<WrittenAxis>,
+    refused: Vec<InvalidDefinition>,
 }
 
 /// An axis, and where it stands.
@@ -30,17 +34,30 @@ struct WrittenAxis {
 
 impl Reader {
     /// Understands one key outside of the sections, or one section.
-    pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let wrong = |problem| refuse(&entry.place, &entry.key, Problem::Value(problem));
-        match entry.key.as_str() {
-            "name" => self.name = Some(read_name(&entry.value).map_err(wrong)?),
-            "measures" => {
-                let measures = Measure::read_list(&entry.value);
-                self.measures = Some(measures.map_err(|p| refuse(&entry.place, &entry.key, p))?);
-            }
-            section if suggestion::is_section(section) => return self.section(section, entry),
-            _ => return Err(unknown("", entry)),
+    pub fn entry(&mut self, entry: &KeyValue) {
+        if self.refused.len() >= MOST {
+            return;
         }
+        let understood = match entry.key.as_str() {
+            "name" => self.read_name(entry),
+            "measures" => self.read_measures(entry),
+            section if suggestion::is_section(section) => self.section(section, entry),
+            _ => Err(unknown("", entry)),
+        };
+        self.refused.extend(understood.err());
+    }
+
+    fn read_name(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        // A name that is refused is not missing as well.
+        let name = self.name.insert(String::new());
+        *name = name_of(&entry.value)
+            .map_err(|problem| refuse(&entry.place, &entry.key, Problem::Value(problem)))?;
+        Ok(())
+    }
+
+    fn read_measures(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let measures = Measure::read_list(&entry.value);
+        self.measures = Some(measures.map_err(|p| refuse(&entry.place, &entry.key, p))?);
         Ok(())
     }
 
@@ -51,7 +68,11 @@ impl Reader {
             return Err(refuse(&entry.place, section, WrongValue::NotAccepted { found, expected }));
         };
         for entry in entries {
-            self.parameter(section, entry)?;
+            if self.refused.len() >= MOST {
+                break;
+            }
+            let understood = self.parameter(section, entry);
+            self.refused.extend(understood.err());
         }
         Ok(())
     }
@@ -74,34 +95,32 @@ impl Reader {
         Ok(())
     }
 
-    /// The sweep, once every key of `file` is understood.
-    pub fn finish(self, file: &Place) -> Result<Sweep, InvalidDefinition> {
-        self.check_contradictions()?;
-        self.check_alternatives()?;
-        self.check_steps(file)?;
-        let expected = "the name of the sweep, e.g. name = \"paper\"";
-        let missing = || refuse(file, "name", Problem::Missing { expected });
-        let name = self.name.ok_or_else(missing)?;
+    /// The sweep, once every key of `file` is understood; or everything that is wrong with it.
+    pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
+        let contradictions: Vec<_> = self.contradictions().collect();
+        // A default in the place of a refused step says nothing about the others.
+        let steps = if self.refused.is_empty() { self.check_steps(file) } else { Ok(()) };
+        self.refused.extend(contradictions);
+        self.refused.extend(self.check_alternatives().err());
+        self.refused.extend(steps.err());
+        self.refused.extend(self.name.is_none().then(|| missing_name(file)));
+        InvalidDefinition::of(self.refused)?;
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let axes = axes::ordered(self.axes.into_iter().map(|written| written.axis).collect());
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
-        Ok(Sweep { name, measures, grid })
+        Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid })
     }
 
-    /// Refuses what is set in its section and is an axis too.
-    fn check_contradictions(&self) -> Result<(), InvalidDefinition> {
-        for written in &self.axes {
+    /// Every parameter that is set in its section and is an axis too.
+    fn contradictions(&self) -> impl Iterator<Item = InvalidDefinition> {
+        self.axes.iter().filter_map(|written| {
             let parameter = written.axis.parameter();
-            if let Some((_, place)) =
-                self.shared.iter().find(|(shared, _)| shared.key == parameter.key)
-            {
-                let value = parameter.get(&self.case).to_toml();
-                let other = format!("designs.{}", parameter.key);
-                let problem = Problem::Contradiction { value, other, place: written.place.clone() };
-                return Err(refuse(place, &parameter.path(), problem));
-            }
-        }
-        Ok(())
+            let (_, place) = self.shared.iter().find(|(shared, _)| shared.key == parameter.key)?;
+            let value = parameter.get(&self.case).to_toml();
+            let other = format!("designs.{}", parameter.key);
+            let problem = Problem::Contradiction { value, other, place: written.place.clone() };
+            Some(refuse(place, &parameter.path(), problem))
+        })
     }
 
     /// Refuses a number of gaps besides the length of the strip.
@@ -181,22 +200,41 @@ fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     refuse(&entry.place, &key, Problem::Unknown { value: entry.value.to_string(), hint })
 }
 
+fn missing_name(file: &Place) -> InvalidDefinition {
+    let expected = "the name of the sweep, e.g. name = \"paper\"";
+    refuse(file, "name", Problem::Missing { expected })
+}
+
+/// Whether Windows keeps the name for a device, whatever follows its first dot.
+fn is_device(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
+    let numbered = |device| {
+        let number = stem.strip_prefix(device).and_then(|rest: &str| {
+            let mut digits = rest.chars();
+            digits.next().filter(|_| digits.next().is_none())
+        });
+        number.is_some_and(|digit| "123456789¹²³".contains(digit))
+    };
+    ["con", "prn", "aux", "nul"].contains(&stem.as_str()) || numbered("com") || numbered("lpt")
+}
+
 /// A name that is a folder on any system.
-fn read_name(value: &Value) -> Result<String, WrongValue> {
+fn name_of(value: &Value) -> Result<String, WrongValue> {
     let allowed = |c: char| c.is_alphanumeric() || "-_.+ ".contains(c);
     match value {
         Value::Text(name)
             if name.chars().next().is_some_and(char::is_alphanumeric)
                 && name.chars().all(allowed)
                 && !name.ends_with([' ', '.'])
-                && name.len() <= 100 =>
+                && name.len() <= 100
+                && !is_device(name) =>
         {
             Ok(name.clone())
         }
         value => Err(WrongValue::NotAccepted {
             found: value.to_string(),
             expected:
-                "a name for a folder: letters, digits, - _ + . and spaces, a letter or digit first"
+                "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"
                     .to_owned(),
         }),
     }

@@ -5,6 +5,9 @@ use std::sync::Arc;
 use crate::parameter::Parameter;
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
+/// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
+const DEEPEST: usize = 8;
+
 /// A key and the value that replaces what the file says.
 ///
 /// ```
@@ -50,6 +53,12 @@ impl Setting {
         let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
         if path.iter().any(String::is_empty) {
             return Err(refuse(format!("`{}` is no key", key.trim())));
+        }
+        if path.len() > DEEPEST {
+            return Err(refuse(format!(
+                "a key of {} parts, and none has more than two",
+                path.len()
+            )));
         }
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
             refuse(format!("`{}` is no TOML value ({message})", value.trim()))

@@ -41,8 +41,13 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
 }
 
-/// The candidate that `key` is a misspelling of, if one is near enough.
+/// The candidate that `key` is the beginning or a misspelling of, if one is near enough.
 pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
+    let goes_on = |candidate: &str| candidate.strip_prefix(key).is_some_and(|r| r.starts_with('_'));
+    // The unit is what is left out most: `gap` is `gap_over_t` before it is `gaps`.
+    if let Some(whole) = candidates.iter().find(|candidate| !key.is_empty() && goes_on(candidate)) {
+        return Some(whole);
+    }
     let typos = |candidate: &str| strsim::damerau_levenshtein(key, candidate);
     let typed = candidates.iter().min_by_key(|candidate| typos(candidate))?;
     if typos(typed) <= key.chars().count() / 3 {
@@ -63,6 +68,9 @@ mod tests {
         assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
         assert_eq!(for_key("contact", "c3"), "expected one of c1, c2");
         assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
+        assert_eq!(for_key("designs", "gap"), "did you mean designs.gap_over_t?");
+        assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");
+        assert_eq!(for_key("flexure", "gap"), "did you mean flexure.gaps?");
         assert_eq!(for_key("scale", "c2"), "did you mean contact.c2?");
         assert_eq!(for_key("", "conatct"), "did you mean contact?");
         assert_eq!(for_key("", "mesures"), "did you mean measures?");

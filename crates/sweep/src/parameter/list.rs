@@ -3,7 +3,7 @@
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
 use skin::puncture::RowLength;
-use substrate::Coupling;
+use substrate::{Coupling, SubstrateLaw};
 
 use crate::parameter::Bound::{Excluded, Included};
 use crate::parameter::{CountRange, Parameter, ParameterKind, Range};
@@ -90,6 +90,19 @@ pub static PARAMETERS: &[Parameter] = &[
             words: &["nearest", "full"],
             get: |c| usize::from(c.coupling == Coupling::Full),
             set: |c, word| c.coupling = [Coupling::Nearest, Coupling::Full][word],
+        },
+    },
+    Parameter {
+        key: "law",
+        section: "substrate",
+        unit: "-",
+        meaning: "how the substrate answers where the gap between two bases is stretched or pressed: by linear springs, or as rubber, which cannot fold over",
+        kind: ParameterKind::Word {
+            words: &["linear", "neo-hookean"],
+            get: |c| usize::from(c.puncture.substrate_law == SubstrateLaw::NeoHookean),
+            set: |c, word| {
+                c.puncture.substrate_law = [SubstrateLaw::Linear, SubstrateLaw::NeoHookean][word];
+            },
         },
     },
     Parameter {

@@ -119,6 +119,27 @@ fn files_that_are_no_toml() {
 }
 
 #[test]
+fn all_errors_are_told_at_once() {
+    let text = "names = 'x'\n[designs]\ngap = 0.1\nslant_deg = [0, 90]\nc1 = 1\n\
+                [contact]\nc1 = 2\nc2 = 0\n[puncture]\nscales = 'many'";
+    insta::assert_snapshot!(refused(text, &["solver.max_step=0"]), @r#"
+    x.toml:1: names: unknown key (its value is "x"), did you mean name?
+    x.toml:3: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?
+    x.toml:4: designs.slant_deg: 90 is out of range, expected an angle of at least 0 and below 90
+    x.toml:8: contact.c2: 0 is out of range, expected a number above 0 and at most 10
+    x.toml:10: puncture.scales: "many" is not accepted, expected a whole number from 1 to 1000000 or "auto"
+    --set solver.max_step=0: solver.max_step: 0 is out of range, expected a fraction above 0 and at most 1
+    x.toml:7: contact.c1: 2 contradicts designs.c1 at x.toml:5, expected one of the two
+    x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
+    "#);
+    let text = "name = x\n[designs]\nslant_deg 30\ngap_over_t = 0.1";
+    insta::assert_snapshot!(refused(text, &[]), @r#"
+    x.toml:1: name = x: not valid TOML (string values must be quoted, expected literal string), expected key = value or [section]
+    x.toml:3: slant_deg 30: not valid TOML (key with no value, expected `=`), expected key = value or [section]
+    "#);
+}
+
+#[test]
 fn settings() {
     let messages = [
         "contact.c3=1",
@@ -134,9 +155,10 @@ fn settings() {
 
 proptest::proptest! {
     #[test]
-    fn any_text_is_a_sweep_or_refused_in_one_line(text in "(name|designs|contact|c1|scales|base|gap_over_t|from|to|step|=|\\.|\\[|\\]|\\{|\\}|'|,|\n| |-|[0-9]|e|x){0,40}") {
+    fn any_text_is_a_sweep_or_refused_in_a_line_for_each_error(text in "(name|designs|contact|c1|scales|base|gap_over_t|from|to|step|=|\\.|\\[|\\]|\\{|\\}|'|,|\n| |-|[0-9]|e|x){0,40}") {
         if let Err(error) = Sweep::parse(&text, "x.toml", &[]) {
-            proptest::prop_assert_eq!(error.to_string().lines().count(), 1);
+            let message = error.to_string();
+            proptest::prop_assert!(message.lines().all(|line| line.starts_with("x.toml")), "{}", message);
         }
     }
 }
@@ -150,4 +172,49 @@ fn a_long_list_with_a_value_twice_is_refused_at_once() {
     let message = all(&[&format!("designs.gap_over_t = [{list}]")]);
     assert!(message.contains("0.000001"), "{message}");
     assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+}
+
+#[test]
+fn names_that_windows_keeps_for_devices_are_refused() {
+    for name in ["con", "NUL", "aux.1", "Com1", "lpt9", "com²", "prn .x"] {
+        let text = format!("name = '{name}'");
+        let error = Sweep::parse(&text, "x.toml", &[]).expect_err("refused").to_string();
+        assert!(error.contains("no device as con or lpt1"), "{error}");
+    }
+    for name in ["control", "com10", "console.1", "lpt", "nul-1"] {
+        let text = format!("name = '{name}'");
+        assert!(Sweep::parse(&text, "x.toml", &[]).is_ok(), "{name}");
+    }
+}
+
+/// The bound is that of a busy machine; both took minutes when they cost the square of their length.
+#[test]
+fn long_lists_and_many_keys_are_read_or_refused_at_once() {
+    let begun = std::time::Instant::now();
+    let values: Vec<_> = (1..=300_000).map(|k| format!("{}", f64::from(k) * 1e-6)).collect();
+    let text = format!("name = 'x'\n[designs]\ngap_over_t = [\n{}\n]", values.join(",\n"));
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
+    assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
+    let twice = text.replace("\n]", ",\n0.1\n]");
+    let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
+    assert!(error.contains("0.1 stands in the list twice"), "{error}");
+    let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
+    let keys = keys.join("\n");
+    let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();
+    assert!(error.starts_with("x.toml:1: key0: unknown key"), "{error}");
+    assert!(begun.elapsed().as_secs() < 20, "{:?}", begun.elapsed());
+}
+
+#[test]
+fn deep_settings_are_refused() {
+    let deep = format!("{}x=1", "a.".repeat(20_000));
+    let error = sweep::Setting::parse(&deep).expect_err("refused").to_string();
+    assert!(error.contains("a key of 20001 parts"), "{}", &error[error.len() - 100..]);
+    for nested in [
+        "[".repeat(20_000),
+        "{a=".repeat(20_000),
+        format!("{}{}", "[".repeat(20_000), "]".repeat(20_000)),
+    ] {
+        assert!(sweep::Setting::parse(&format!("designs.slant_deg={nested}")).is_err());
+    }
 }

@@ -10,14 +10,18 @@ pub fn number() -> DesignNumber {
     Sweep::parse("name = 'x'", "x.toml", &[]).unwrap().grid().number(0)
 }
 
-/// The random design of that number: both bases and both contact laws in turn.
+/// The random design of that number: both bases, both contact laws and both laws of the substrate in turn.
 pub fn random_case(number: u64) -> Case {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     let mut between = |low: f64, high: f64| random.random_range(low..high);
     let mut case = Case::default();
     case.design.base = [Base::L, Base::TwoL][(number % 2) as usize];
     let exchanged = number / 2 % 2 == 1;
-    case.common.law = if exchanged { contact::Law::EXCHANGED } else { contact::Law::PRINTED };
+    let law = &mut case.common.law;
+    (law.c1, law.c2) = if exchanged { (0.23, 1.1) } else { (1.1, 0.23) };
+    if number % 3 == 2 {
+        case.puncture.substrate_law = substrate::SubstrateLaw::NeoHookean;
+    }
     case.design.gap = between(-3.0, 0.0).exp();
     case.design.length = between(-2.3, 0.3).exp();
     case.design.slant_deg = between(2.0, 78.0);

@@ -1,0 +1,54 @@
+//! The report of an audit.
+
+use std::fmt::Write as _;
+
+use run::{Audit, LargestDifference, SecondWay};
+
+use crate::print::{aligned, counted, digits};
+
+/// Columns and contradictions that are listed before the list is cut short.
+const LISTED: usize = 8;
+
+/// Largest relative difference between two ways to solve a design that is none.
+const AGREES: f64 = 1e-3;
+
+/// Whether the two ways agree.
+pub fn agrees(audit: &Audit) -> bool {
+    audit.contradictions.is_empty()
+        && audit.differences.iter().all(|found| found.relative <= AGREES)
+}
+
+/// The largest differences, for people.
+pub fn report(audit: &Audit) -> String {
+    let designs = counted(audit.designs, "design");
+    let mut text =
+        format!("audit: {designs} solved again by another way, largest relative differences\n");
+    let rows: Vec<_> = audit.differences.iter().take(LISTED).map(row).collect();
+    text.push_str(&aligned(&rows));
+    let texts =
+        audit.contradictions.iter().take(LISTED).map(|(column, design, [first, second])| {
+            [column.clone(), format!("design {design}"), format!("{first:?} against {second:?}")]
+        });
+    text.push_str(&aligned(&texts.collect::<Vec<_>>()));
+    let more = audit.contradictions.len().saturating_sub(LISTED);
+    if more > 0 {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}
+
+fn row(found: &LargestDifference) -> [String; 5] {
+    let way = match found.way {
+        SecondWay::SmallerSteps => "steps a tenth as large",
+        SecondWay::Chain => "chain against unit cell",
+    };
+    let [first, second] = found.values.map(digits);
+    let values = format!("{first} against {second}");
+    [
+        digits(found.relative),
+        found.column.clone(),
+        way.to_owned(),
+        format!("design {}", found.design),
+        values,
+    ]
+}

@@ -1,0 +1,67 @@
+//! What a command makes from the tables of a folder, noted there so that `squama status` can tell when it is out of date.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};
+
+/// Digits of the SHA-256 of a path that tell records apart.
+const DIGITS: usize = 8;
+
+/// Notes in the folder `results` that the files `names` in `folder` are a `product` of its tables, made by the command that
+/// this process is.
+pub fn note(
+    results: &VerifiedFolder,
+    product: &str,
+    folder: &Path,
+    names: &[impl AsRef<str>],
+) -> anyhow::Result<()> {
+    let Some(mut derivation) = Derivation::of(results, product, command()) else { return Ok(()) };
+    let inside = own_place(results.path(), folder);
+    for name in names.iter().map(AsRef::as_ref) {
+        let path = folder.join(name);
+        let bytes =
+            fs::read(&path).with_context(|| format!("{}: cannot be read", path.display()))?;
+        derivation.files.insert(key(inside.as_deref(), folder, name), sha256(bytes));
+    }
+    let is_ranking = product == RunFolder::RANKING_RECORD && inside.as_deref() == Some("");
+    let record = if is_ranking { product.to_owned() } else { record(product, &derivation) };
+    let written = derivation.write(&RunFolder::new(results.path()), &record);
+    // Results that belong to somebody else can be used all the same.
+    written.or_else(|error: OutputError| if inside.is_some() { Err(error.into()) } else { Ok(()) })
+}
+
+/// The command that this process is, as a shell takes it.
+fn command() -> String {
+    let words = std::env::args().skip(1).map(|word| shell_word(&word));
+    std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
+}
+
+/// The path of `folder` from within the folder `results`, if it is inside of it.
+fn own_place(results: &Path, folder: &Path) -> Option<String> {
+    let (results, folder) = (absolute(results).ok()?, absolute(folder).ok()?);
+    Some(folder.strip_prefix(results).ok()?.to_string_lossy().into_owned())
+}
+
+/// The absolute path of a folder; without a name it is the one that we are in.
+fn absolute(folder: &Path) -> io::Result<PathBuf> {
+    fs::canonicalize(if folder.as_os_str().is_empty() { Path::new(".") } else { folder })
+}
+
+/// The name of a file in the record: from within the results, or its whole path.
+fn key(inside: Option<&str>, folder: &Path, name: &str) -> String {
+    let path = match inside {
+        Some(place) => Path::new(place).join(name),
+        None => absolute(folder).unwrap_or_else(|_| folder.to_owned()).join(name),
+    };
+    path.to_string_lossy().into_owned()
+}
+
+/// The name of the record of a product, which depends on where its first file is.
+fn record(product: &str, derivation: &Derivation) -> String {
+    let first = derivation.files.keys().next().map_or("", String::as_str);
+    let digest = sha256(first);
+    format!("{product}-{}", digest.get(..DIGITS).unwrap_or_default())
+}

@@ -1,0 +1,73 @@
+//! The ranking of a run, for programs.
+
+use ranking::{RankedDesign, Ranking, Unmet, UnmetRequirement, Weights};
+use results::Results;
+use serde_json::{Map, Value, json};
+
+/// The ranking, with the `top` designs by fitness.
+pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> Value {
+    let preferences = ranking.preferences();
+    let criteria = &preferences.criteria;
+    let left_out = ranking.left_out().iter();
+    let left_out = left_out.map(|(why, count)| json!({ "why": why, "designs": count }));
+    let best = ranking.by_fitness(preferences.weights);
+    let alone = criteria.iter().zip(Weights::alone_among(criteria.len()));
+    let alone = alone.map(|(criterion, weights)| {
+        let mut winner = design(ranking, &ranking.winner(weights));
+        winner["criterion"] = criterion.column.as_ref().into();
+        winner["equally_good"] = ranking.equals(weights).into();
+        winner
+    });
+    let designs = |all: &[RankedDesign<'_>]| -> Vec<_> {
+        all.iter().map(|standing| design(ranking, standing)).collect()
+    };
+    json!({
+        "folder": results.folder(),
+        "designs": results.len(),
+        "ranked": ranking.len(),
+        "left_out": left_out.collect::<Vec<_>>(),
+        "requirements": preferences.requirements.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "criteria": criteria.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "weights": preferences.weights.values(),
+        "scale": preferences.scale.to_string(),
+        "best": designs(&best[..best.len().min(top)]),
+        "as_good_as_the_best": ranking.equals(preferences.weights),
+        "best_by_one_criterion": alone.collect::<Vec<_>>(),
+        "best_for_some_weights": designs(&ranking.winners()),
+        "front": designs(&ranking.front()),
+        "knee": ranking.knee().map(|knee| knee.design().to_owned()),
+    })
+}
+
+/// A design with its standing and its criteria.
+fn design(ranking: &Ranking<'_>, standing: &RankedDesign<'_>) -> Value {
+    let columns = ranking.preferences().criteria.iter().map(|c| c.column.to_string());
+    let values = columns.zip(standing.values().iter().map(|value| Value::from(*value)));
+    json!({
+        "design": standing.design(),
+        "fitness": standing.fitness,
+        "share_of_weights": standing.share(),
+        "values": values.collect::<Map<_, _>>(),
+    })
+}
+
+/// The requirements that no design meets, and the design that comes nearest.
+pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
+    let requirement = |unmet: &UnmetRequirement| {
+        json!({
+            "requirement": unmet.requirement.to_string(),
+            "met_by": unmet.met,
+            "met_without": unmet.met_without,
+            "nearest_has": unmet.nearest,
+            "short_by": unmet.shortfall,
+            "binds": unmet.binds(),
+        })
+    };
+    json!({
+        "folder": results.folder(),
+        "designs": results.len(),
+        "ranked": 0,
+        "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
+        "nearest": unmet.nearest.map(|row| results.design(row).to_owned()),
+    })
+}

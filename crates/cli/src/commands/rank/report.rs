@@ -1,0 +1,257 @@
+//! What `squama rank` prints.
+
+use std::fmt::Write as _;
+
+use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, Weights};
+use results::Results;
+use results::columns::parameter_of;
+
+use crate::print::{aligned, counted, digits};
+
+/// Designs that are listed before a list is cut short.
+const LISTED: usize = 10;
+
+/// The ranking of a run, for people.
+pub struct RankReport<'a> {
+    pub results: &'a Results,
+    pub ranking: &'a Ranking<'a>,
+    /// Designs that are listed by fitness.
+    pub top: usize,
+}
+
+impl RankReport<'_> {
+    pub fn text(&self) -> String {
+        let mut text = self.title();
+        let _ = write!(text, "\n{}", self.best());
+        text.push_str(&self.unfolded());
+        if self.preferences().criteria.len() > 1 {
+            let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
+        }
+        if !self.ranking.winners().is_empty() {
+            let _ = write!(text, "\n{}", self.winners());
+        }
+        let _ = write!(text, "\n{}", self.front());
+        text
+    }
+
+    fn preferences(&self) -> &Preferences {
+        self.ranking.preferences()
+    }
+
+    /// How many designs are ranked, and why the others are not.
+    fn title(&self) -> String {
+        let (ranked, all) = (self.ranking.len(), self.results.len());
+        let folder = self.results.folder().display();
+        let mut text = format!("{folder}: {ranked} of {} ranked\n", designs(all));
+        let left_out = self.ranking.left_out().iter();
+        let rows: Vec<_> =
+            left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();
+        text.push_str(&aligned(&rows));
+        if ranked > 1 {
+            for criterion in self.ranking.ties() {
+                let name = &self.preferences().criteria[criterion].name;
+                let _ = writeln!(text, "  {name} is the same for all of them and does not count");
+            }
+        }
+        text
+    }
+
+    /// The designs that are best by the weights, and how many share the first place.
+    fn best(&self) -> String {
+        let preferences = self.preferences();
+        let best = self.ranking.by_fitness(preferences.weights);
+        let listed: Vec<_> = best.iter().take(self.top).collect();
+        let mut text = match preferences.criteria.as_slice() {
+            [alone] => format!("Best by {}", alone.name),
+            _ => format!("Best by {}", preferences.in_words()),
+        };
+        if preferences.scale != Scale::Paper {
+            let _ = write!(text, ", {} scale", preferences.scale);
+        }
+        let _ = write!(text, "\n{}", self.table(&listed, "fitness", fitness));
+        let equal = self.ranking.equals(preferences.weights);
+        if equal > 0 {
+            let _ = writeln!(text, "  the first {} are equally good", equal + 1);
+        }
+        text
+    }
+
+    /// The best of the designs whose surface has not folded over, if that of the winner has.
+    fn unfolded(&self) -> String {
+        // Tables of an earlier version do not tell.
+        let Ok(fold) = self.results.column("fold_force") else { return String::new() };
+        let best = self.ranking.by_fitness(self.preferences().weights);
+        let is_open = |design: &&RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
+        if best.first().is_none_or(|winner| is_open(&winner)) {
+            return String::new();
+        }
+        let title = "The surface of the substrate folds over under the best design. Best of those under which it does not";
+        let others: Vec<_> = best.iter().filter(is_open).take(1).collect();
+        format!("\n{title}\n{}", self.table(&others, "fitness", fitness))
+    }
+
+    /// The best design by each criterion.
+    fn corners(&self) -> String {
+        let criteria = &self.preferences().criteria;
+        let mut header = self.header("criterion");
+        header.push(String::new());
+        let mut rows = vec![header];
+        for (criterion, weights) in criteria.iter().zip(Weights::alone_among(criteria.len())) {
+            let mut row = self.row(&self.ranking.winner(weights), criterion.name.to_string());
+            row.push(match self.ranking.equals(weights) {
+                0 => String::new(),
+                equal => format!("and {equal} equally good"),
+            });
+            rows.push(row);
+        }
+        aligned(&rows)
+    }
+
+    /// The designs that win most of the weights.
+    fn winners(&self) -> String {
+        let winners = self.ranking.winners();
+        let count = winners.len();
+        let listed: Vec<_> = winners.iter().take(LISTED).collect();
+        let table = self.table(&listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
+        let title = "Best for some weights";
+        format!(
+            "{title}: {}, with their share of all weights\n{table}{}",
+            designs(count),
+            more(count)
+        )
+    }
+
+    /// The Pareto front: how many designs, and of criteria of one's own which, with the knee.
+    fn front(&self) -> String {
+        let front = self.ranking.front();
+        let count = front.len();
+        let title = format!("Beaten by no other in every criterion: {}\n", designs(count));
+        if self.preferences().are_the_papers() || self.preferences().criteria.len() == 1 {
+            return title;
+        }
+        let knee = self.ranking.knee();
+        let is_knee = |s: &RankedDesign<'_>| knee.is_some_and(|knee| knee.row() == s.row());
+        let mut listed: Vec<_> = front.iter().collect();
+        listed.sort_by(|a, b| b.criteria()[0].total_cmp(&a.criteria()[0]));
+        listed.truncate(LISTED.max(self.top));
+        let hidden = knee.filter(|knee| !listed.iter().any(|s| s.row() == knee.row()));
+        let mut rows = vec![self.header("")];
+        rows.extend(listed.iter().copied().chain(&hidden).map(|standing| {
+            let first = if is_knee(standing) { "knee" } else { "" };
+            self.row(standing, first.to_owned())
+        }));
+        let more = count.saturating_sub(rows.len() - 1);
+        let more = if more > 0 { format!("  and {more} more\n") } else { String::new() };
+        format!("{title}{}{more}", aligned(&rows))
+    }
+
+    fn table(
+        &self,
+        standings: &[&RankedDesign<'_>],
+        first: &str,
+        cell: fn(&RankedDesign<'_>) -> String,
+    ) -> String {
+        let mut rows = vec![self.header(first)];
+        rows.extend(standings.iter().map(|standing| self.row(standing, cell(standing))));
+        aligned(&rows)
+    }
+
+    fn header(&self, first: &str) -> Vec<String> {
+        let mut header = vec![first.to_owned()];
+        header.extend(shown_columns(self.results, self.preferences()));
+        header
+    }
+
+    fn row(&self, standing: &RankedDesign<'_>, first: String) -> Vec<String> {
+        let mut row = vec![first];
+        row.extend(shown_cells(self.results, self.preferences(), standing.row()));
+        row
+    }
+}
+
+/// The columns by which people know designs: number, parameters, criteria, and what is required.
+fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
+    let mut columns = vec!["design".to_owned()];
+    columns
+        .extend(results.header().iter().filter(|column| parameter_of(column).is_some()).cloned());
+    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.to_string());
+    let required = preferences.requirements.iter().map(|requirement| requirement.column.clone());
+    for column in criteria.chain(required) {
+        if !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
+    columns
+}
+
+fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
+    let cell = |column: &String| {
+        let text = results.column(column).map_or("", |column| results.text(row, column));
+        match text.parse::<f64>() {
+            Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
+            _ => text.to_owned(),
+        }
+    };
+    shown_columns(results, preferences).iter().map(cell).collect()
+}
+
+/// What to say where no design meets the requirements.
+pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet) -> String {
+    let folder = results.folder().display();
+    let all = designs(results.len());
+    let mut text = format!("{folder}: none of {all} meets all requirements\n");
+    let mut rows =
+        vec![["requirement", "met by", "without it", "nearest has", "short by"].map(str::to_owned)];
+    rows.extend(unmet.requirements.iter().map(|requirement| {
+        let short = match requirement.shortfall {
+            0.0 => "-".to_owned(),
+            short => format!("{:.2} %", 100.0 * short),
+        };
+        [
+            requirement.requirement.to_string(),
+            designs(requirement.met),
+            designs(requirement.met_without),
+            requirement.nearest.map_or_else(|| "no value".to_owned(), digits),
+            short,
+        ]
+    }));
+    let _ = write!(text, "\n{}\n{}", aligned(&rows), binding(unmet));
+    if let Some(row) = unmet.nearest {
+        let table = [shown_columns(results, preferences), shown_cells(results, preferences, row)];
+        let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&table));
+    }
+    text
+}
+
+/// Which requirement stands in the way.
+fn binding(unmet: &Unmet) -> String {
+    let binds = unmet.requirements.iter().filter(|requirement| requirement.binds());
+    let binding: Vec<_> = binds.map(|requirement| requirement.requirement.to_string()).collect();
+    match binding.as_slice() {
+        [] if unmet.requirements.len() > 1 => {
+            "No requirement alone stands in the way: give up two or more.\n".to_owned()
+        }
+        [] => String::new(),
+        [one] => format!("{one} stands in the way: without it, designs meet all the others.\n"),
+        several => {
+            format!(
+                "{} stand in the way: without any one of them, designs meet all the others.\n",
+                several.join(" and ")
+            )
+        }
+    }
+}
+
+/// The line that says how many are not listed.
+fn more(count: usize) -> String {
+    let more = count.saturating_sub(LISTED);
+    if more > 0 { format!("  and {more} more\n") } else { String::new() }
+}
+
+fn fitness(standing: &RankedDesign<'_>) -> String {
+    format!("{:.6}", standing.fitness)
+}
+
+fn designs(count: usize) -> String {
+    counted(count as u64, "design")
+}

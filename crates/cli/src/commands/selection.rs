@@ -1,0 +1,143 @@
+//! The designs that a command looks at: by their numbers, or by their values.
+
+use std::path::Path;
+
+use anyhow::{Context as _, ensure};
+use sweep::{Axis, Case, DesignNumber, Setting, Sweep};
+
+use super::source::{definition_file, settings};
+use crate::args;
+
+/// A design that is looked at.
+pub struct SelectedDesign {
+    /// A sweep of this design alone.
+    pub sweep: Sweep,
+    /// The number of the design in the whole sweep, if it is one of its designs.
+    pub number: Option<DesignNumber>,
+    /// How many designs the sweep has as a whole.
+    pub count: u64,
+    /// The case that the sweep solves under that number, if settings may have changed it.
+    pub original: Option<Case>,
+}
+
+/// The designs that are selected, at least one.
+pub fn select(
+    definition: &args::Definition,
+    selection: &args::Selection,
+) -> anyhow::Result<Vec<SelectedDesign>> {
+    let file = definition_file(&definition.path)?;
+    let settings = settings(definition)?;
+    if selection.numbers.is_empty() {
+        by_values(&file, settings, selection)
+    } else {
+        by_numbers(&file, &settings, &selection.numbers)
+    }
+}
+
+fn by_numbers(
+    file: &Path,
+    settings: &[Setting],
+    numbers: &[String],
+) -> anyhow::Result<Vec<SelectedDesign>> {
+    let sweep = Sweep::read(file, settings)?;
+    let grid = sweep.grid();
+    let original = Sweep::read(file, &[]).ok().filter(|other| other.grid().len() == grid.len());
+    let range = |text: &String| {
+        let range = grid.parse_numbers(text.trim());
+        range.with_context(|| format!("{}: --design {text}", file.display()))
+    };
+    let ranges = numbers.iter().map(range).collect::<anyhow::Result<Vec<_>>>()?;
+    let selected = |index| SelectedDesign {
+        number: Some(grid.number(index)),
+        count: grid.len(),
+        original: original.as_ref().map(|original| original.grid().case(index)),
+        sweep: sweep.only(index),
+    };
+    Ok(ranges.into_iter().flatten().map(selected).collect())
+}
+
+fn by_values(
+    file: &Path,
+    mut settings: Vec<Setting>,
+    selection: &args::Selection,
+) -> anyhow::Result<Vec<SelectedDesign>> {
+    let written = Sweep::read(file, &settings)?;
+    for (option, key, text) in options(selection) {
+        let Some(text) = text else { continue };
+        let option = format!("{option} {text}");
+        let values = values(text, written.grid().axis(key)).context(option.clone())?;
+        settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
+    }
+    let sweep = Sweep::read(file, &settings)?;
+    let whole = Sweep::read(file, &[]).ok();
+    let selected = |index| located(sweep.only(index), whole.as_ref());
+    Ok((0..sweep.grid().len()).map(selected).collect())
+}
+
+/// The options that give values, each with the axis whose values they are.
+fn options(selection: &args::Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
+    [
+        ("--gap", "gap_over_t", selection.gap.as_ref()),
+        ("--length", "length_over_t", selection.length.as_ref()),
+        ("--slant", "slant_deg", selection.slant.as_ref()),
+    ]
+}
+
+/// The values that `text` gives, in TOML: one, several with commas between, or with `..` those of `axis` from one to another.
+fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
+    let Some((low, high)) = text.split_once("..") else {
+        let is_list = text.contains(',') && !text.trim_start().starts_with(['[', '{']);
+        return Ok(if is_list { format!("[{text}]") } else { text.to_owned() });
+    };
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let bounds = number(low).zip(number(high)).map(|(low, high)| low..=high);
+    let bounds = bounds.context("not accepted, expected FROM..TO, e.g. 15..60")?;
+    let axis = axis.map_or(Vec::new(), |axis| (0..axis.len()).map(|i| axis.value(i)).collect());
+    let within = axis.iter().filter(|value| value.number().is_some_and(|n| bounds.contains(&n)));
+    let values: Vec<_> = within.map(|value| value.to_toml()).collect();
+    let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
+    ensure!(!values.is_empty(), "the sweep has no such value, expected some of {}", all.join(" "));
+    Ok(format!("[{}]", values.join(", ")))
+}
+
+/// The one design of `sweep`, with the number that the definition as it is written gives it.
+fn located(sweep: Sweep, whole: Option<&Sweep>) -> SelectedDesign {
+    let found = whole.and_then(|whole| {
+        let grid = whole.grid();
+        let index = grid.find(&sweep.grid().case(0))?;
+        Some((grid.number(index), grid.len(), grid.case(index)))
+    });
+    let (number, count, original) = match found {
+        Some((number, count, case)) => (Some(number), count, Some(case)),
+        None => (None, 1, None),
+    };
+    SelectedDesign { sweep, number, count, original }
+}
+
+impl SelectedDesign {
+    /// The design with everything that it is solved with.
+    pub fn case(&self) -> Case {
+        self.sweep.grid().case(0)
+    }
+
+    /// The number, or the values of a design that has none.
+    pub fn label(&self) -> String {
+        self.number.map_or_else(|| self.values("_", "-"), |number| number.to_string())
+    }
+
+    /// The name of the sweep and of the design.
+    pub fn title(&self) -> String {
+        let name = self.sweep.name();
+        match self.number {
+            Some(number) => format!("{name} design {number}"),
+            None => format!("{name}, {}", self.values(" = ", ", ")),
+        }
+    }
+
+    /// The values on all axes.
+    pub fn values(&self, equals: &str, separator: &str) -> String {
+        let axes = self.sweep.grid().axes().iter();
+        let value = |axis: &Axis| format!("{}{equals}{}", axis.parameter().key, axis.value(0));
+        axes.map(value).collect::<Vec<_>>().join(separator)
+    }
+}

@@ -1,0 +1,85 @@
+//! A definition and the folder of its results: whichever of the two is given, the other is found.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::ensure;
+use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
+use sweep::{InvalidSetting, Setting, Sweep};
+
+use crate::args::Definition;
+
+/// The settings that take the place of what a definition says.
+pub fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {
+    definition.settings.iter().map(|text| Setting::parse(text)).collect()
+}
+
+/// The sweep that is defined, with its settings.
+pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
+    let settings = settings(definition)?;
+    Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
+}
+
+/// The file of the definition, which is as it was written if a run has written it: `path`, or the record of the run in the folder `path`.
+pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
+    if !path.is_dir() {
+        verify_record(path)?;
+        return Ok(path.to_owned());
+    }
+    let record = path.join(RunFolder::RUN_INFO);
+    ensure!(
+        record.is_file(),
+        "{}: holds no {}, expected a sweep definition in TOML or the folder of a run",
+        path.display(),
+        RunFolder::RUN_INFO
+    );
+    verify_record(&record)?;
+    Ok(record)
+}
+
+/// The folder of results: `path`, the folder of the record `path`, or that of the sweep that `path` defines.
+pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
+    if !path.is_file() {
+        return Ok(path.to_owned());
+    }
+    if path.ends_with(RunFolder::RUN_INFO) {
+        return Ok(path.parent().map_or_else(PathBuf::new, Path::to_owned));
+    }
+    let folder = folder_of(&Sweep::read(path, &[])?, None);
+    ensure!(
+        folder.is_dir(),
+        "{}: there are no results in {}, expected those of squama run {0}, or the folder of a run",
+        path.display(),
+        folder.display()
+    );
+    Ok(folder)
+}
+
+/// The results in the folder that `path` stands for, once they are checked.
+pub fn verified_folder(path: &Path, completeness: Completeness) -> anyhow::Result<VerifiedFolder> {
+    Ok(VerifiedFolder::open(&results_folder(path)?, completeness)?)
+}
+
+/// The folder of the results of `sweep` unless told otherwise.
+pub fn folder_of(sweep: &Sweep, out: Option<&Path>) -> PathBuf {
+    out.map_or_else(|| Path::new("results").join(sweep.name()), Path::to_owned)
+}
+
+/// The folder of what is made of some designs, named `what`, unless told otherwise: within the results of their sweep.
+pub fn folder_within(definition: &Definition, sweep: &Sweep, what: &str) -> PathBuf {
+    let path = &definition.path;
+    let results = if path.is_dir() { path.clone() } else { folder_of(sweep, None) };
+    results.join(what)
+}
+
+/// Refuses a file in a folder that does not exist: a mistyped path makes no folders.
+pub fn require_folder_of(option: &str, file: &Path) -> anyhow::Result<()> {
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    ensure!(
+        folder.is_dir(),
+        "{option} {}: there is no folder {}, expected one that exists",
+        file.display(),
+        folder.display()
+    );
+    Ok(())
+}

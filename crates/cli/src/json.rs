@@ -1,0 +1,29 @@
+//! Output for programs.
+
+use results::Cell;
+use serde_json::Value;
+use sweep::Scalar;
+
+/// Prints `value` as JSON.
+pub fn print(value: &Value) -> std::io::Result<()> {
+    crate::print::print(&format!("{value:#}\n"))
+}
+
+/// The value of a parameter.
+pub fn scalar(scalar: Scalar) -> Value {
+    match scalar {
+        Scalar::Number(number) => number.into(),
+        Scalar::Count(count) => count.into(),
+        Scalar::Word(word) => word.into(),
+    }
+}
+
+/// The value of a cell; `null` if there is none.
+pub fn cell(cell: &Cell) -> Value {
+    match cell {
+        Cell::Empty => Value::Null,
+        Cell::Number(number) => (*number).into(),
+        Cell::Count(count) => (*count).into(),
+        Cell::Text(text) => text.as_ref().into(),
+    }
+}

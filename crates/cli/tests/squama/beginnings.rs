@@ -1,0 +1,71 @@
+//! What a person needs who has nothing but the program: definitions, completions, manual pages, its version.
+
+use crate::Place;
+
+#[test]
+fn a_definition_is_written_and_solves() {
+    let place = Place::new();
+    let text = place.prints("init smoke mine.toml");
+    assert_eq!(text, "mine.toml: 12 designs; to solve them: squama run mine.toml\n");
+    let definition = place.read("mine.toml");
+    assert!(definition.contains("name = \"mine\"") && definition.starts_with("# "), "{definition}");
+    assert!(definition.contains("squama run mine.toml     the tables, in results/mine/"));
+    place.squama("run mine.toml -q").assert().code(0);
+    assert!(place.path("results/mine/designs.csv").is_file());
+}
+
+#[test]
+fn every_template_is_valid() {
+    for name in ["paper", "smoke", "gaps", "imperfection", "paper-as-written"] {
+        let place = Place::new();
+        place.prints(&format!("init {name}"));
+        let text = place.prints(&format!("check {name}.toml"));
+        assert!(text.starts_with(&format!("{name}.toml is valid\n")), "{text}");
+        assert!(text.contains(&format!("output    results/{name}\n")) || text.contains(name));
+    }
+}
+
+#[test]
+fn nothing_is_overwritten_or_misplaced() {
+    let place = Place::new();
+    place.prints("init");
+    let before = place.read("paper.toml");
+    insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: is there already, expected the name of a new file, e.g. squama init paper mine.toml");
+    insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere, expected one that exists");
+    insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:6: name: ".hidden" is not accepted, expected a name for a folder: letters, digits, - _ + . and spaces, a letter or digit first"#);
+    insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, gaps, imperfection, paper-as-written], tip: a similar value exists: 'smoke'");
+    assert_eq!((place.read("paper.toml"), place.list(".")), (before, "paper.toml".to_owned()));
+}
+
+#[test]
+fn shells_complete_commands_and_options() {
+    let place = Place::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = place.prints(&format!("completions {shell}"));
+        for word in ["squama", "rerun", "dry-run"] {
+            assert!(script.contains(word), "{shell}: {word}");
+        }
+    }
+}
+
+#[test]
+fn manual_pages_are_written_for_every_command() {
+    let place = Place::new();
+    place.prints("man pages");
+    let pages = place.list("pages");
+    for page in ["squama.1", "squama-run.1", "squama-plot-curves.1"] {
+        assert!(pages.contains(page), "{pages}");
+    }
+    let page = place.read("pages/squama-run.1");
+    assert!(page.contains(".TH") && page.contains("fail\\-fast"), "{page}");
+    assert!(page.contains("squama run sweeps/paper.toml"), "{page}");
+}
+
+#[test]
+fn the_version_has_a_revision() {
+    let text = Place::new().prints("--version");
+    let revision = text.trim_end().rsplit_once(" (").expect("a revision").1;
+    let revision = revision.trim_end_matches(')').trim_end_matches("-dirty");
+    let is_hash = revision.len() == 12 && revision.chars().all(|c| c.is_ascii_hexdigit());
+    assert!(is_hash || revision == "unknown", "{text}");
+}

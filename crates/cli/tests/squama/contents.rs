@@ -1,0 +1,186 @@
+//! What a run states of its folder: results that are not whole, or not as they were written, are noticed by whoever uses
+//! them, and one command mends them.
+
+use std::fs;
+
+use crate::{FEW, Place};
+
+/// The commands that read results, for the folder `r`.
+const READERS: [&str; 5] = [
+    "rank r --out ranked",
+    "compare r r",
+    "export r --xlsx x.xlsx",
+    "plot r --out figures",
+    "report r --out page.html",
+];
+
+/// A place where `r` holds three of eight designs.
+fn incomplete() -> Place {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --shard 1/3 --out shard").assert().code(0);
+    place.squama("merge -q shard --out r").assert().code(1);
+    place
+}
+
+/// Replaces the first `old` in a file by `new`.
+fn change(place: &Place, file: &str, old: &str, new: &str) {
+    let text = place.read(file);
+    let changed = text.replacen(old, new, 1);
+    assert_ne!(text, changed, "{file}");
+    fs::write(place.path(file), changed).expect("writable");
+}
+
+#[test]
+fn a_run_that_is_not_whole_is_used_only_if_that_is_asked_for() {
+    let place = incomplete();
+    for reader in READERS {
+        let message = place.refused(reader);
+        assert!(message.starts_with("error: r: holds 3 of 8 designs, expected all"), "{message}");
+    }
+    assert_eq!(place.list("."), "r shard x.toml", "nothing is written");
+    for reader in READERS {
+        let text = place.prints(&format!("{reader} --partial"));
+        let files = reader.starts_with("plot") || reader.starts_with("report");
+        assert!(files || text.contains("made from 3 of 8 designs"), "{text}");
+    }
+    assert!(place.read("page.html").contains("few (3 of 8 designs)"));
+    assert!(place.read("figures/coverage-maps-by-slant.svg").contains("few (3 of 8 designs)"));
+    // What was made before the others came is out of date once they have.
+    place.squama("run x.toml -q --resume --out r").assert().code(0);
+    let status = place.prints("status r");
+    for product in ["ranking", "workbook", "figures", "page"] {
+        assert!(status.contains(&format!("\n  {product} ")), "{status}");
+    }
+    assert!(status.contains("  squama rank r --out ranked --partial\n"), "{status}");
+    place.prints("rank r --out ranked");
+    assert!(!place.prints("status r").contains("\n  ranking"));
+}
+
+#[test]
+fn a_run_without_a_statement_is_refused() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    fs::remove_file(place.path("r/contents.toml")).expect("a file");
+    for reader in READERS {
+        let message = place.refused(reader);
+        assert!(message.starts_with("error: r: holds a journal but no contents.toml"), "{message}");
+    }
+    place.squama("merge r -q --out r").assert().code(0);
+    for reader in READERS {
+        place.prints(reader);
+    }
+    change(&place, "r/contents.toml", "done = 8", "done = 7");
+    insta::assert_snapshot!(place.refused("rank r"), @"error: r/contents.toml: is not as it was written (its checksum does not match), expected no change; squama merge r --out r writes it again");
+}
+
+#[test]
+fn a_changed_digit_is_noticed_and_mended() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let sound = place.read("r/designs.csv");
+    change(&place, "r/designs.csv", "0.1,0.2,0,0,", "0.1,0.2,0,1,");
+    for reader in READERS {
+        let message = place.refused(reader);
+        assert!(message.starts_with("error: r/designs.csv: is not as it was written"), "{message}");
+    }
+    let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
+    let status = String::from_utf8(status).expect("text");
+    assert!(
+        status.contains("what is wrong\n  r/designs.csv: is not as it was written"),
+        "{status}"
+    );
+    place.squama("merge -q r --out r").assert().code(0);
+    assert_eq!(place.read("r/designs.csv"), sound);
+    place.prints("status r");
+    // A table that one command alone reads.
+    change(&place, "r/penetration.csv", "0001", "0002");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: is not as it was written, expected no change; squama merge r --out r writes it again");
+    // The record of the run is a definition too.
+    place.squama("merge -q r --out r").assert().code(0);
+    change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");
+    for reader in ["design r/run.toml --design 1", "draw r/run.toml --design 1", "run r/run.toml"] {
+        let message = place.refused(reader);
+        assert!(message.starts_with("error: r/run.toml: is not as its run wrote it"), "{message}");
+    }
+}
+
+#[test]
+fn tables_that_the_journal_has_left_behind_are_noticed() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let tables = ["designs.csv", "contents.toml", "run.toml", "critical_force.csv"];
+    let before = tables.map(|table| place.read(&format!("r/{table}")));
+    place.squama("rerun r -q --design 8 --set solver.max_points=3").assert().code(1);
+    let after = place.read("r/critical_force.csv");
+    // As if the rerun had been killed before it wrote its first table, and after that.
+    for (table, text) in tables.iter().zip(&before) {
+        fs::write(place.path("r").join(table), text).expect("writable");
+    }
+    let message = place.refused("rank r");
+    assert!(message.starts_with("error: r: the journal goes on beyond the tables"), "{message}");
+    place.prints("rank r --partial");
+    fs::write(place.path("r/critical_force.csv"), after).expect("writable");
+    let message = place.refused("export r --xlsx x.xlsx --partial");
+    assert!(
+        message.starts_with("error: r/critical_force.csv: is not as it was written"),
+        "{message}"
+    );
+    place.squama("merge -q r --out r").assert().code(1);
+    // The ranking is of the tables before.
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: is made from other tables, expected a ranking of the tables beside it; squama rank r writes it again");
+    place.prints("rank r");
+    place.prints("export r --xlsx x.xlsx");
+    assert!(place.read("r/designs.csv").contains("solver.max_points=3"));
+}
+
+#[test]
+fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    place.prints("rank r");
+    change(&place, "r/pareto.csv", "0006", "0007");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+    fs::remove_file(place.path("r/derived/ranking.toml")).expect("a record");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: its ranking did not come to its end, expected a ranking of the tables beside it; squama rank r writes it again");
+    place.prints("rank r");
+    place.prints("export r --xlsx x.xlsx");
+}
+
+#[test]
+fn what_is_made_from_a_run_goes_with_it() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    for command in ["rank r", "plot r", "report r", "export r --xlsx r/a.xlsx"] {
+        place.prints(command);
+    }
+    let own = place.read("r/figures/coverage-maps-by-slant.svg").replace("few", "mine");
+    fs::write(place.path("r/figures/coverage-maps-by-slant.svg"), &own).expect("writable");
+    let run = place.squama("run x.toml -q --fresh --out r --set contact.c1=2").assert().code(0);
+    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    assert!(said.starts_with("note: removed, because made from the earlier results: "), "{said}");
+    for file in ["ranking.csv", "report.html", "a.xlsx"] {
+        assert!(said.contains(file) && !place.path("r").join(file).exists(), "{file}: {said}");
+    }
+    assert_eq!(
+        place.read("r/figures/coverage-maps-by-slant.svg"),
+        own,
+        "what somebody has changed stays"
+    );
+}
+
+#[test]
+fn lines_that_a_journal_has_lost_are_noticed() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    place.squama("rerun r -q --design 8 --set contact.c1=2").assert().code(0);
+    let journal = place.read("r/journal.jsonl");
+    let end = journal.trim_end().rfind('\n').expect("lines") + 1;
+    fs::write(place.path("r/journal.jsonl"), &journal[..end]).expect("writable");
+    let message = place.refused("rank r");
+    assert!(message.contains("is not the journal that the tables beside it"), "{message}");
+    insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines are missing that it had when its tables were written; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing");
+    let run = place.squama("run x.toml -q --resume --out r").assert().code(0);
+    let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
+    assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines are missing"), "{said}");
+    place.prints("rank r");
+}

@@ -1,0 +1,74 @@
+//! Designs and results, however they are named: by definition or folder, by number, range or value.
+
+use crate::{FEW, Place};
+
+#[test]
+fn a_folder_does_for_a_definition() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let text = place.prints("design r --design 6");
+    assert!(text.starts_with("few: design 0006 of 8\n"), "{text}");
+    assert!(place.path("r/designs/0006/measures.csv").is_file());
+    place.prints("draw r --design 6");
+    place.prints("plot curves r --design 6");
+    assert_eq!(place.list("r/drawings"), "design-0006-puncture-at-critical-tilt.svg");
+    assert!(place.list("r/curves").contains("force-displacement-curves-of-0006.svg"));
+    assert!(place.prints("check r").contains("designs       8\n"));
+    std::fs::create_dir(place.path("empty")).expect("a folder");
+    insta::assert_snapshot!(place.refused("design empty --design 1"), @"error: empty: holds no run.toml, expected a sweep definition in TOML or the folder of a run");
+}
+
+#[test]
+fn a_definition_does_for_a_folder() {
+    let place = Place::with(FEW);
+    insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few, expected those of squama run x.toml, or the folder of a run");
+    place.squama("run x.toml -q").assert().code(0);
+    for command in ["rank", "plot", "report", "status", "rerun --failed --dry-run"] {
+        let by_definition = place.prints(&format!("{command} x.toml"));
+        assert_eq!(by_definition, place.prints(&format!("{command} results/few")), "{command}");
+    }
+    let record = place.prints("rank results/few/run.toml");
+    assert_eq!(record, place.prints("rank results/few"));
+    place.prints("export x.toml --xlsx x.xlsx");
+    assert!(place.prints("compare x.toml results/few").contains("8 designs in both"));
+}
+
+#[test]
+fn designs_are_selected_by_ranges() {
+    let place = Place::with(FEW);
+    place.prints("draw x.toml --design 2-4,8 --out d");
+    let file = |number| format!("design-000{number}-puncture-at-critical-tilt.svg");
+    assert_eq!(place.list("d"), [2, 3, 4, 8].map(file).join(" "));
+    insta::assert_snapshot!(place.refused("draw x.toml --design 4-2"), @"error: x.toml: --design 4-2: there is no design 4-2, expected a number from 1 to 8");
+    insta::assert_snapshot!(place.refused("draw x.toml --design 7-9"), @"error: x.toml: --design 7-9: there is no design 9, expected a number from 1 to 8");
+    insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are asked for, expected one: give a value with --slant …");
+    place.squama("run x.toml -q").assert().code(0);
+    let text = place.prints("rerun x.toml --design 2-4,8 --dry-run");
+    assert!(text.contains("4 designs") && text.contains("0002 0003 0004 0008"), "{text}");
+}
+
+#[test]
+fn designs_are_selected_by_values() {
+    let place = Place::with(FEW);
+    place.prints("draw x.toml --gap 0.1 --length 0.2,1 --slant 20..60 --out d");
+    let file = |number| format!("design-000{number}-puncture-at-critical-tilt.svg");
+    assert_eq!(place.list("d"), [2, 4].map(file).join(" "));
+    place.prints("draw x.toml --gap 0.15 --length 1 --slant 45 --out beside");
+    let beside =
+        "design-gap_over_t_0.15-length_over_t_1-slant_deg_45-puncture-at-critical-tilt.svg";
+    assert_eq!(place.list("beside"), beside);
+    place.prints("plot curves x.toml --gap 0.1 --slant 45 --out c");
+    assert!(place.list("c").contains("force-displacement-curves-of-0002-0004.svg"));
+    insta::assert_snapshot!(place.refused("draw x.toml --slant 10..40"), @"error: --slant 10..40: the sweep has no such value, expected some of 0 45");
+    insta::assert_snapshot!(place.refused("draw x.toml --slant 10..x"), @"error: --slant 10..x: not accepted, expected FROM..TO, e.g. 15..60");
+    insta::assert_snapshot!(place.refused("draw x.toml --slant 1,99"), @"error: --slant 1,99: designs.slant_deg: 99 is out of range, expected an angle of at least 0 and below 90");
+    insta::assert_snapshot!(place.refused("draw x.toml"), @"error: the following required arguments were not provided: <--design <NUMBERS>|--gap <GAP>|--length <LENGTH>|--slant <DEG>>");
+    insta::assert_snapshot!(place.refused("design x.toml"), @"error: the following required arguments were not provided: <--design <NUMBERS>|--gap <GAP>|--length <LENGTH>|--slant <DEG>>");
+}
+
+#[test]
+fn many_designs_have_a_short_name() {
+    let place = Place::with("name = 'x'\n[puncture]\nscales = 5\n[solver]\nmax_points = 3");
+    place.squama("plot curves x.toml --design 1-45 --out c").assert().code(1);
+    assert!(place.list("c").contains("force-displacement-curves-of-0001-to-0045-45-designs.svg"));
+}

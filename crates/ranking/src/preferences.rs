@@ -1,0 +1,254 @@
+//! What a ranking goes by: requirements, criteria, their weights and their scale.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use results::RunFolder;
+use sweep::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
+use sweep::{number, reason};
+
+use crate::criterion::{CRITERIA, Criterion};
+use crate::requirement::Requirement;
+use crate::scale::Scale;
+use crate::weights::{InvalidWeights, MOST_CRITERIA, Weights};
+
+/// What a ranking goes by. The file `ranking.toml` beside the tables holds it.
+///
+/// ```
+/// use ranking::Preferences;
+///
+/// let mut preferences = Preferences::paper();
+/// preferences.requirements.push("coverage >= 0.6".parse()?);
+/// let text = preferences.to_toml();
+/// assert_eq!(Preferences::parse(&text, "ranking.toml")?, preferences);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Preferences {
+    /// Bounds that a design must keep to be ranked.
+    pub requirements: Vec<Requirement>,
+    /// The criteria, at least one.
+    pub criteria: Vec<Criterion>,
+    /// The weights, one for each criterion.
+    pub weights: Weights,
+    /// How criteria are rescaled.
+    pub scale: Scale,
+}
+
+/// Preferences that are none.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InvalidPreferences {
+    /// The number of weights is not that of the criteria.
+    #[error(transparent)]
+    Weights(#[from] InvalidWeights),
+    /// There are no criteria, or too many.
+    #[error("{found} criteria, expected 1 to {MOST_CRITERIA}")]
+    Count {
+        /// The number of criteria.
+        found: usize,
+    },
+    /// A criterion stands there twice.
+    #[error("{column} is a criterion twice, expected it once")]
+    Twice {
+        /// The column.
+        column: String,
+    },
+    /// The file cannot be read.
+    #[error("{file}: cannot be read ({reason}), expected the file that squama rank writes")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// The message of the system.
+        reason: String,
+    },
+    /// The file is no TOML.
+    #[error(transparent)]
+    Syntax(#[from] SyntaxError),
+    /// A key of the file has a value that makes no sense.
+    #[error("{place}: {key}: {problem}")]
+    Key {
+        /// The place of the key.
+        place: Place,
+        /// The key.
+        key: String,
+        /// What is wrong, and what would be right.
+        problem: String,
+    },
+}
+
+impl Preferences {
+    /// The four criteria of the paper, all counting the same, and no requirements.
+    pub fn paper() -> Self {
+        Self {
+            requirements: Vec::new(),
+            criteria: CRITERIA.to_vec(),
+            weights: Weights::BALANCED,
+            scale: Scale::Paper,
+        }
+    }
+
+    /// Preferences with these criteria; all count the same if there are no weights.
+    ///
+    /// # Errors
+    /// If there are no criteria or more than [`MOST_CRITERIA`], one twice, or another number of weights.
+    pub fn new(
+        requirements: Vec<Requirement>,
+        criteria: Vec<Criterion>,
+        weights: Option<Weights>,
+        scale: Scale,
+    ) -> Result<Self, InvalidPreferences> {
+        let found = criteria.len();
+        if !(1..=MOST_CRITERIA).contains(&found) {
+            return Err(InvalidPreferences::Count { found });
+        }
+        let is_twice = |(c, criterion): &(usize, &Criterion)| {
+            criteria[..*c].iter().any(|other| other.column == criterion.column)
+        };
+        if let Some((_, twice)) = criteria.iter().enumerate().find(is_twice) {
+            return Err(InvalidPreferences::Twice { column: twice.column.clone().into_owned() });
+        }
+        let weights = weights.unwrap_or(Weights::equal(found));
+        let found = weights.values().len();
+        if found != criteria.len() {
+            let names: Vec<_> = criteria.iter().map(|criterion| criterion.name.as_ref()).collect();
+            return Err(InvalidWeights::Count { found, criteria: names.join(", ") }.into());
+        }
+        Ok(Self { requirements, criteria, weights, scale })
+    }
+
+    /// Whether the criteria are those of the paper.
+    pub fn are_the_papers(&self) -> bool {
+        self.criteria == CRITERIA
+    }
+
+    /// The weights in words.
+    pub fn in_words(&self) -> String {
+        let parts = self.criteria.iter().zip(self.weights.values());
+        let parts = parts.map(|(c, weight)| format!("{} {}", c.name, number::text(*weight)));
+        parts.collect::<Vec<_>>().join(", ")
+    }
+
+    /// The preferences in the file `ranking.toml` of `folder`; `None` if there is none.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or does not say what `squama rank` writes.
+    pub fn read(folder: &Path) -> Result<Option<Self>, InvalidPreferences> {
+        let folder = RunFolder::new(folder);
+        if !folder.holds(RunFolder::PREFERENCES) {
+            return Ok(None);
+        }
+        let path = folder.file(RunFolder::PREFERENCES);
+        let file = path.display().to_string();
+        let text = std::fs::read_to_string(&path).map_err(|error| {
+            InvalidPreferences::Unreadable { file: file.clone(), reason: reason(&error) }
+        })?;
+        Self::parse(&text, &file).map(Some)
+    }
+
+    /// The preferences that `text`, from the file `name`, says. What is left out is as in the paper.
+    ///
+    /// # Errors
+    /// If it is no TOML, or a key makes no sense.
+    pub fn parse(text: &str, name: &str) -> Result<Self, InvalidPreferences> {
+        let mut found = Self::paper();
+        let (mut weights, mut place) = (None, Place::File { name: name.into(), line: None });
+        for entry in toml_source::parse(text, name)? {
+            let wrong = |problem: String| InvalidPreferences::Key {
+                place: entry.place.clone(),
+                key: entry.key.clone(),
+                problem,
+            };
+            match entry.key.as_str() {
+                "scale" => found.scale = one(&entry.value).map_err(wrong)?,
+                "requirements" => found.requirements = list(&entry.value).map_err(wrong)?,
+                "criteria" => found.criteria = list(&entry.value).map_err(wrong)?,
+                "weights" => {
+                    let numbers: Vec<f64> = list(&entry.value).map_err(wrong)?;
+                    let read = Weights::new(&numbers).map_err(|error| wrong(error.to_string()))?;
+                    (weights, place) = (Some(read), entry.place);
+                }
+                _ => return Err(unknown(&entry)),
+            }
+        }
+        let Self { requirements, criteria, scale, .. } = found;
+        Self::new(requirements, criteria, weights, scale).map_err(|error| InvalidPreferences::Key {
+            place,
+            key: "criteria".to_owned(),
+            problem: error.to_string(),
+        })
+    }
+
+    /// The preferences in TOML, which read back as the same.
+    pub fn to_toml(&self) -> String {
+        let texts = |texts: Vec<String>| {
+            texts.iter().map(|text| quoted(text)).collect::<Vec<_>>().join(", ")
+        };
+        let requirements = self.requirements.iter().map(ToString::to_string).collect();
+        let criteria = self.criteria.iter().map(ToString::to_string).collect();
+        let mut text = "# What the designs are ranked by: written by squama rank.\n".to_owned();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "requirements = [{}]", texts(requirements));
+        let _ = writeln!(text, "criteria = [{}]", texts(criteria));
+        let _ = writeln!(text, "weights = [{}]", self.weights);
+        let _ = writeln!(text, "scale = {}", quoted(self.scale.name()));
+        text
+    }
+}
+
+fn unknown(entry: &KeyValue) -> InvalidPreferences {
+    InvalidPreferences::Key {
+        place: entry.place.clone(),
+        key: entry.key.clone(),
+        problem: "is no key, expected requirements, criteria, weights or scale".to_owned(),
+    }
+}
+
+/// The value as a `T`.
+fn one<T: std::str::FromStr<Err: std::fmt::Display>>(value: &Value) -> Result<T, String> {
+    match value {
+        Value::Text(text) | Value::Number(text) => {
+            text.parse().map_err(|error: T::Err| error.to_string())
+        }
+        value => Err(format!("{value} is not accepted, expected a text or a number")),
+    }
+}
+
+/// The value as a list of `T`.
+fn list<T: std::str::FromStr<Err: std::fmt::Display>>(value: &Value) -> Result<Vec<T>, String> {
+    match value {
+        Value::List(items) => items.iter().map(one).collect(),
+        value => Err(format!("{value} is not accepted, expected a list")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn preferences_read_back_as_they_are_written() {
+        let preferences = Preferences::new(
+            vec!["coverage >= 0.6".parse().expect("valid"), "a < -1e-7".parse().expect("valid")],
+            vec!["coverage".parse().expect("valid"), "min:gap_over_t".parse().expect("valid")],
+            Some("1,2".parse().expect("valid")),
+            Scale::Log,
+        );
+        let preferences = preferences.expect("preferences");
+        let text = preferences.to_toml();
+        insta::assert_snapshot!(text);
+        assert_eq!(Preferences::parse(&text, "x").expect("valid"), preferences);
+        assert_eq!(Preferences::parse("", "x").expect("valid"), Preferences::paper());
+    }
+
+    #[test]
+    fn what_makes_no_sense_is_refused_with_its_place() {
+        let message =
+            |text: &str| Preferences::parse(text, "x.toml").expect_err("invalid").to_string();
+        insta::assert_snapshot!(message("weights = [1, 1]"), @"x.toml:1: criteria: 2 weights, expected 4: coverage, critical force, penetration resistance, flexural compliance");
+        insta::assert_snapshot!(message("\nscale = 'cubic'"), @"x.toml:2: scale: cubic is not accepted, expected paper, linear or log");
+        insta::assert_snapshot!(message("requirements = ['a']"), @"x.toml:1: requirements: a is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6");
+        insta::assert_snapshot!(message("criteria = []"), @"x.toml: criteria: 0 criteria, expected 1 to 8");
+        insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice, expected it once");
+        insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is no key, expected requirements, criteria, weights or scale");
+    }
+}

@@ -1,0 +1,186 @@
+//! Weights of the criteria.
+
+use std::fmt;
+use std::str::FromStr;
+
+use sweep::number;
+
+use crate::tetrahedral_grid::{Steps, TetrahedralGrid};
+
+/// Criteria that a ranking may have, at most.
+pub const MOST_CRITERIA: usize = 8;
+
+/// A number for each criterion; those beyond the last criterion are 0.
+pub(crate) type Criteria = [f64; MOST_CRITERIA];
+
+/// Weights of the criteria: none negative, their sum 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights {
+    values: Criteria,
+    count: usize,
+}
+
+/// Weights that sum to 1 but for this are taken as they are, because not every weight is a binary fraction.
+const SUM_TOLERANCE: f64 = 1e-9;
+
+/// Weights that cannot be shared out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum InvalidWeights {
+    /// One of them is no number.
+    #[error("\"{found}\" is not accepted, expected a number of at least 0")]
+    NotANumber {
+        /// The text.
+        found: String,
+    },
+    /// One of them is negative or not finite.
+    #[error("{} is out of range, expected a number of at least 0", number::text(*found))]
+    OutOfRange {
+        /// The weight.
+        found: f64,
+    },
+    /// There are fewer or more than criteria.
+    #[error("{found} weights, expected {}: {criteria}", criteria.split(", ").count())]
+    Count {
+        /// The number of weights.
+        found: usize,
+        /// The criteria, in words.
+        criteria: String,
+    },
+    /// There are none, or more than criteria may be.
+    #[error("{found} weights, expected 1 to {MOST_CRITERIA}")]
+    Most {
+        /// The number of weights.
+        found: usize,
+    },
+    /// All of them are 0.
+    #[error("all weights are 0, expected one that is not")]
+    Nothing,
+}
+
+impl Weights {
+    /// The four criteria of the paper count the same.
+    pub const BALANCED: Self =
+        Self { values: [0.25, 0.25, 0.25, 0.25, 0.0, 0.0, 0.0, 0.0], count: 4 };
+
+    /// All of `count` criteria count the same.
+    pub fn equal(count: usize) -> Self {
+        let weight = (count.max(1) as f64).recip();
+        Self { values: std::array::from_fn(|c| if c < count { weight } else { 0.0 }), count }
+    }
+
+    /// The weights under which one criterion of the paper counts alone, in the order of
+    /// [`CRITERIA`](crate::CRITERIA).
+    pub fn alone() -> impl Iterator<Item = Self> {
+        Self::alone_among(4)
+    }
+
+    /// The weights under which one of `count` criteria counts alone.
+    pub fn alone_among(count: usize) -> impl Iterator<Item = Self> {
+        (0..count).map(move |own| {
+            let values = std::array::from_fn(|c| f64::from(u8::from(c == own)));
+            Self { values, count }
+        })
+    }
+
+    /// The weights in proportion to `weights`, one for each criterion.
+    ///
+    /// # Errors
+    /// If one is negative, all are 0, or there are more than [`MOST_CRITERIA`].
+    pub fn new(weights: &[f64]) -> Result<Self, InvalidWeights> {
+        let is_right = |weight: &f64| weight.is_finite() && *weight >= 0.0;
+        if let Some(&found) = weights.iter().find(|weight| !is_right(weight)) {
+            return Err(InvalidWeights::OutOfRange { found });
+        }
+        let count = weights.len();
+        if !(1..=MOST_CRITERIA).contains(&count) {
+            return Err(InvalidWeights::Most { found: count });
+        }
+        let sum = weights.iter().sum::<f64>();
+        if sum <= 0.0 {
+            return Err(InvalidWeights::Nothing);
+        }
+        let share =
+            |weight: f64| if (sum - 1.0).abs() <= SUM_TOLERANCE { weight } else { weight / sum };
+        let at = |c: usize| weights.get(c).map_or(0.0, |weight| share(*weight));
+        Ok(Self { values: std::array::from_fn(at), count })
+    }
+
+    /// The weights at a node of a grid.
+    pub(crate) fn at(grid: TetrahedralGrid, steps: Steps) -> Self {
+        let weights = grid.weights(steps);
+        Self { values: std::array::from_fn(|c| weights.get(c).copied().unwrap_or(0.0)), count: 4 }
+    }
+
+    /// The weights in the order of the criteria.
+    pub fn values(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+
+    /// The score of a design, by which designs are ordered: the sum of weighted terms, where a criterion without weight is
+    /// ignored, even where it is as bad as can be.
+    ///
+    /// ```text
+    /// ln f = Σ w_c ln s_c,   0⁰ = 1                                                    (R3)
+    /// ```
+    pub(crate) fn score(&self, terms: &Criteria) -> f64 {
+        let mut sum = 0.0;
+        for (weight, term) in self.values().iter().zip(terms) {
+            if *weight > 0.0 {
+                sum += weight * term;
+            }
+        }
+        sum
+    }
+}
+
+impl FromStr for Weights {
+    type Err = InvalidWeights;
+
+    fn from_str(text: &str) -> Result<Self, InvalidWeights> {
+        let read = |part: &str| {
+            let error = || InvalidWeights::NotANumber { found: part.trim().to_owned() };
+            part.trim().parse::<f64>().map_err(|_| error())
+        };
+        let weights: Vec<f64> = text.split(',').map(read).collect::<Result<_, _>>()?;
+        Self::new(&weights)
+    }
+}
+
+impl fmt::Display for Weights {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let weights = self.values().iter().map(|weight| number::text(*weight));
+        f.write_str(&weights.collect::<Vec<_>>().join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_share_out_one() {
+        let weights = |text: &str| text.parse::<Weights>();
+        assert_eq!(weights("0.25, 0.25,0.25,0.25"), Ok(Weights::BALANCED));
+        assert_eq!(weights("3,3,3,3"), Ok(Weights::BALANCED));
+        assert_eq!(Weights::equal(4), Weights::BALANCED);
+        assert_eq!(weights("0.1,0.2,0.3,0.4").expect("weights").values(), [0.1, 0.2, 0.3, 0.4]);
+        assert_eq!(weights("1,3").expect("weights").values(), [0.25, 0.75]);
+        let message = |text: &str| weights(text).expect_err("invalid").to_string();
+        insta::assert_snapshot!(message("0,0,0,0"), @"all weights are 0, expected one that is not");
+        insta::assert_snapshot!(message("1.5,-0.5,0,0"), @"-0.5 is out of range, expected a number of at least 0");
+        insta::assert_snapshot!(message("nan,1,0,0"), @"NaN is out of range, expected a number of at least 0");
+        insta::assert_snapshot!(message("1,1,1,1,1,1,1,1,1"), @"9 weights, expected 1 to 8");
+        insta::assert_snapshot!(message("a,b,c,d"), @r#""a" is not accepted, expected a number of at least 0"#);
+    }
+
+    #[test]
+    fn a_criterion_without_weight_is_ignored() {
+        let mut ruined = [0.0; MOST_CRITERIA];
+        ruined[..2].copy_from_slice(&[0.5_f64.ln(), f64::NEG_INFINITY]);
+        let fitness =
+            |weights: [f64; 4]| Weights::new(&weights).expect("weights").score(&ruined).exp();
+        assert!((fitness([1.0, 0.0, 0.0, 0.0]) - 0.5).abs() < 1e-15);
+        assert_eq!(fitness([0.9, 0.1, 0.0, 0.0]).to_bits(), 0);
+        assert_eq!(fitness([0.0, 0.0, 1.0, 0.0]).to_bits(), 1.0_f64.to_bits());
+    }
+}

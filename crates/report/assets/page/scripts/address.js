@@ -1,0 +1,85 @@
+"use strict";
+// The state in the address: `#require=coverage >= 0.6&weights=40,30,20,10&design=0123`. What is as at first is left out.
+
+(() => {
+  const DELAY = 250;
+  const { ranking, state } = squama;
+
+  const texts = {
+    criteria: () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(","),
+    weights: () => state.weights.join(","),
+  };
+  const atFirst = Object.fromEntries(Object.entries(texts).map(([key, text]) => [key, text()]));
+
+  /** The state as the part of the address behind `#`. */
+  squama.written = () => {
+    const parts = new URLSearchParams();
+    state.requirements.forEach((one) => parts.append("require", ranking.written(one)));
+    for (const [key, text] of Object.entries(texts)) if (text() !== atFirst[key]) parts.set(key, text());
+    if (state.scale !== "paper") parts.set("scale", state.scale);
+    if (state.sound) parts.set("sound", "yes");
+    if (state.log) parts.set("log", "yes");
+    for (const key of ["against", "panels", "measure", "columns"]) if (state[key] !== null) parts.set(key, state[key]);
+    for (const [axis, value] of Object.entries(state.shown)) parts.set(`show.${axis}`, String(value));
+    if (state.sort !== "design") parts.set("sort", state.sort);
+    for (const key of ["design", "pinned"]) if (state[key] !== null) parts.set(key, squama.number(state[key]));
+    return parts.toString();
+  };
+
+  const readCriteria = (parts, next) => {
+    const criteria = parts.get("criteria")?.split(",").map((text) => ranking.criterion(squama, text)).filter(Boolean);
+    if (criteria?.length > 0) next.criteria = criteria.slice(0, ranking.MOST_CRITERIA);
+    const weights = parts.get("weights")?.split(",").map(Number) ?? [];
+    const right = weights.length === next.criteria.length && weights.every((weight) => weight >= 0) && weights.some((weight) => weight > 0);
+    next.weights = right ? squama.hundredths(weights) : squama.equalWeights(next.criteria.length);
+  };
+
+  /** A value of an axis by its text; "all" stands for all of them. */
+  const valueOf = (axis, text) => (text === "all" ? "all" : squama.different(axis).find((value) => String(value) === text));
+
+  const readView = (parts, next) => {
+    for (const key of ["against", "panels", "measure"]) if (squama.numeric.includes(parts.get(key))) next[key] = parts.get(key);
+    for (const axis of squama.varied) {
+      const value = valueOf(axis, parts.get(`show.${axis}`));
+      if (value !== undefined) next.shown[axis] = value;
+    }
+    next.columns = parts.get("columns");
+    if (squama.has((parts.get("sort") ?? "").replace("-", ""))) next.sort = parts.get("sort");
+    for (const key of ["design", "pinned"]) next[key] = squama.rowOf(parts.get(key));
+  };
+
+  /** Takes the state from a text; what makes no sense is passed over. */
+  squama.read = (text) => {
+    const parts = new URLSearchParams(text), next = squama.initial();
+    next.requirements = parts.getAll("require").map((one) => ranking.requirement(squama, one)).filter(Boolean);
+    readCriteria(parts, next);
+    if (ranking.SCALES.includes(parts.get("scale"))) next.scale = parts.get("scale");
+    next.sound = parts.get("sound") === "yes";
+    next.log = parts.get("log") === "yes";
+    readView(parts, next);
+    Object.assign(state, next);
+  };
+
+  /** Tells everyone about a state that is new as a whole. */
+  squama.showAll = () => {
+    if (state.design === null && squama.count > 0) state.design = squama.ranking.order(squama.contestNow(), squama.weights(), 1)[0]?.row ?? 0;
+    squama.refresh();
+    ["view", "design", "pinned"].forEach(squama.tell);
+  };
+
+  // Written a moment after the last change: a slider changes often, and browsers allow only so many.
+  let timer = null, own = null;
+  const write = () => {
+    own = `#${squama.written()}`;
+    try { history.replaceState(null, "", own); } catch { /* The page works without an address. */ }
+  };
+  squama.writeAddress = () => {
+    clearTimeout(timer);
+    timer = setTimeout(write, DELAY);
+  };
+  addEventListener("hashchange", () => {
+    if (location.hash === own || !location.hash.includes("=")) return;
+    squama.read(location.hash.slice(1));
+    squama.showAll();
+  });
+})();

@@ -1,0 +1,133 @@
+"use strict";
+// Criteria and their weights: sliders, the best designs, and the command that does the same.
+
+(() => {
+  const LISTED = 15;
+  const LETTERS = ["m", "n", "k", "l"];
+  const { state, ranking } = squama;
+  const isPaper = () => state.criteria.map(({ goal, column }) => `${goal}:${column}`).join() === ranking.PAPER.join();
+
+  /** Sets one weight; the others share what is left in their old proportions. */
+  squama.setWeight = (which, value) => {
+    const others = state.weights.map((_, k) => k).filter((k) => k !== which);
+    if (others.length === 0) return squama.tell("weights");
+    const parts = squama.hundredths(others.map((k) => state.weights[k]), 100 - value);
+    state.weights[which] = value;
+    others.forEach((k, i) => { state.weights[k] = parts[i]; });
+    squama.tell("weights");
+  };
+
+  const setCriteria = (criteria, weights = squama.equalWeights(criteria.length)) => {
+    Object.assign(state, { criteria, weights });
+    squama.refresh();
+  };
+
+  /** A criterion in words; resistance to penetration is another thing than penetration. */
+  squama.criterionName = ({ column, goal }) => {
+    const paper = isPaper() && { penetration: "penetration resistance", compliance: "flexural compliance" }[column];
+    return paper || `${isPaper() ? "" : goal === "max" ? "large " : "small "}${squama.label(column)}`;
+  };
+
+  const fieldset = squama.at("weights"), rows = squama.element("div");
+  fieldset.append(rows);
+  let sliders = [];
+  const weightRow = (criterion, k) => {
+    const id = `weight-${LETTERS[k] ?? k + 1}`;
+    const input = squama.element("input", { type: "range", min: 0, max: 100, step: 1, id, oninput: (event) => squama.setWeight(k, Number(event.target.value)) });
+    const output = squama.element("output", { for: id });
+    const turn = () => setCriteria(state.criteria.map((one, other) => (other === k ? { ...one, goal: one.goal === "max" ? "min" : "max" } : one)), state.weights);
+    const remove = () => setCriteria(state.criteria.filter((_, other) => other !== k));
+    sliders.push({ input, output });
+    return squama.element("div", { class: "weight" },
+      squama.element("label", { for: id }, ...(isPaper() ? [squama.element("i", {}, LETTERS[k]), " "] : []), squama.criterionName(criterion)), input, output,
+      squama.element("button", { type: "button", title: "Large or small values are good", "aria-label": `${squama.criterionName(criterion)}: turn round which values are good`, onclick: turn }, criterion.goal === "max" ? "↑" : "↓"),
+      squama.element("button", { type: "button", "aria-label": `Leave out ${squama.criterionName(criterion)}`, onclick: remove, disabled: state.criteria.length === 1 }, "✕"));
+  };
+
+  const adder = squama.at("add-criterion");
+  const showCriteria = () => {
+    sliders = [];
+    rows.replaceChildren(...state.criteria.map(weightRow));
+    const others = squama.numeric.filter((name) => name !== "design" && !state.criteria.some(({ column }) => column === name));
+    adder.replaceChildren(squama.element("option", { value: "" }, "Add a criterion …"), ...others.map((name) => squama.element("option", { value: name }, squama.label(name))));
+    adder.disabled = state.criteria.length >= ranking.MOST_CRITERIA;
+    squama.at("scale").value = state.scale;
+    squama.at("paper-criteria").hidden = isPaper() && state.scale === "paper";
+  };
+  adder.addEventListener("change", () => {
+    if (adder.value !== "") setCriteria([...state.criteria, { column: adder.value, goal: ranking.plainGoal(adder.value) }]);
+  });
+  squama.at("paper-criteria").addEventListener("click", () => {
+    const { criteria, scale } = squama.initial();
+    state.scale = scale;
+    setCriteria(criteria);
+  });
+  squama.at("equal-weights").addEventListener("click", () => {
+    state.weights = squama.equalWeights(state.criteria.length);
+    squama.tell("weights");
+  });
+  squama.at("scale").addEventListener("change", (event) => {
+    state.scale = event.target.value;
+    squama.refresh();
+  });
+
+  const quoted = (text) => `'${text}'`;
+
+  /** The command that ranks as the page does; parts of texts are a matter of the page alone. */
+  squama.rankCommand = () => [
+    `squama rank ${squama.folder}`,
+    ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
+    ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
+    `--weights ${squama.weights().join(",")}`,
+    ...(state.scale === "paper" ? [] : [`--scale ${state.scale}`]),
+  ].join(" ");
+
+  const body = squama.at("best").tBodies[0], head = squama.at("best").tHead.rows[0];
+  const titled = ["gap_over_t", "length_over_t", "slant_deg", ...squama.varied].filter((name, k, all) => squama.has(name) && all.indexOf(name) === k);
+  const shown = () => [...titled, ...state.criteria.map(({ column }) => column).filter((name) => !titled.includes(name))];
+
+  const showHead = () => {
+    const column = (name) => squama.element("th", { scope: "col" }, squama.label(name));
+    head.replaceChildren(...["rank", "design"].map((text) => squama.element("th", { scope: "col" }, text)), squama.element("th", { scope: "col" }, "fitness ", squama.element("i", {}, "f")), ...shown().map(column));
+  };
+
+  const entry = ({ row, fitness, rank }) => {
+    const cell = (name) => squama.short(squama.cell(row, name)) + (name === "slant_deg" ? "°" : "");
+    const own = squama.element("td", {}, ...squama.warning(row), squama.number(row));
+    return squama.element("tr", { "data-row": row, class: row === state.design ? "chosen" : null, ...squama.chooser(row) },
+      squama.element("td", {}, String(rank)), own, squama.element("td", {}, fitness.toFixed(4)), ...shown().map((name) => squama.element("td", {}, cell(name))));
+  };
+
+  /** Names the best design whose surface does not fold, where the best of all folds. */
+  const showSound = (best) => {
+    const note = squama.at("best-sound");
+    note.hidden = !(best && squama.folded(best.row));
+    if (note.hidden) return;
+    const other = ranking.order(squama.contest, squama.weights()).find(({ row }) => !squama.folded(row));
+    note.replaceChildren("⚠ The best design is one whose substrate folds over before it gives way, so that its critical force is not to be trusted. ",
+      ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
+  };
+
+  const show = () => {
+    const weights = squama.weights();
+    sliders.forEach(({ input, output }, k) => {
+      input.value = state.weights[k];
+      input.setAttribute("aria-valuetext", weights[k].toFixed(2));
+      output.textContent = weights[k].toFixed(2);
+    });
+    squama.at("rank-command").replaceChildren(squama.command(squama.rankCommand()));
+    const best = ranking.order(squama.contest, weights, LISTED);
+    body.replaceChildren(...best.map(entry));
+    showSound(best[0]);
+  };
+
+  squama.listen("selection", () => {
+    showCriteria();
+    showHead();
+    const { length } = squama.contest.rows;
+    squama.at("ranking-count").textContent = `${length} designs take part; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}lack coverage or a value.`;
+    show();
+  });
+  squama.listen("weights", show);
+  squama.listen("design", () => body.querySelectorAll("tr").forEach((element) => element.classList.toggle("chosen", Number(element.dataset.row) === state.design)));
+})();

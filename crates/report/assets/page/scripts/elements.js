@@ -1,0 +1,63 @@
+"use strict";
+// Elements of the page.
+
+/** Sets attributes; a function named `on…` listens, and what is null or false is left out. */
+squama.attributes = (element, attributes) => {
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith("on")) element.addEventListener(key.slice(2), value);
+    else if (value !== null && value !== false) element.setAttribute(key, value === true ? "" : value);
+  }
+  return element;
+};
+
+/** An element with attributes and children. */
+squama.element = (name, attributes = {}, ...children) => {
+  const element = squama.attributes(document.createElement(name), attributes);
+  element.append(...children);
+  return element;
+};
+
+/** An element of a drawing. */
+squama.svg = (name, attributes = {}, ...children) => {
+  const element = squama.attributes(document.createElementNS("http://www.w3.org/2000/svg", name), attributes);
+  element.append(...children);
+  return element;
+};
+
+/** The element of an id. */
+squama.at = (id) => document.getElementById(id);
+
+/** A choice among options, each `[value, text]`. */
+squama.dropdown = (attributes, options, chosen) => squama.element("select", attributes,
+  ...options.map(([value, text]) => squama.element("option", { value, selected: value === chosen }, text)));
+
+/** What makes an element choose a design, by click or by key. */
+squama.chooser = (row) => ({
+  tabindex: 0,
+  onclick: () => squama.choose(row),
+  onkeydown: (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    squama.choose(row);
+  },
+});
+
+/** A mark as it stands in a legend. */
+squama.symbol = ({ path, color }, kind = "filled") => squama.svg("svg", { viewBox: "-7 -7 14 14", "aria-hidden": "true" },
+  squama.svg("path", kind === "open" ? { d: path, fill: "none", stroke: color, "stroke-width": 1.6 } : { d: path, fill: color, "fill-opacity": kind === "folded" ? 0.4 : 1 }),
+  ...(kind === "folded" ? [squama.svg("path", { d: "M-6 6 L6 -6", stroke: "var(--warning)", "stroke-width": 1.8 })] : []));
+
+/** The sign of a design whose surface folds; nothing for others. */
+squama.warning = (row) => (squama.folded(row)
+  ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not to be trusted.", role: "img", "aria-label": "folded" }, "⚠")]
+  : []);
+
+/** A command with a button that copies it. */
+squama.command = (text) => {
+  const button = squama.element("button", { type: "button", "aria-label": `Copy: ${text}` }, "Copy");
+  button.addEventListener("click", async () => {
+    try { await navigator.clipboard.writeText(text); button.textContent = "Copied"; }
+    catch { getSelection().selectAllChildren(button.previousElementSibling); }
+  });
+  return squama.element("div", { class: "copy" }, squama.element("code", {}, text), button);
+};

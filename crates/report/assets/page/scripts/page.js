@@ -1,0 +1,46 @@
+"use strict";
+// Theme, printing, links; and what is shown first.
+
+(() => {
+  const button = squama.at("theme"), root = document.documentElement;
+  const setTheme = (dark) => {
+    root.dataset.theme = dark ? "dark" : "light";
+    button.setAttribute("aria-pressed", String(dark));
+    button.textContent = dark ? "Light" : "Dark";
+    squama.redraw();
+    squama.tell("theme");
+  };
+  const isDark = () => root.dataset.theme === "dark";
+  button.addEventListener("click", () => setTheme(!isDark()));
+
+  // Paper is light, whatever the screen is; and all charts are on it.
+  let before = null;
+  addEventListener("beforeprint", () => {
+    before = isDark();
+    setTheme(false);
+    squama.drawAll();
+  });
+  addEventListener("afterprint", () => setTheme(before));
+
+  // The address holds the state, so that links within the page leave it alone.
+  document.querySelectorAll('a[href^="#"]').forEach((link) => link.addEventListener("click", (event) => {
+    event.preventDefault();
+    const target = squama.at(link.getAttribute("href").slice(1));
+    target.scrollIntoView();
+    target.tabIndex = -1;
+    target.focus({ preventScroll: true });
+  }));
+  const share = squama.at("share");
+  share.addEventListener("click", async () => {
+    const address = `${location.href.split("#")[0]}#${squama.written()}`;
+    try { await navigator.clipboard.writeText(address); share.textContent = "Copied"; }
+    catch { prompt("The address of this view", address); }
+    setTimeout(() => { share.textContent = "Copy link"; }, 1500);
+  });
+
+  const asked = location.hash.includes("=") ? location.hash.slice(1) : squama.opening;
+  squama.read(asked);
+  setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
+  squama.showAll();
+  squama.setFolded(true);
+})();

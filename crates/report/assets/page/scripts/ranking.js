@@ -1,0 +1,188 @@
+"use strict";
+// How designs are chosen: requirements, criteria, fitness, fronts. Nothing here knows the page; `squama rank` does the
+// same, in the same order of operations, and scripts/check-page holds both together.
+
+squama.ranking = (() => {
+  const ROUND_OFF = 1e-9;
+  const SIGNS = [">=", "<=", "==", ">", "<"];
+  const SCALES = ["paper", "linear", "log"];
+  const PAPER = ["max:coverage", "max:critical_force", "min:penetration", "max:compliance"];
+  const MOST_CRITERIA = 8;
+
+  // Columns of which small values are good, by the beginnings of their names.
+  const SMALL_IS_GOOD = ["areal_mass", "bend_radius", "flexural_rigidity", "gap_stretch", "initial_flexural_rigidity", "membrane_strain_max", "penetration", "sink"];
+
+  /** Whether two numbers are the same but for round-off. */
+  const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
+
+  /** Whether a number keeps a bound; NaN keeps none. */
+  const keeps = (value, sign, limit) => {
+    if (Number.isNaN(value)) return false;
+    const equal = same(value, limit);
+    if (sign === "==") return equal;
+    const beyond = sign[0] === ">" ? value > limit : value < limit;
+    return sign.length === 2 ? equal || beyond : !equal && beyond;
+  };
+
+  /** Whether a row meets a requirement: a bound of a number, or, with the sign `~`, a part of a text. */
+  const meets = (table, { column, sign, limit }, row) => (sign === "~"
+    ? String(table.cell(row, column) ?? "").toLowerCase().includes(limit.toLowerCase())
+    : keeps(table.numbers(column)[row], sign, limit));
+
+  /** Reads `COLUMN OP LIMIT`; null if it is no requirement on a column of the table. */
+  const requirement = (table, text) => {
+    const sign = [...SIGNS, "~"].find((one) => text.includes(one));
+    if (!sign) return null;
+    const at = text.indexOf(sign);
+    const column = text.slice(0, at).trim(), rest = text.slice(at + sign.length).trim();
+    const limit = sign === "~" ? rest : Number(rest);
+    return table.has(column) && rest !== "" && (sign === "~" || Number.isFinite(limit)) ? { column, sign, limit } : null;
+  };
+
+  /** A requirement as commands write it. */
+  const written = ({ column, sign, limit }) => `${column} ${sign} ${limit}`;
+
+  /** Reads `max:COLUMN` or `min:COLUMN`; null if it is no criterion of the table. */
+  const criterion = (table, text) => {
+    const [goal, column] = text.split(":");
+    return (goal === "max" || goal === "min") && table.has(column) ? { column, goal } : null;
+  };
+
+  /** The goal that a column has unless something else is said. */
+  const plainGoal = (column) => (SMALL_IS_GOOD.some((beginning) => column.startsWith(beginning)) ? "min" : "max");
+
+  /** What a value is worth, larger being better (R1); NaN if an inverse or a logarithm does not exist. */
+  const worth = (scale, goal, value) => {
+    if (scale === "linear" || (scale === "paper" && goal === "max")) return goal === "max" ? value : -value;
+    if (!(value > 0)) return NaN;
+    const result = scale === "paper" ? 1 / value : goal === "max" ? Math.log(value) : -Math.log(value);
+    return Number.isFinite(result) ? result : NaN;
+  };
+
+  /** Rows that meet all requirements, and that `also` lets in. */
+  const meeting = (table, requirements, also = () => true) =>
+    table.rows.filter((row) => also(row) && requirements.every((one) => meets(table, one, row)));
+
+  /** The least and the largest of some numbers. */
+  const ends = (numbers) => {
+    let low = Infinity, high = -Infinity;
+    for (const value of numbers) [low, high] = [Math.min(low, value), Math.max(high, value)];
+    return [low, high];
+  };
+
+  /** Numbers from 0, the worst, to 1, the best (R2); 1 if all are the same, so that they do not count. */
+  const rescaled = (numbers, isTie) => {
+    const [low, high] = ends(numbers);
+    return numbers.map((value) => (isTie || !(high > low) ? 1 : (value - low) / (high - low)));
+  };
+
+  /**
+   * The designs that are ranked: of `rows` those that are covered, where coverage counts, and have every criterion.
+   * `worths` and `terms` stand criterion by criterion.
+   */
+  const contest = (table, rows, criteria, scale) => {
+    const all = criteria.map(({ column, goal }) => Float64Array.from(table.numbers(column), (value) => worth(scale, goal, value)));
+    const covered = criteria.some(({ column }) => column === "coverage") ? table.numbers("coverage") : null;
+    const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
+    const worths = all.map((values) => Float64Array.from(ranked, (row) => values[row]));
+    // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
+    const isTie = criteria.map(({ column }) => same(...ends(ranked.map((row) => table.numbers(column)[row]))));
+    const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
+    return { rows: ranked, worths, terms, scale };
+  };
+
+  /** Scores of the designs that are ranked. A weight of 0 leaves its criterion out, even where it is as bad as can be. */
+  const scores = ({ rows, terms }, weights) => {
+    const sums = new Float64Array(rows.length);
+    terms.forEach((values, c) => {
+      const weight = weights[c];
+      if (weight > 0) for (let i = 0; i < sums.length; i++) sums[i] += weight * values[i];
+    });
+    return sums;
+  };
+
+  /** Whether a score is as good as the best one, but for round-off. */
+  const isAsGood = (score, best) => score >= best - ROUND_OFF;
+
+  /** Places by their scores, the best first; those that are equal but for round-off in the order of the table. */
+  const inOrder = (places, sums) => {
+    const sorted = places.sort((a, b) => (sums[a] === sums[b] ? a - b : sums[b] - sums[a])), groups = [];
+    for (const place of sorted) {
+      if (groups.length > 0 && isAsGood(sums[place], sums[groups.at(-1).best])) groups.at(-1).places.push(place);
+      else groups.push({ best: place, places: [place] });
+    }
+    let before = 0;
+    return groups.flatMap(({ places: equals }) => {
+      const rank = before + 1;
+      before += equals.length;
+      return equals.sort((a, b) => a - b).map((place) => ({ place, rank }));
+    });
+  };
+
+  /** The designs that are ranked with their fitness and rank, the best first; `most` of them. */
+  const order = (own, weights, most = Infinity) => {
+    const sums = scores(own, weights);
+    let places = own.rows.map((_, i) => i);
+    if (most < places.length / 8) {
+      // What cannot be among the first is not sorted.
+      const bound = Float64Array.from(sums).sort()[sums.length - most];
+      places = places.filter((i) => isAsGood(sums[i], bound));
+    }
+    const fitness = (sum) => (own.scale === "paper" ? Math.exp(sum) : sum);
+    return inOrder(places, sums).slice(0, most).map(({ place, rank }) => ({ row: own.rows[place], rank, fitness: fitness(sums[place]) }));
+  };
+
+  /** Whether one is at least as good as another in every criterion, and better in one (R6). */
+  const beats = (worths, p, q) => {
+    let better = false;
+    for (const values of worths) {
+      if (values[p] < values[q]) return false;
+      better ||= values[p] > values[q];
+    }
+    return better;
+  };
+
+  /** Rows that no other beats in all criteria. */
+  const front = ({ rows, worths }) => {
+    const sorted = rows.map((_, i) => i).sort((a, b) => {
+      for (const values of worths) if (values[a] !== values[b]) return values[b] - values[a];
+      return a - b;
+    });
+    const kept = [];
+    for (const i of sorted) {
+      const by = kept.findIndex((other) => beats(worths, other, i));
+      if (by < 0) kept.push(i);
+      // Who beats one is likely to beat the next: it is asked first.
+      else [kept[0], kept[by]] = [kept[by], kept[0]];
+    }
+    return new Set(kept.map((i) => rows[i]));
+  };
+
+  /**
+   * Requirements that no row meets: the row whose largest shortfall is the least, then their sum, and the requirements
+   * without any one of which there would be designs. A shortfall is relative to its limit.
+   */
+  const unmet = (table, rows, requirements) => {
+    const bounds = requirements.filter(({ sign }) => sign !== "~");
+    const sizes = bounds.map(({ column, limit }) => {
+      const largest = () => table.numbers(column).reduce((most, value) => Math.max(most, Math.abs(value) || 0), 0);
+      return (limit === 0 ? largest() : Math.abs(limit)) || 1;
+    });
+    const shortfall = (row, { column, sign, limit }, k) => {
+      const value = table.numbers(column)[row];
+      if (keeps(value, sign, limit)) return 0;
+      return Number.isNaN(value) ? Infinity : Math.max(Math.abs(value - limit) / sizes[k], Number.MIN_VALUE);
+    };
+    let nearest = null, least = [Infinity, Infinity];
+    for (const row of rows) {
+      const missing = bounds.map((one, k) => shortfall(row, one, k));
+      const [largest, sum] = [Math.max(0, ...missing), missing.reduce((a, b) => a + b, 0)];
+      if (largest < least[0] || (largest === least[0] && sum < least[1])) [nearest, least] = [row, [largest, sum]];
+    }
+    const others = (k) => requirements.filter((_, other) => other !== k);
+    const binding = requirements.filter((_, k) => rows.some((row) => others(k).every((one) => meets(table, one, row))));
+    return { nearest, binding };
+  };
+
+  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+})();

@@ -1,0 +1,87 @@
+"use strict";
+// Requirements: bounds that a design must keep. They act on ranking, tetrahedron, figures and table alike.
+
+(() => {
+  const { state, ranking } = squama;
+  const list = squama.at("requirement-list"), text = squama.at("requirement-count"), adder = squama.at("add-requirement");
+  const change = (k, part) => squama.require(state.requirements.map((one, other) => (other === k ? { ...one, ...part } : one)));
+
+  const columns = (chosen) => squama.names.filter((name) => name !== "design" && (squama.numeric.includes(name) || name === chosen)).map((name) => [name, squama.label(name)]);
+
+  /** Smallest and largest value of a column, as a hint. */
+  const range = (column) => {
+    const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value));
+    const [low, high] = numbers.reduce(([a, b], value) => [Math.min(a, value), Math.max(b, value)], [Infinity, -Infinity]);
+    return low <= high ? `${squama.short(low)} to ${squama.short(high)}` : "";
+  };
+
+  const row = (one, k) => {
+    const label = squama.label(one.column), isText = one.sign === "~";
+    return squama.element("li", {},
+      squama.dropdown({ "aria-label": "Column", onchange: (event) => change(k, { column: event.target.value, sign: isText ? ">=" : one.sign, limit: isText ? 0 : one.limit }) }, columns(one.column), one.column),
+      squama.dropdown({ "aria-label": `How ${label} stands to the limit`, onchange: (event) => change(k, { sign: event.target.value }) },
+        isText ? [["~", "has"]] : [[">=", "≥"], ["<=", "≤"], [">", ">"], ["<", "<"], ["==", "="]], one.sign),
+      squama.element("input", { type: isText ? "text" : "number", step: "any", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
+        const limit = isText ? event.target.value : event.target.valueAsNumber;
+        if (isText || Number.isFinite(limit)) change(k, { limit });
+      } }),
+      squama.element("small", {}, isText ? "" : range(one.column)),
+      squama.element("button", { type: "button", "aria-label": `Remove the requirement on ${label}`, onclick: () => squama.require(state.requirements.filter((_, other) => other !== k)) }, "✕"));
+  };
+
+  // The list is made anew only when its shape changes, so that a limit can be typed.
+  const shape = () => JSON.stringify(state.requirements.map(({ column, sign }) => [column, sign]));
+  let last = null;
+  const showList = () => {
+    if (shape() !== last) {
+      last = shape();
+      list.replaceChildren(...state.requirements.map(row));
+    }
+    list.querySelectorAll("input").forEach((input, k) => {
+      const { limit } = state.requirements[k];
+      if (document.activeElement !== input) input.value = limit;
+    });
+  };
+
+  /** The design that comes nearest to requirements that none meets, and what stands in the way. */
+  const nearest = () => {
+    const rows = squama.rows.filter((one) => !state.sound || !squama.folded(one));
+    const { nearest: own, binding } = ranking.unmet(squama, rows, state.requirements);
+    const names = binding.map((one) => ranking.written(one)).join(" or ");
+    return [
+      "No design meets all of them. ",
+      ...(own === null ? [] : ["The one that comes nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${state.requirements.filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
+      binding.length > 0 ? `Without ${names} there would be designs.` : "No single one of them alone stands in the way.",
+    ];
+  };
+
+  const show = () => {
+    showList();
+    const left = squama.meeting.length;
+    const of = state.requirements.length === 0 && !state.sound ? [`No requirements: all ${squama.count} designs take part.`]
+      : left > 0 || state.requirements.length === 0 ? [`${left} of ${squama.count} designs meet ${state.requirements.length === 1 ? "it" : "them"}.`] : nearest();
+    text.replaceChildren(...of);
+    squama.at("sound").checked = state.sound;
+  };
+
+  const first = ["coverage", "critical_force_N", "critical_force", ...squama.numeric].filter((name) => squama.numeric.includes(name) && name !== "design");
+  adder.addEventListener("click", () => {
+    const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
+    const sign = ranking.plainGoal(column) === "min" ? "<=" : ">=";
+    // The middle of what there is.
+    const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value)).sort();
+    squama.require([...state.requirements, { column, sign, limit: Number((numbers[Math.floor(numbers.length / 2)] ?? 0).toPrecision(2)) }]);
+    list.querySelector("li:last-child input")?.focus();
+  });
+  squama.at("clear-requirements").addEventListener("click", () => {
+    state.sound = false;
+    squama.require([]);
+  });
+  squama.at("sound").addEventListener("change", (event) => {
+    state.sound = event.target.checked;
+    squama.refresh();
+  });
+  squama.at("sound-switch").hidden = squama.foldedRows.length === 0;
+  squama.at("sound-count").textContent = `(${squama.foldedRows.length} of ${squama.count})`;
+  squama.listen("selection", show);
+})();

@@ -1,0 +1,58 @@
+"use strict";
+// Summary and failures.
+
+(() => {
+  squama.at("title").textContent = `${squama.name}: ${squama.count} designs`;
+  const facts = (id, pairs) => squama.at(id).replaceChildren(...pairs.flatMap(([name, ...value]) => [squama.element("dt", {}, name), squama.element("dd", {}, ...value)]));
+  const button = (row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row));
+
+  /** The best design by one column, and how many are as good; sound ones beside it where it folds. */
+  const best = (name, column, goal) => {
+    const numbers = squama.numbers(column), sign = goal === "max" ? 1 : -1;
+    const leader = (rows) => rows.reduce((a, b) => (a === null || sign * numbers[b] > sign * numbers[a] && !squama.ranking.same(numbers[a], numbers[b]) ? b : a), null);
+    const rows = squama.rows.filter((row) => !Number.isNaN(numbers[row]));
+    const first = leader(rows);
+    if (first === null) return [];
+    const ties = rows.filter((row) => squama.ranking.same(numbers[row], numbers[first])).length - 1;
+    const sound = squama.folded(first) && column.startsWith("critical_force") ? leader(rows.filter((row) => !squama.folded(row))) : null;
+    return [[name, `${squama.short(numbers[first])}  `, button(first), ties > 0 ? ` and ${ties} ${ties > 1 ? "others" : "other"} as good` : "",
+      ...(sound === null ? [] : [squama.element("br"), `without a fold: ${squama.short(numbers[sound])}  `, button(sound)])]];
+  };
+
+  const folds = () => (squama.has("fold_force") ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
+  const physical = () => [["critical_force_N", "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], ["areal_mass_kg_m2", "least areal mass, kg/m²", "min"]]
+    .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
+
+  facts("summary-list", [
+    ...squama.run.map(({ name, value }) => [name, value]),
+    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
+    ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
+    ...folds(),
+    ...best("best coverage", "coverage", "max"),
+    ...best("largest critical force", "critical_force", "max"),
+    ...best("least penetration", "penetration", "min"),
+    ...best("largest compliance", "compliance", "max"),
+    ...physical(),
+  ]);
+  facts("shared-list", squama.shared.map(({ key, value, meaning }) => [`${meaning} (${key})`, value]));
+
+  let timer = null;
+  squama.listen("selection", () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => { squama.at("front-count").textContent = `${squama.ranking.front(squama.contest).size} of ${squama.contest.rows.length} that are ranked`; }, 120);
+  });
+
+  const statuses = squama.names.filter((name) => name.endsWith("_status"));
+  const failed = squama.rows.flatMap((row) => statuses
+    .filter((name) => { const text = squama.cell(row, name); return text !== null && text !== "complete"; })
+    .map((name) => ({ row, measure: name.replace("_status", ""), reason: squama.cell(row, name) })));
+  const list = squama.at("failure-list");
+  if (failed.length === 0) {
+    list.append(squama.element("p", {}, "None: every design that was asked for has every value."));
+  } else {
+    list.append(squama.element("table", {},
+      squama.element("thead", {}, squama.element("tr", {}, ...["design", "measure", "reason"].map((text) => squama.element("th", { scope: "col" }, text)))),
+      squama.element("tbody", {}, ...failed.map(({ row, measure, reason }) => squama.element("tr", { "data-row": row, ...squama.chooser(row) },
+        squama.element("td", {}, squama.title(row)), squama.element("td", {}, measure), squama.element("td", {}, reason))))));
+  }
+})();

@@ -1,0 +1,48 @@
+"use strict";
+// All ways to share a weight among four criteria, and the design that is best for each.
+
+squama.weightings = (() => {
+  // Steps from corner to corner, as `squama rank` has them.
+  const RESOLUTION = 20;
+  // The part of the tetrahedron that is nearest to a weighting, by how many of its weights are zero.
+  const CELLS = [72, 36, 14, 3];
+
+  const nodes = [];
+  for (let m = 0; m <= RESOLUTION; m++) {
+    for (let n = 0; n <= RESOLUTION - m; n++) {
+      for (let k = 0; k <= RESOLUTION - m - n; k++) {
+        const steps = [m, n, k, RESOLUTION - m - n - k];
+        nodes.push({ weights: steps.map((step) => step / RESOLUTION), cell: CELLS[steps.filter((step) => step === 0).length] });
+      }
+    }
+  }
+
+  /** The place of the best of four lists of terms, of those that are equal but for round-off the first. */
+  const best = ([a, b, c, d], [m, n, k, l], sums) => {
+    let most = -Infinity;
+    for (let i = 0; i < a.length; i++) {
+      // In this order, and without what has no weight, as the fitness is summed everywhere.
+      let sum = 0;
+      if (m > 0) sum += m * a[i];
+      if (n > 0) sum += n * b[i];
+      if (k > 0) sum += k * c[i];
+      if (l > 0) sum += l * d[i];
+      sums[i] = sum;
+      if (sum > most) most = sum;
+    }
+    const bound = most - squama.ranking.ROUND_OFF;
+    return sums.findIndex((sum) => sum >= bound);
+  };
+
+  /** The row that is best at each node, and the share of each row in all of them, the largest first. */
+  const winners = ({ rows, terms }) => {
+    const sums = new Float64Array(rows.length);
+    const dots = nodes.map(({ weights, cell }) => ({ weights, cell, row: rows[best(terms, weights, sums)] }));
+    const cells = new Map();
+    for (const { row, cell } of dots) cells.set(row, (cells.get(row) ?? 0) + cell);
+    const regions = [...cells].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+    return { dots, regions: regions.map(([row, own]) => ({ row, share: own / (12 * RESOLUTION ** 3) })) };
+  };
+
+  return { winners };
+})();

@@ -1,0 +1,92 @@
+//! The data of a page, as its scripts read them.
+
+use serde_json::{Map, Value, json};
+use sweep::visible;
+
+use super::{Fact, Page, SolvedDesign};
+use crate::axis::ChartAxis;
+use crate::palette::{SlantPalette, map_color};
+
+/// Colours of the scale of a map.
+const SHADES: u32 = 64;
+/// Digits of the points of curves.
+const DIGITS: usize = 5;
+
+/// Returns the data of a page.
+pub(super) fn of(page: &Page) -> Value {
+    let headers = page.designs.headers();
+    let columns = headers.iter().zip(&page.columns);
+    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning});
+    let fact = |(name, value): &Fact| json!({"name": name, "value": value});
+    let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
+    let shade = |k: u32| map_color((f64::from(k) + 0.5) / f64::from(SHADES));
+    json!({
+        "name": visible(&page.name),
+        "folder": page.folder,
+        "opening": page.opening,
+        "axes": page.axes,
+        "axesOf": axes_of(page),
+        "columns": columns.map(column).collect::<Vec<_>>(),
+        "values": headers.iter().map(|header| cells(page, header)).collect::<Vec<_>>(),
+        "slants": slants(page.designs.values("slant_deg")),
+        "shades": (0..SHADES).map(shade).collect::<Vec<_>>(),
+        "run": page.run.iter().map(fact).collect::<Vec<_>>(),
+        "shared": page.shared.iter().map(shared).collect::<Vec<_>>(),
+        "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
+    })
+}
+
+/// Returns the axis of each column that has a number.
+fn axes_of(page: &Page) -> Map<String, Value> {
+    let headers = page.designs.headers().iter();
+    let numeric = headers.filter(|header| page.designs.has(header));
+    numeric
+        .map(|name| (name.clone(), ChartAxis::fit("", page.designs.numbers(name)).to_json()))
+        .collect()
+}
+
+/// Returns the cells of a column, from the top.
+fn cells(page: &Page, header: &str) -> Vec<Value> {
+    (0..page.designs.count()).map(|row| cell(page, header, row)).collect()
+}
+
+/// Returns a cell as a number where it is one; the number of a design keeps its zeros.
+fn cell(page: &Page, header: &str, row: usize) -> Value {
+    let text = page.designs.text(header, row);
+    match page.designs.number(header, row) {
+        _ if text.is_empty() => Value::Null,
+        Some(number) if header != "design" => json!(number),
+        _ => json!(visible(text)),
+    }
+}
+
+/// Returns the colour and the mark of each slant.
+fn slants(values: Vec<f64>) -> Vec<Value> {
+    let palette = SlantPalette::new(values.clone());
+    let slant = |degrees: f64| {
+        json!({
+            "degrees": degrees,
+            "color": palette.color(degrees),
+            "path": palette.mark(degrees).path(),
+        })
+    };
+    values.into_iter().map(slant).collect()
+}
+
+fn solved(design: &SolvedDesign) -> Value {
+    let curves = [("puncture", &design.puncture), ("flexure", &design.flexure)];
+    let curves: Map<String, Value> = curves
+        .into_iter()
+        .filter(|(_, points)| points.len() > 1)
+        .map(|(measure, points)| (measure.to_owned(), curve(points)))
+        .collect();
+    json!({"design": design.number, "svg": design.svg, "curves": curves})
+}
+
+/// Returns a curve with axes that it fits on.
+fn curve(points: &[[f64; 2]]) -> Value {
+    let axis = |k: usize| ChartAxis::spanning("", points.iter().map(|point| point[k])).to_json();
+    let short = |value: f64| format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+    let points: Vec<_> = points.iter().map(|point| point.map(short)).collect();
+    json!({"points": points, "x": axis(0), "y": axis(1)})
+}

@@ -1,0 +1,310 @@
+//! A results folder whose contents are checked: what every command reads is read through it.
+
+use std::fs::{self, File};
+use std::io::{ErrorKind, Read as _, Seek as _};
+use std::path::{Path, PathBuf};
+
+use sweep::reason;
+
+use super::derivation::Derivation;
+use super::{Contents, JournalExtent};
+use crate::digest::{sha256, sha256_of};
+use crate::folder::RunFolder;
+use crate::shell::shell_word;
+
+/// Whether results are used that are not whole.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Completeness {
+    /// Only results of all designs, as the journal has them.
+    #[default]
+    Whole,
+    /// Results of those designs, too, that are done so far.
+    Partial,
+}
+
+/// A results folder whose contents are as its run states them. A folder with neither contents nor journal holds tables
+/// alone, of which nobody states anything.
+#[derive(Clone, Debug)]
+pub struct VerifiedFolder {
+    folder: RunFolder,
+    contents: Option<Contents>,
+    /// Whether the journal goes on beyond the tables.
+    behind: bool,
+}
+
+/// A results folder that is not as its run states it. Each message is one line that says what mends it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidFolder {
+    /// A journal, and nothing that says what its tables are.
+    #[error("{}: holds a journal but no contents.toml, which a run writes last, expected a run that came to its end; {} writes the tables of what is done", folder.display(), mend(folder))]
+    Unfinished {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The statement of the contents was damaged.
+    #[error("{}: is not as it was written ({problem}), expected no change; {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
+    Contents {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The journal is not the one that the tables were written from.
+    #[error("{}: is not the journal that the tables beside it were written from ({problem}), expected no change; {} writes the tables of what is there", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
+    Journal {
+        /// The folder.
+        folder: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// A table is not the one that was written.
+    #[error("{}: is not as it was written, expected no change; {} writes it again", folder.join(file).display(), mend(folder))]
+    Changed {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the table.
+        file: String,
+    },
+    /// The record of a run was changed.
+    #[error("{}: is not as its run wrote it, expected no change, or a copy of another name; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
+    Record {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A table of a ranking that did not come to its end, or of other tables.
+    #[error("{}: {problem}, expected a ranking of the tables beside it; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
+    Ranking {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the table.
+        file: String,
+        /// What is wrong.
+        problem: &'static str,
+    },
+    /// A file cannot be read.
+    #[error("{}: cannot be read ({reason}), expected the file that squama run writes", file.display())]
+    Unreadable {
+        /// The file.
+        file: PathBuf,
+        /// The message of the system.
+        reason: String,
+    },
+    /// Some designs are not done.
+    #[error("{}: holds {done} of {designs} designs, expected all of them; squama run --resume solves the others, --partial uses those that are there", folder.display())]
+    Incomplete {
+        /// The folder.
+        folder: PathBuf,
+        /// The number of designs that are done.
+        done: u64,
+        /// The number of designs of the run.
+        designs: u64,
+    },
+    /// The journal goes on beyond the tables.
+    #[error("{}: the journal goes on beyond the tables, because a run is going on or was ended before it wrote them; expected tables of all of it; {} writes them, --partial uses those that are there", folder.display(), mend(folder))]
+    Behind {
+        /// The folder.
+        folder: PathBuf,
+    },
+}
+
+/// The command that writes tables and contents of a folder again, from its journal.
+fn mend(folder: &Path) -> String {
+    let folder = shell_word(&folder.display().to_string());
+    format!("squama merge {folder} --out {folder}")
+}
+
+impl VerifiedFolder {
+    /// The results in `folder`; what its contents name is checked when it is opened.
+    ///
+    /// # Errors
+    /// If the contents are missing though there is a journal, are damaged or do not fit the journal; and, unless partial
+    /// results will do, if designs are missing or the journal goes on beyond the tables.
+    pub fn open(folder: &Path, completeness: Completeness) -> Result<Self, InvalidFolder> {
+        let folder = RunFolder::new(folder);
+        let contents = read(&folder)?;
+        let behind = match &contents {
+            Some(contents) => is_behind(&folder, &contents.journal)?,
+            None => false,
+        };
+        let opened = Self { folder, contents, behind };
+        if completeness == Completeness::Whole {
+            opened.require_whole()?;
+        }
+        Ok(opened)
+    }
+
+    fn require_whole(&self) -> Result<(), InvalidFolder> {
+        match &self.contents {
+            Some(contents) if !contents.is_whole() => {
+                let Contents { done, designs, .. } = *contents;
+                Err(InvalidFolder::Incomplete { folder: self.path().to_owned(), done, designs })
+            }
+            _ => self.behind().map_or(Ok(()), Err),
+        }
+    }
+
+    /// What is to be said if the journal goes on beyond the tables.
+    pub fn behind(&self) -> Option<InvalidFolder> {
+        self.behind.then(|| InvalidFolder::Behind { folder: self.path().to_owned() })
+    }
+
+    /// The path of the folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Whether it holds the file `name`.
+    pub fn holds(&self, name: &str) -> bool {
+        self.folder.holds(name)
+    }
+
+    /// The tables as one SHA-256, if the run states it.
+    pub fn digest(&self) -> Option<String> {
+        self.contents.as_ref().map(Contents::digest)
+    }
+
+    /// How much of the run it holds, in words, if it is not the whole: `24 of 720 designs`.
+    pub fn shortfall(&self) -> Option<String> {
+        let contents = self.contents.as_ref()?;
+        let Contents { done, designs, .. } = contents;
+        let behind = if self.behind { ", before the journal went on" } else { "" };
+        let is_short = !contents.is_whole() || self.behind;
+        is_short.then(|| format!("{done} of {designs} designs{behind}"))
+    }
+
+    /// Opens the file `name`, once its bytes are checked.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not as its run has written it.
+    pub fn file(&self, name: &str) -> Result<File, InvalidFolder> {
+        let path = self.folder.file(name);
+        let unreadable = |reason| InvalidFolder::Unreadable { file: path.clone(), reason };
+        // A pipe of that name would never come to its end.
+        if fs::metadata(&path).is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir()) {
+            return Err(unreadable("it is no regular file".to_owned()));
+        }
+        let mut file = File::open(&path).map_err(|error| unreadable(reason(&error)))?;
+        if let Some(expected) = self.expected(name)? {
+            let found = sha256_of(&file).map_err(|error| unreadable(reason(&error)))?;
+            if found != expected {
+                return Err(self.changed(name));
+            }
+            file.rewind().map_err(|error| unreadable(reason(&error)))?;
+        }
+        Ok(file)
+    }
+
+    /// The text of the file `name`, once its bytes are checked.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not as its run has written it.
+    pub fn text(&self, name: &str) -> Result<String, InvalidFolder> {
+        let mut text = String::new();
+        let read = self.file(name)?.read_to_string(&mut text);
+        read.map_err(|error| InvalidFolder::Unreadable {
+            file: self.folder.file(name),
+            reason: reason(&error),
+        })?;
+        Ok(text)
+    }
+
+    /// The SHA-256 that the file `name` must have, if anybody states it.
+    fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let Some(contents) = &self.contents else { return Ok(None) };
+        if let Some(digest) = contents.files.get(name) {
+            return Ok(Some(digest.clone()));
+        }
+        if RunFolder::of_runs().any(|table| table == name) {
+            // Tables of a run that was ended before it stated them.
+            return Err(self.changed(name));
+        }
+        if !RunFolder::RANKING.contains(&name) {
+            return Ok(None);
+        }
+        let refuse = |problem| InvalidFolder::Ranking {
+            folder: self.path().to_owned(),
+            file: name.to_owned(),
+            problem,
+        };
+        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        let ranking = ranking.ok_or_else(|| refuse("its ranking did not come to its end"))?;
+        if ranking.from != contents.digest() {
+            return Err(refuse("is made from other tables"));
+        }
+        Ok(ranking.files.get(name).cloned())
+    }
+
+    fn changed(&self, name: &str) -> InvalidFolder {
+        let (folder, file) = (self.path().to_owned(), name.to_owned());
+        if RunFolder::RANKING.contains(&name) {
+            InvalidFolder::Ranking { folder, file, problem: "is not as it was written" }
+        } else {
+            InvalidFolder::Changed { folder, file }
+        }
+    }
+
+    /// What is wrong with any of the files that the contents name.
+    pub fn problems(&self) -> Vec<InvalidFolder> {
+        let names = self.contents.iter().flat_map(|contents| contents.files.keys());
+        names.filter_map(|name| self.file(name).err()).collect()
+    }
+
+    /// What was made from the folder and is out of date: each product, and the command that makes it again.
+    pub fn outdated(&self) -> Vec<Derivation> {
+        let Some(digest) = self.digest() else { return Vec::new() };
+        let all = Derivation::all(&self.folder).into_iter();
+        all.filter(|made| made.from != digest && made.is_there(&self.folder)).collect()
+    }
+}
+
+/// Refuses the definition in the file `path` if it is the record of a run, and not as the run wrote it.
+///
+/// # Errors
+/// If it is.
+pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
+    let (Some(name), Some(folder)) = (path.file_name(), path.parent()) else { return Ok(()) };
+    let is_record = name == RunFolder::RUN_INFO && path.is_file();
+    let stated = is_record.then(|| Contents::stated_in(&RunFolder::new(folder))).flatten();
+    let expected = stated.and_then(|contents| contents.files.get(RunFolder::RUN_INFO).cloned());
+    let found = expected.is_some().then(|| fs::read(path).map(sha256).ok()).flatten();
+    if found == expected {
+        return Ok(());
+    }
+    Err(InvalidFolder::Record { folder: folder.to_owned() })
+}
+
+/// The contents of `folder`; `None` if it holds tables alone.
+fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
+    let path = || folder.path().to_owned();
+    match fs::read_to_string(folder.file(RunFolder::CONTENTS)) {
+        Ok(text) => match Contents::parse(&text) {
+            Ok(contents) => Ok(Some(contents)),
+            Err(problem) => Err(InvalidFolder::Contents { folder: path(), problem }),
+        },
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let unfinished = folder.journal().exists();
+            if unfinished { Err(InvalidFolder::Unfinished { folder: path() }) } else { Ok(None) }
+        }
+        Err(error) => Err(InvalidFolder::Contents { folder: path(), problem: reason(&error) }),
+    }
+}
+
+/// Whether the journal in `folder` goes on beyond `extent`. Tables may be copied without their journal.
+fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, InvalidFolder> {
+    let path = folder.journal();
+    let Ok(metadata) = fs::metadata(&path) else { return Ok(false) };
+    let refuse =
+        |problem: String| InvalidFolder::Journal { folder: folder.path().to_owned(), problem };
+    if !metadata.is_file() {
+        return Err(refuse("it is no regular file".to_owned()));
+    }
+    if metadata.len() < extent.bytes {
+        return Err(refuse(format!("it had {} bytes and has {}", extent.bytes, metadata.len())));
+    }
+    let found = JournalExtent::of(&path, extent.bytes, extent.lines);
+    let found = found.map_err(|error| refuse(reason(&error)))?;
+    if found != *extent {
+        return Err(refuse("its beginning has changed".to_owned()));
+    }
+    Ok(metadata.len() > extent.bytes)
+}

@@ -1,0 +1,56 @@
+//! Round-off: differences between numbers that say nothing.
+
+/// Two numbers whose difference is at most this part of the larger one are the same but for round-off.
+pub const ROUND_OFF: f64 = 1e-9;
+
+/// Whether `a` and `b` are the same but for round-off.
+pub fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs())
+}
+
+/// The best of values that come one after the other, each with the thing that has it. Of those that are the same
+/// but for round-off the first is the best, and the others are its ties.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leader<T> {
+    /// The first thing that has the best value.
+    pub first: T,
+    /// The value.
+    pub value: f64,
+    /// The number of others that have the same value but for round-off.
+    pub ties: u64,
+}
+
+impl<T> Leader<T> {
+    /// Enters a value in a contest, where `is_better` tells which of two values is better.
+    pub fn enter(best: &mut Option<Self>, first: T, value: f64, is_better: fn(&f64, &f64) -> bool) {
+        match best {
+            Some(best) if same(value, best.value) => best.ties += 1,
+            Some(best) if !is_better(&value, &best.value) => {}
+            _ => *best = Some(Self { first, value, ties: 0 }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_equals_is_the_best() {
+        let mut best = None;
+        for (design, value) in
+            [0.5, 0.8, 0.3, 0.8 + 1e-12, 0.8 - 1e-12, 0.7].into_iter().enumerate()
+        {
+            Leader::enter(&mut best, design, value, f64::gt);
+        }
+        assert_eq!(best, Some(Leader { first: 1, value: 0.8, ties: 2 }));
+    }
+
+    #[test]
+    fn zero_is_itself_alone() {
+        assert!(same(0.0, -0.0));
+        assert!(!same(0.0, 1e-300));
+        assert!(same(1e20, 1e20 + 1e10));
+        assert!(!same(1.0, 1.0 + 1e-8));
+    }
+}

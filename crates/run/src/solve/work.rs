@@ -1,0 +1,139 @@
+//! The work of a run, told to whoever waits: within long designs too, because an imperfect design may take a thousand
+//! times as long as a perfect one.
+
+use std::cell::Cell;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use skin::flexure::{Method, whole_gaps};
+use sweep::{Case, Measure};
+
+/// The work that a run has and that it has done, counted in paths of one row or one gap. Any thread may look at it.
+#[derive(Debug, Default)]
+pub struct WorkMeter {
+    all: AtomicU64,
+    done: AtomicU64,
+}
+
+impl WorkMeter {
+    /// The share of the work that is done, from 0 to 1.
+    pub fn share(&self) -> f64 {
+        let [done, all] = [&self.done, &self.all].map(|units| units.load(Ordering::Relaxed));
+        if all > 0 { (done as f64 / all as f64).min(1.0) } else { 0.0 }
+    }
+
+    /// Begins to count `all` units.
+    pub(crate) fn begin(&self, all: u64) {
+        self.done.store(0, Ordering::Relaxed);
+        self.all.store(all, Ordering::Relaxed);
+    }
+}
+
+/// The work of the parts of a design.
+#[derive(Clone, Copy, Debug)]
+struct Parts {
+    /// All but the samples.
+    ideal: u64,
+    /// One imperfect row.
+    row: u64,
+    /// One imperfect strip, which is solved gap by gap.
+    strip: u64,
+    samples: u64,
+}
+
+impl Parts {
+    fn of(case: &Case, measures: &[Measure]) -> Self {
+        let has = |measure| u64::from(measures.contains(&measure));
+        let (punctures, bends) = (has(Measure::Puncture), has(Measure::Flexure));
+        let is_chain = case.flexure.method == Method::Chain;
+        let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
+        let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
+        let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
+        let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
+        Self { ideal, row: punctures, strip: bends * gaps, samples }
+    }
+
+    fn sum(self) -> u64 {
+        self.ideal.saturating_add(self.samples.saturating_mul(self.row + self.strip))
+    }
+}
+
+/// The work of a design that is solved for `measures`.
+pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
+    Parts::of(case, measures).sum()
+}
+
+/// The work of one design while it is solved. What is left when it ends, because nothing is told of a part or a path
+/// stopped early, is done with it.
+pub(crate) struct DesignWork<'m> {
+    meter: &'m WorkMeter,
+    parts: Parts,
+    left: Cell<u64>,
+}
+
+impl<'m> DesignWork<'m> {
+    /// The work of `case`, none of it done.
+    pub fn new(meter: &'m WorkMeter, case: &Case, measures: &[Measure]) -> Self {
+        let parts = Parts::of(case, measures);
+        Self { meter, parts, left: Cell::new(parts.sum()) }
+    }
+
+    /// An imperfect row is done.
+    pub fn row_done(&self) {
+        self.done(self.parts.row);
+    }
+
+    /// An imperfect strip is done.
+    pub fn strip_done(&self) {
+        self.done(self.parts.strip);
+    }
+
+    fn done(&self, units: u64) {
+        let units = units.min(self.left.get());
+        self.left.set(self.left.get() - units);
+        self.meter.done.fetch_add(units, Ordering::Relaxed);
+    }
+}
+
+impl Drop for DesignWork<'_> {
+    fn drop(&mut self) {
+        self.done(u64::MAX);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sweep::Sweep;
+
+    use super::*;
+
+    fn case(text: &str) -> Case {
+        let text = format!("name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.9\n{text}");
+        Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep").grid().case(0)
+    }
+
+    #[test]
+    fn imperfect_designs_are_more_work() {
+        let perfect = case("slant_deg = 0");
+        let uneven =
+            case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 7\n[flexure]\ngaps = 50");
+        assert_eq!(work_of(&perfect, &[Measure::Coverage]), 1);
+        assert_eq!(work_of(&perfect, &Measure::ALL), 3);
+        assert_eq!(work_of(&uneven, &Measure::ALL), 3 + 7 * (1 + 50));
+        assert_eq!(work_of(&uneven, &[Measure::Puncture]), 2 + 7);
+    }
+
+    #[test]
+    fn work_goes_on_within_a_design_and_ends_with_it() {
+        let uneven = case("slant_deg = 0\ngap_cv = 0.1\n[imperfection]\nsamples = 4");
+        let meter = WorkMeter::default();
+        assert_eq!(meter.share(), 0.0);
+        meter.begin(2 * work_of(&uneven, &[Measure::Puncture]));
+        let work = DesignWork::new(&meter, &uneven, &[Measure::Puncture]);
+        work.row_done();
+        assert_eq!(meter.share(), 1.0 / 12.0);
+        work.row_done();
+        assert_eq!(meter.share(), 2.0 / 12.0);
+        drop(work);
+        assert_eq!(meter.share(), 0.5);
+    }
+}

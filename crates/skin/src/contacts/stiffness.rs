@@ -1,0 +1,76 @@
+//! The stiffness of closed contacts as a symmetric matrix.
+
+use contact::{CornerContact, FORCES};
+
+use super::{Contacts, SkinState};
+
+impl Contacts {
+    /// The unknowns in whose places the components of contact forces (C8) stand in the stiffness: those of the forces that act.
+    pub(crate) fn forces_in_stiffness(&self, state: &SkinState) -> impl Iterator<Item = usize> {
+        let contacts = state.mode.iter().enumerate();
+        contacts.flat_map(|(contact, mode)| self.acting_unknowns(contact, *mode))
+    }
+
+    fn acting_unknowns(
+        &self,
+        contact: usize,
+        mode: CornerContact,
+    ) -> impl Iterator<Item = usize> + use<> {
+        let (acting, unknowns) = (mode.acting(), self.unknowns_of(contact));
+        (0..FORCES).filter(move |&force| acting[force]).map(move |force| unknowns[force])
+    }
+
+    /// Shows every entry of the symmetric stiffness of the closed contacts: row, column, value. It has a negative eigenvalue for each
+    /// component of a force, besides those of the stiffness in the displacements alone (Haynsworth 1968,
+    /// doi 10.1016/0024-3795(68)90050-5).
+    pub(crate) fn for_stiffness(
+        &self,
+        state: &SkinState,
+        mut entry: impl FnMut(usize, usize, f64),
+    ) {
+        for (contact, mode) in state.mode.iter().enumerate() {
+            if *mode != CornerContact::Open {
+                self.show_stiffness(state, contact, &mut entry);
+            }
+        }
+    }
+
+    /// Number of contacts whose corners stand on a ridge of the energy.
+    pub(crate) fn ridges(&self, state: &SkinState) -> usize {
+        let is_ridge = |(contact, mode): &(usize, &CornerContact)| {
+            let poses = self.pair_poses(&state.z, *contact);
+            matches!(mode, CornerContact::Corner(_))
+                && mode.is_on_ridge(&self.corners(*contact, &poses))
+        };
+        state.mode.iter().enumerate().filter(is_ridge).count()
+    }
+
+    fn show_stiffness(
+        &self,
+        state: &SkinState,
+        contact: usize,
+        entry: &mut impl FnMut(usize, usize, f64),
+    ) {
+        let (mode, poses) = (state.mode[contact], self.pair_poses(&state.z, contact));
+        let forces = self.forces_of(&state.z, contact);
+        let stiffness = mode.stiffness(&self.corners(contact, &poses), &self.law, forces);
+        let parts: Vec<_> = self.parts(contact).into_iter().flatten().collect();
+        for row in &parts {
+            for column in &parts {
+                let value = stiffness.by_coordinate[row.coordinate][column.coordinate];
+                entry(row.unknown, column.unknown, row.sign * column.sign * value);
+            }
+        }
+        let unknowns: Vec<_> = self.acting_unknowns(contact, mode).collect();
+        for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
+            for part in &parts {
+                let value = part.sign * balance[part.coordinate];
+                entry(part.unknown, *force, value);
+                entry(*force, part.unknown, value);
+            }
+            for (j, other) in unknowns.iter().enumerate() {
+                entry(*force, *other, -stiffness.compliance[i][j]);
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! The strips of surface between the bases as neo-Hookean bars, which take the place of the springs along the row.
+
+use solver::{Residual, Tangent};
+use substrate::{FarField, Strip, SubstrateLaw, neo_hookean};
+
+use super::system::Chain;
+
+/// The bar between two neighbouring scales, with what it adds to the linear spring that it replaces:
+///
+/// ```text
+/// a β_x [ d² w(g) − ½ (x' − x)² ]                                                      (P4b)
+/// ```
+///
+/// Its force along the row acts at the corners of the bases, so it turns them too: `∂s/∂φ = a sin φ`.
+pub(super) struct Bar {
+    half_base: f64,
+    /// Force that the bar adds to that of the spring.
+    excess: f64,
+    /// Its whole force.
+    tension: f64,
+    /// Stiffness of the spring and of the bar.
+    spring: f64,
+    stiffness: f64,
+    /// Rotations of both scales.
+    turns: [Turn; 2],
+}
+
+/// The rotation of a scale.
+#[derive(Clone, Copy)]
+struct Turn {
+    sin: f64,
+    /// `1 − cos φ`, without cancellation.
+    shortened: f64,
+}
+
+impl Turn {
+    fn new(rotation: f64) -> Self {
+        let (sin, cos) = (0.5 * rotation).sin_cos();
+        Self { sin: 2.0 * sin * cos, shortened: 2.0 * sin * sin }
+    }
+}
+
+/// An end of a bar: the displacement of the scale along the row, and its rotation.
+type End = (f64, Turn);
+
+fn end([x, _, rotation]: [f64; 3]) -> End {
+    (x, Turn::new(rotation))
+}
+
+impl Chain {
+    /// The same row on a substrate of that law.
+    pub(crate) fn with_law(mut self, law: SubstrateLaw) -> Self {
+        let nearest = || self.neighbours.first().map(|neighbour| -neighbour.direct[0]);
+        self.bars = match law {
+            SubstrateLaw::Linear => None,
+            SubstrateLaw::NeoHookean => nearest(),
+        };
+        self
+    }
+
+    /// The strip of surface to the right of a scale.
+    pub(super) fn strip(&self, scale: usize) -> Strip {
+        Strip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }
+    }
+
+    /// Shows the bars, from the left, each with the first unknowns of its two scales; none where the substrate is linear.
+    pub(super) fn for_bars(&self, z: &[f64], mut show: impl FnMut([usize; 2], &Bar)) {
+        let Some(spring) = self.bars else { return };
+        let mut left = end(self.displacement(z, 0));
+        for scale in 1..self.layout.scales() {
+            let right = end(self.displacement(z, scale));
+            let places = [scale - 1, scale].map(|i| self.layout.scale(i));
+            show(places, &Bar::new(&self.strip(scale - 1), spring, [left, right]));
+            left = right;
+        }
+    }
+
+    /// Every entry of the stiffness that the bars add to that of the springs: row and column of the tangent, and value.
+    pub(super) fn for_bar_stiffness(&self, z: &[f64], mut entry: impl FnMut(usize, usize, f64)) {
+        self.for_bars(z, |places, bar| bar.add_stiffness(places, &mut Entries(&mut entry)));
+    }
+
+    /// Energy of the bars above that of the springs which they replace.
+    pub(super) fn bar_energy(&self, z: &[f64]) -> f64 {
+        let Some(spring) = self.bars else { return 0.0 };
+        let energy = |scale: usize| {
+            let [left, right] = [scale, scale + 1].map(|i| self.displacement(z, i));
+            let strip = self.strip(scale);
+            let [energy, ..] = neo_hookean(strip.stretch(left, right));
+            spring * (strip.width.powi(2) * energy - 0.5 * (right[0] - left[0]).powi(2))
+        };
+        (0..self.layout.scales() - 1).map(energy).sum()
+    }
+
+    /// Force of bars beyond an end of the row that is displaced by `displacement`, above that of the springs which stand for them
+    /// there: the largest of bars of these widths, over the stiffness of a scale.
+    pub(super) fn excess_beyond(
+        &self,
+        displacement: [f64; 3],
+        far: &FarField,
+        widths: &[f64],
+    ) -> f64 {
+        let Some(spring) = self.bars else { return 0.0 };
+        let excess = |(distance, &width): (usize, &f64)| {
+            let [near, next] =
+                [distance, distance + 1].map(|k| end(far.displacement(displacement, k)));
+            let strip = Strip { width, half_base: self.half_base };
+            let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
+            // Pressed beyond the one end of the row where it would be stretched beyond the other: the larger of both.
+            excess([near, next]).max(excess([next, near])) / self.direct[0]
+        };
+        widths.iter().enumerate().map(excess).fold(0.0, f64::max)
+    }
+}
+
+/// A function that is shown every entry of a matrix.
+struct Entries<F>(F);
+
+impl<F: FnMut(usize, usize, f64)> Tangent for Entries<F> {
+    fn clear_row(&mut self, _row: usize) {}
+
+    fn add(&mut self, row: usize, column: usize, value: f64) {
+        (self.0)(row, column, value);
+    }
+}
+
+impl Bar {
+    fn new(strip: &Strip, spring: f64, [left, right]: [End; 2]) -> Self {
+        let apart = right.0 - left.0;
+        let shortened = left.1.shortened + right.1.shortened;
+        let [_, force, slope] = neo_hookean(strip.stretch_by(apart, shortened));
+        let tension = spring * strip.width * force;
+        Self {
+            half_base: strip.half_base,
+            excess: tension - spring * apart,
+            tension,
+            spring,
+            stiffness: spring * slope,
+            turns: [left.1, right.1],
+        }
+    }
+
+    /// Adds the forces of the bar and their tangent; `places` are the first unknowns of its two scales.
+    pub(super) fn linearise(
+        &self,
+        places: [usize; 2],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        self.add_force(places, residual);
+        self.add_stiffness(places, matrix);
+    }
+
+    fn add_force(&self, [left, right]: [usize; 2], residual: &mut Residual) {
+        residual.add(left, -self.excess);
+        residual.add(right, self.excess);
+        for (at, turn) in [left, right].into_iter().zip(self.turns) {
+            residual.add(at + 2, self.tension * self.half_base * turn.sin);
+        }
+    }
+
+    fn add_stiffness(&self, places: [usize; 2], matrix: &mut impl Tangent) {
+        let along = self.stiffness - self.spring;
+        let arms = self.turns.map(|turn| self.half_base * turn.sin);
+        // The elongation falls with x of the left scale, and rises with that of the right one.
+        let signs = [-1.0, 1.0];
+        for (i, row) in places.into_iter().enumerate() {
+            let curved = self.tension * self.half_base * (1.0 - self.turns[i].shortened);
+            let turned = self.stiffness * arms[i];
+            for (j, column) in places.into_iter().enumerate() {
+                let own = if i == j { curved } else { 0.0 };
+                let along_row =
+                    [signs[i] * signs[j] * along, 0.0, signs[i] * self.stiffness * arms[j]];
+                matrix.add_block(row, column, &[along_row]);
+                let by_turn = [signs[j] * turned, 0.0, turned * arms[j] + own];
+                matrix.add_block(row + 2, column, &[by_turn]);
+            }
+        }
+    }
+}

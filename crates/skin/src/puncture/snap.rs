@@ -1,0 +1,183 @@
+//! How far along a path a needle can follow it, and where the row snaps.
+
+use solver::{Event, Path};
+
+use super::stability::Instability;
+use super::system::Chain;
+use super::{PunctureMeasures, PuncturePoint};
+use crate::contacts::{SkinPoint, SkinState};
+use crate::crossing::Crossing;
+use crate::record::Skin;
+
+/// The largest depth is found where the rate of the depth is this part of that at the ends, or after so many equilibria.
+const FLAT: f64 = 1e-9;
+const EVALUATIONS: usize = 60;
+
+/// A dip of the depth that begins at a point is looked for in this many halves of halves of the way to the next.
+const HALVINGS: i32 = 20;
+
+/// A snap: where the depth turns back, a needle that only goes deeper leaves the path, and comes to it again where the depth is as
+/// large once more.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Snap {
+    /// The equilibrium at which the depth turns back.
+    pub point: PuncturePoint,
+    /// `F*` there less `F*` where the depth is as large again; `None` if the path ends before.
+    pub drop: Option<f64>,
+    /// Contact events before it.
+    pub events_before: usize,
+}
+
+/// Follows along a path how far a needle can follow it.
+#[derive(Debug, Default)]
+pub(super) struct Needle {
+    /// Whether the load has turned back: before that a row is stable.
+    has_unloaded: bool,
+    /// Of every point that the path has left.
+    instability: Vec<Instability>,
+    /// `F*` where stability under the load ends.
+    load_limit: Option<f64>,
+    snaps: Vec<Snap>,
+}
+
+impl Needle {
+    /// Follows the path from one point to the next.
+    ///
+    /// On a path that leaves a stable state the load rises as long as the stiffness has an even number of negative eigenvalues. So
+    /// there are none before the load first turns, and nothing is counted.
+    pub(super) fn follow(
+        &mut self,
+        path: &mut Path<Chain>,
+        [from, to]: [&SkinPoint; 2],
+        events_before: usize,
+    ) {
+        self.has_unloaded |= to.arriving[path.system().layout.load()] < 0.0;
+        self.count(path, from, to);
+        self.follow_depth(path, from, to, events_before);
+    }
+
+    /// At an extremum of the load the stiffness is singular, and what holds behind it is found half-way to the next point.
+    fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
+        if !self.has_unloaded {
+            return self.instability.push(Instability::default());
+        }
+        let is_singular = from.event == Some(Event::LoadExtremum);
+        let between = if is_singular { path.between(from, to, 0.5) } else { None };
+        let state = between.as_ref().map_or(&from.state, |point| &point.state);
+        let instability = self.at(path.system(), state);
+        self.instability.push(instability);
+        if instability.load > 0 {
+            self.load_limit.get_or_insert(path.system().force(&from.state));
+        }
+    }
+
+    /// The instability of a state; that of the last one where its stiffness is singular.
+    fn at(&self, chain: &Chain, state: &SkinState) -> Instability {
+        let last = || self.instability.last().copied().unwrap_or_default();
+        chain.instability(state).unwrap_or_else(last)
+    }
+
+    fn follow_depth(
+        &mut self,
+        path: &mut Path<Chain>,
+        from: &SkinPoint,
+        to: &SkinPoint,
+        events_before: usize,
+    ) {
+        if self.open_snap().is_none()
+            && let Some(turned) = turning_point(path, from, to)
+        {
+            let point = path.system().path_point(&turned);
+            self.snaps.push(Snap { point, drop: None, events_before });
+        }
+        if let Some(snap) = self.open_snap() {
+            snap.land(path, from, to);
+        }
+    }
+
+    /// The snap that has not come to the path again.
+    fn open_snap(&mut self) -> Option<&mut Snap> {
+        self.snaps.last_mut().filter(|snap| snap.drop.is_none())
+    }
+
+    /// Adds to the measures how far the path is stable. Returns the instability of every point of the path, and the snaps.
+    pub(super) fn finish(
+        mut self,
+        path: &Path<Chain>,
+        measures: &mut PunctureMeasures,
+    ) -> (Vec<Instability>, Vec<Snap>) {
+        let end = if self.has_unloaded {
+            self.at(path.system(), &path.point().state)
+        } else {
+            Instability::default()
+        };
+        self.instability.push(end);
+        measures.stable_under_load = Some(end.load == 0);
+        measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
+        measures.load_stability_force = self.load_limit;
+        measures.depth_stability_force = self.snaps.first().map(|snap| snap.point.force);
+        measures.snaps = self.snaps.len();
+        (self.instability, self.snaps)
+    }
+}
+
+impl Snap {
+    /// Finds where between two points the depth is as large as at the snap again, if it is.
+    fn land(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
+        let depth = self.point.displacement;
+        let is_below =
+            |path: &Path<Chain>, point: &SkinPoint| path.system().depth(&point.state.z) < depth;
+        if is_below(path, to) {
+            return;
+        }
+        let below = if is_below(path, from) {
+            Some(from.clone())
+        } else {
+            // The depth turns back at the first point and is as large again before the second.
+            let places = (1..HALVINGS).map(|k| 0.5_f64.powi(k));
+            let points = places.filter_map(|place| path.between(from, to, place));
+            let points: Vec<_> = points.collect();
+            points.into_iter().find(|point| is_below(path, point))
+        };
+        let quantity = |chain: &Chain, state: &SkinState| chain.depth(&state.z);
+        let crossing = Crossing { quantity, value: depth };
+        let landed = below.and_then(|below| crossing.between(path, &below, to));
+        // A dip that is lost in round-off is none.
+        let landed = landed.unwrap_or_else(|| to.state.clone());
+        self.drop = Some(self.point.force - path.system().force(&landed));
+    }
+}
+
+/// Where the depth turns back between two points, or at the first of them.
+fn turning_point(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Option<SkinPoint> {
+    let rate = |path: &Path<Chain>, point: &SkinPoint, direction: &[f64]| {
+        path.system().depth_slope(&point.state.z, direction)
+    };
+    let leaving = rate(path, from, &from.leaving);
+    let arriving = rate(path, to, &to.arriving);
+    if leaving < 0.0 {
+        return Some(from.clone());
+    }
+    if arriving >= 0.0 {
+        return None;
+    }
+    let (mut low, mut high) = ((0.0, leaving), (1.0, arriving));
+    let mut nearest = from.clone();
+    for _ in 0..EVALUATIONS {
+        let place = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        nearest = path.between(from, to, place)?;
+        let slope = rate(path, &nearest, &nearest.arriving);
+        if slope.abs() <= FLAT * (leaving - arriving) {
+            break;
+        }
+        // The Illinois rule.
+        if slope < 0.0 {
+            high = (place, slope);
+            low.1 *= 0.5;
+        } else {
+            low = (place, slope);
+            high.1 *= 0.5;
+        }
+    }
+    Some(nearest)
+}

@@ -1,0 +1,88 @@
+//! The stability of a row under a needle that holds its load, its depth, or the tilt of the scale.
+
+use solver::SkylineMatrix;
+
+use super::system::Chain;
+use crate::contacts::SkinState;
+
+/// Place of an unknown that the stiffness does not hold.
+const LEFT_OUT: usize = usize::MAX;
+
+/// Negative eigenvalues of the tangent stiffness of a row: as many independent motions release energy. An equilibrium is stable
+/// if there are none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Instability {
+    /// With the load held, as by a weight.
+    pub load: usize,
+    /// With the depth of the punctured point held, as by a screw.
+    pub depth: usize,
+    /// With the tilt of the punctured scale held.
+    pub tilt: usize,
+}
+
+impl Chain {
+    /// The instability of an equilibrium; `None` where its stiffness is singular to the last digit.
+    ///
+    /// With the stiffness `K` of the row under its load and the load vector `p`, which is the gradient of the depth, a held depth takes
+    /// away a negative eigenvalue if `pᵀ K⁻¹ p < 0`, that is `du/dF < 0`, and a held tilt one if its compliance
+    /// `eᵀ K⁻¹ e` is negative (P5). Corners that meet on a ridge of the energy are held together by their contact, but not by the energy, and count as
+    /// one more.
+    pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
+        let kept = self.kept(state);
+        let mut places = vec![LEFT_OUT; self.layout.size()];
+        for (place, &unknown) in kept.iter().enumerate() {
+            places[unknown] = place;
+        }
+        let factors = self.stiffness_matrix(state, &kept, &places).factorise().ok()?;
+        let at = places[self.layout.scale(self.layout.left)];
+        let compliance = |load: [f64; 3]| {
+            let mut x = vec![0.0; kept.len()];
+            x[at..at + 3].copy_from_slice(&load);
+            factors.solve(&mut x);
+            load.iter().zip(&x[at..]).map(|(load, x)| load * x).sum::<f64>()
+        };
+        let forces = kept.len() - 3 * self.layout.scales();
+        let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
+        let load = held_together + self.contacts.ridges(state);
+        let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
+        let arm = self.loaded_arm(&state.z);
+        Some(Instability {
+            load,
+            depth: held(compliance([0.0, 1.0, arm.x])),
+            tilt: held(compliance([0.0, 0.0, 1.0])),
+        })
+    }
+
+    /// The unknowns that the stiffness holds, in order: displacements, and contact forces that may be rigid.
+    fn kept(&self, state: &SkinState) -> Vec<usize> {
+        let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
+        let mut kept: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
+        kept.extend(self.contacts.forces_in_stiffness(state));
+        kept.sort_unstable();
+        kept
+    }
+
+    fn stiffness_matrix(
+        &self,
+        state: &SkinState,
+        kept: &[usize],
+        places: &[usize],
+    ) -> SkylineMatrix {
+        // A scale is coupled with as many before it, a force with the scales on both sides.
+        let before = self.coupled_scales();
+        let first = |&unknown: &usize| {
+            let scale = self.layout.scale_of(unknown);
+            places[self.layout.scale(scale.saturating_sub(before))]
+        };
+        let mut matrix = SkylineMatrix::new(kept.iter().map(first).collect());
+        let mut entry = |row: usize, column: usize, value| {
+            matrix.add(places[row], places[column], value);
+        };
+        self.for_springs(&mut entry);
+        self.for_bar_stiffness(&state.z, &mut entry);
+        let turn = self.layout.scale(self.layout.left) + 2;
+        entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
+        self.contacts.for_stiffness(state, entry);
+        matrix
+    }
+}

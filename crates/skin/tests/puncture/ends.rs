@@ -1,0 +1,148 @@
+//! Paths beyond the largest force that a scale bears.
+
+use approx::assert_relative_eq;
+use rayon::prelude::*;
+use skin::puncture::{Instability, Puncture, PunctureParameters, PuncturePoint};
+use skin::{Base, Common, Design, Status};
+use solver::{Settings, Stop};
+use substrate::Calibrations;
+
+use crate::end;
+use crate::samples::{
+    BASES, design, finer, long_campaigns, random, reference_study, solve, solve_as, solve_with,
+};
+
+fn to_tilt(critical_tilt_deg: f64) -> PunctureParameters {
+    PunctureParameters { critical_tilt_deg, ..PunctureParameters::default() }
+}
+
+/// The load falls to zero before the scale tilts by 35°, and would go on below it.
+#[test]
+fn a_needle_that_would_have_to_pull_is_off() {
+    let design = design(0.6, 1.0, 60.0, Base::L);
+    let puncture = solve(&design, &to_tilt(35.0));
+    let (measures, last) = (puncture.measures, end(&puncture));
+    assert_eq!(puncture.status, Status::Stopped(Stop::Unloaded));
+    assert!(last.force.abs() < 1e-14 && last.tilt_deg < 35.0, "{last:?}");
+    assert!(puncture.path.iter().skip(1).rev().skip(1).all(|point| point.force > 0.0));
+    assert_eq!(measures.critical_force.or(measures.penetration), None);
+    // Up to the tilt of its peak the path is another one's beginning, which ends there.
+    let to_peak = solve(&design, &to_tilt(measures.peak_tilt_deg.unwrap()));
+    assert_eq!(to_peak.status, Status::Complete);
+    assert_relative_eq!(
+        to_peak.measures.critical_force.unwrap(),
+        measures.peak_force.unwrap(),
+        max_relative = 1e-9
+    );
+}
+
+/// The peak that a scale bears does not depend on how far the path is followed behind it.
+#[test]
+fn a_peak_is_the_same_whether_the_path_goes_on_or_not() {
+    let design = design(0.1, 0.5, 45.0, Base::L);
+    let peaks = [29.0, 35.0, 60.0].map(|tilt| solve(&design, &to_tilt(tilt)).measures);
+    for peak in &peaks {
+        assert_relative_eq!(peak.peak_force.unwrap(), 1.409, max_relative = 1e-3);
+        assert_relative_eq!(peak.peak_tilt_deg.unwrap(), 28.2, max_relative = 1e-2);
+        assert_relative_eq!(
+            peak.peak_force.unwrap(),
+            peaks[0].peak_force.unwrap(),
+            max_relative = 1e-10
+        );
+    }
+}
+
+/// Solves designs to some tilt, each to its own, and looks at how they end.
+fn check(designs: &[(Design, f64)], known: &Calibrations) {
+    let solved: Vec<Puncture> = designs
+        .par_iter()
+        .map(|(design, tilt)| solve_with(known, design, &to_tilt(*tilt)))
+        .collect();
+    for ((design, tilt), puncture) in designs.iter().zip(&solved) {
+        let measures = &puncture.measures;
+        assert!(puncture.path.iter().all(|point| point.force > -1e-12), "{design:?} {tilt}");
+        assert!(measures.peak_force.is_some_and(|peak| peak > 0.0), "{design:?} {tilt}");
+        assert_eq!(measures.peak_force.is_some(), measures.peak_tilt_deg.is_some());
+        let unloaded = puncture.status == Status::Stopped(Stop::Unloaded);
+        assert_eq!(unloaded, end(puncture).force.abs() < 1e-12, "{design:?} {tilt}");
+        assert_eq!(puncture.status == Status::Complete, measures.critical_force.is_some());
+    }
+}
+
+#[test]
+fn the_steep_half_of_the_study_ends_before_a_needle_pulls() {
+    let designs = BASES.map(reference_study).concat().into_iter();
+    let steep = designs.filter(|design| design.slant_deg >= 60.0);
+    let every = if long_campaigns() { 1 } else { 11 };
+    let designs: Vec<_> = steep.step_by(every).map(|design| (design, 35.0)).collect();
+    check(&designs, &Calibrations::default());
+}
+
+/// Tilts from 10° to 45°. Two hundred designs; two thousand in a long campaign.
+#[test]
+fn random_designs_end_before_a_needle_pulls() {
+    let designs = random(if long_campaigns() { 2000 } else { 200 }, 7);
+    let tilt = |k: usize| 10.0 + 5.0 * (k % 8) as f64;
+    let designs: Vec<_> = designs.into_iter().enumerate().map(|(k, d)| (d, tilt(k))).collect();
+    check(&designs, &Calibrations::default());
+}
+
+/// A corner that slides off its edge lets the row snap: load, depth and tilt turn back there. The place does not depend on the
+/// steps, and at the depth of the snap the force is lower by its drop.
+#[test]
+fn a_row_snaps_where_a_corner_passes_a_corner() {
+    let design = design(0.1, 1.0, 45.0, Base::TwoL);
+    let fine = Common { solver: finer(finer(Settings::default())), ..Common::default() };
+    let puncture = solve_as(&Calibrations::default(), &design, &fine, &to_tilt(10.0));
+    assert_eq!((puncture.measures.snaps, puncture.snaps.len()), (1, 1));
+    let snap = puncture.snaps[0];
+    let corner = puncture.events[snap.events_before - 1];
+    assert_eq!(corner.point, snap.point);
+    assert_eq!(corner.change.name(), "reached corner");
+    assert_relative_eq!(snap.point.force, 0.5892, max_relative = 1e-4);
+    // The path that no needle follows falls to 0.5826 before it rises again.
+    let lowest = puncture.path.iter().skip_while(|p| **p != snap.point).map(|p| p.force);
+    assert_relative_eq!(lowest.fold(f64::MAX, f64::min), 0.5826, max_relative = 1e-4);
+    let at = puncture.path.iter().position(|point| *point == snap.point).unwrap();
+    let behind = puncture.path[at..].windows(2);
+    let landing = |pair: &&[PuncturePoint]| {
+        pair[0].displacement < snap.point.displacement
+            && pair[1].displacement > snap.point.displacement
+    };
+    let &[low, high] = behind.clone().find(landing).unwrap() else { unreachable!() };
+    let part =
+        (snap.point.displacement - low.displacement) / (high.displacement - low.displacement);
+    let landed = low.force + part * (high.force - low.force);
+    // The chord between two points lies a little beside the path.
+    assert_relative_eq!(snap.drop.unwrap(), snap.point.force - landed, max_relative = 5e-3);
+    let measures = puncture.measures;
+    assert_eq!(measures.depth_stability_force, Some(snap.point.force));
+    assert_eq!(measures.load_stability_force, Some(snap.point.force));
+    assert_eq!([measures.stable_under_load, measures.stable_under_depth], [Some(true); 2]);
+    // On the way back nothing holds the row; before and behind everything does.
+    let back = behind.take_while(|pair| pair[1].force < pair[0].force).count();
+    let unstable = |count| Instability { load: count, depth: count, tilt: count };
+    for (k, instability) in puncture.instability.iter().enumerate() {
+        let count = usize::from((at..at + back).contains(&k));
+        assert_eq!(*instability, unstable(count), "point {k}, snap at {at}, {back} back");
+    }
+}
+
+/// Of the 720 designs of either base those snap whose contact reaches a corner.
+#[test]
+fn corners_and_snaps_go_together() {
+    let every = if long_campaigns() { 1 } else { 5 };
+    let known = Calibrations::default();
+    let designs = BASES.map(reference_study).concat();
+    let solved: Vec<(usize, usize)> = designs
+        .par_iter()
+        .step_by(every)
+        .map(|design| {
+            let puncture = solve_with(&known, design, &to_tilt(10.0));
+            let corners = puncture.events.iter().filter(|e| e.change.name() == "reached corner");
+            (puncture.measures.snaps, corners.count())
+        })
+        .collect();
+    assert!(solved.iter().all(|&(snaps, corners)| snaps == corners));
+    assert!(solved.iter().any(|&(snaps, _)| snaps > 0));
+}

@@ -1,0 +1,152 @@
+//! Where the surface of the substrate folds over, and how far its gaps are stretched.
+
+use approx::assert_relative_eq;
+use skin::puncture::{Puncture, PunctureParameters, RowLength};
+use skin::{Base, Common, Design};
+use solver::Settings;
+use substrate::Calibrations;
+
+use crate::samples::{LAWS, design, domino, finer, on_row, settled, solve, solve_as};
+use crate::{complete, end};
+
+/// Designs of the reference study whose surface folds over before 10°, in one gap or in many.
+fn folded() -> [Design; 5] {
+    [
+        domino(),
+        design(0.1, 0.2, 75.0, Base::L),
+        design(0.1, 1.0, 75.0, Base::L),
+        design(0.2, 0.2, 75.0, Base::L),
+        design(0.1, 0.4, 75.0, Base::TwoL),
+    ]
+}
+
+fn automatic() -> PunctureParameters {
+    PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() }
+}
+
+/// Stretch of every gap at the end of a path, from the corners of the bases.
+fn stretches(design: &Design, puncture: &Puncture) -> Vec<f64> {
+    let (a, pitch) = (design.half_base(), 2.0 * design.half_base() + design.gap);
+    let width = |left: &skin::puncture::ScaleState, right: &skin::puncture::ScaleState| {
+        let corner = |turned: f64| a * turned.to_radians().cos();
+        let right_end = left.displacement[0] + corner(left.rotation_deg);
+        pitch + right.displacement[0] - corner(right.rotation_deg) - right_end
+    };
+    puncture.scales.windows(2).map(|pair| width(&pair[0], &pair[1]) / design.gap).collect()
+}
+
+#[test]
+fn gap_stretches_are_those_between_the_corners_of_the_bases() {
+    for design in folded().into_iter().chain([settled()]) {
+        let puncture = solve(&design, &on_row(41));
+        let (measures, stretches) = (complete(&puncture), stretches(&design, &puncture));
+        let min = stretches.iter().copied().fold(f64::INFINITY, f64::min);
+        let max = stretches.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert_relative_eq!(measures.gap_stretch_min.unwrap(), min, epsilon = 1e-11);
+        assert_relative_eq!(measures.gap_stretch_max.unwrap(), max, epsilon = 1e-11);
+        let rest = puncture.path[0].gap_stretch.unwrap();
+        assert_eq!([rest.min, rest.max], [1.0; 2]);
+    }
+}
+
+/// The gaps beyond the part of an endless row that is solved for are looked at too.
+#[test]
+fn an_endless_row_has_the_extreme_gaps_of_a_long_one() {
+    let known = Calibrations::default();
+    for design in folded().into_iter().chain([settled(), design(1.0, 0.5, 0.0, Base::L)]) {
+        let ours = complete(&solve_as(&known, &design, &Common::default(), &automatic()));
+        let long = complete(&solve_as(&known, &design, &Common::default(), &on_row(601)));
+        for (ours, long) in [
+            (ours.gap_stretch_min, long.gap_stretch_min),
+            (ours.gap_stretch_max, long.gap_stretch_max),
+        ] {
+            assert_relative_eq!(ours.unwrap(), long.unwrap(), max_relative = 1e-6, epsilon = 1e-9);
+        }
+        assert_eq!(ours.fold_force.is_some(), long.fold_force.is_some());
+        if let (Some(ours), Some(long)) = (ours.fold_force, long.fold_force) {
+            assert_relative_eq!(ours, long, max_relative = 1e-6);
+        }
+    }
+}
+
+#[test]
+fn a_fold_is_where_a_gap_vanishes() {
+    for design in folded() {
+        let puncture = solve(&design, &automatic());
+        let (measures, first) = (complete(&puncture), puncture.folds[0]);
+        let stretch = first.point.gap_stretch.unwrap();
+        assert!(first.folds && stretch.min.abs() < 1e-10, "{first:?} {design:?}");
+        assert_eq!(measures.fold_force, Some(first.point.force));
+        assert_eq!(measures.fold_displacement, Some(first.point.displacement));
+        assert_eq!(measures.fold_tilt_deg, Some(first.point.tilt_deg));
+        assert_eq!(measures.sound_force, measures.fold_force);
+        assert!(first.point.tilt_deg < end(&puncture).tilt_deg);
+        // Points before have all gaps open; the fold lies between them and the next.
+        let before = puncture.path.iter().take_while(|p| p.gap_stretch.unwrap().min > 0.0).count();
+        let [from, to] = [&puncture.path[before - 1], &puncture.path[before]];
+        assert!((from.tilt_deg..=to.tilt_deg).contains(&first.point.tilt_deg));
+    }
+}
+
+/// What is folded at the end has folded once more often than it has unfolded, and nothing else has.
+#[test]
+fn folds_account_for_the_gaps_that_are_closed_at_the_end() {
+    for design in folded() {
+        let puncture = solve(&design, &on_row(41));
+        let first = puncture.scales[0].scale;
+        for (gap, stretch) in (first..).zip(stretches(&design, &puncture)) {
+            let of_gap = puncture.folds.iter().filter(|fold| fold.left_scale == gap);
+            let balance: i32 = of_gap.map(|fold| if fold.folds { 1 } else { -1 }).sum();
+            assert_eq!(balance, i32::from(stretch <= 0.0), "{gap} {design:?}");
+        }
+    }
+}
+
+#[test]
+fn a_design_that_does_not_fold_is_sound_to_the_end() {
+    let puncture = solve(&settled(), &automatic());
+    let measures = complete(&puncture);
+    assert!(puncture.folds.is_empty() && measures.gap_stretch_min.unwrap() > 0.0);
+    assert_eq!(measures.sound_force, measures.critical_force);
+    let absent = [measures.fold_force, measures.fold_displacement, measures.fold_tilt_deg];
+    assert_eq!(absent, [None; 3]);
+    let alone = complete(&solve(&settled(), &on_row(1)));
+    assert_eq!([alone.gap_stretch_min, alone.gap_stretch_max], [None; 2]);
+    assert_eq!(alone.sound_force, alone.critical_force);
+}
+
+#[test]
+fn folds_do_not_depend_on_the_steps() {
+    let (known, coarse) = (Calibrations::default(), Settings::default());
+    for design in folded() {
+        for law in LAWS {
+            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &automatic());
+            let [ours, theirs] = [with(coarse), with(finer(coarse))].map(|solved| solved.folds);
+            assert_eq!(ours.len(), theirs.len(), "{design:?}");
+            for (ours, theirs) in ours.iter().zip(&theirs) {
+                assert_eq!((ours.left_scale, ours.folds), (theirs.left_scale, theirs.folds));
+                assert_relative_eq!(ours.point.force, theirs.point.force, max_relative = 1e-6);
+            }
+        }
+    }
+}
+
+/// Where the tilt grows all along the path, it tells the order.
+#[test]
+fn a_fold_knows_the_contact_events_before_it() {
+    let mut monotone = 0;
+    for design in folded() {
+        let puncture = solve(&design, &automatic());
+        if !puncture.path.is_sorted_by(|a, b| a.tilt_deg <= b.tilt_deg) {
+            continue;
+        }
+        monotone += 1;
+        for fold in &puncture.folds {
+            let (before, after) = puncture.events.split_at(fold.events_before);
+            let tilt = fold.point.tilt_deg;
+            assert!(before.iter().all(|event| event.point.tilt_deg <= tilt + 1e-9));
+            assert!(after.iter().all(|event| event.point.tilt_deg >= tilt - 1e-9));
+        }
+    }
+    assert!(monotone > 1, "{monotone}");
+}

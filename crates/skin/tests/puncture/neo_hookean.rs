@@ -1,0 +1,132 @@
+//! A substrate whose surface cannot fold over.
+
+use approx::assert_relative_eq;
+use skin::puncture::{self, Puncture, PunctureMeasures, PunctureParameters, RowLength};
+use skin::{Base, Common, Design, Status};
+use solver::Settings;
+use substrate::{Calibrations, Coupling, RowStiffness, SubstrateLaw};
+
+use crate::samples::{
+    LAWS, blocks, design, domino, finer, long_campaigns, on_row, random, reference_study, settled,
+    solve_as, spread, with_law,
+};
+use crate::{assert_same_measures, complete};
+use rayon::prelude::*;
+
+/// These parameters on a neo-Hookean substrate.
+fn neo_hookean(parameters: PunctureParameters) -> PunctureParameters {
+    PunctureParameters { substrate_law: SubstrateLaw::NeoHookean, ..parameters }
+}
+
+fn automatic() -> PunctureParameters {
+    neo_hookean(PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() })
+}
+
+/// Whether every gap is open at every point of a path.
+fn is_open(puncture: &Puncture) -> bool {
+    let open = |point: &puncture::PuncturePoint| point.gap_stretch.is_none_or(|g| g.min > 0.0);
+    puncture.path.iter().all(open) && puncture.folds.is_empty()
+}
+
+#[test]
+fn no_gap_closes_in_the_reference_study_with_either_law_of_contact() {
+    let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
+    for law in LAWS {
+        for base in [Base::L, Base::TwoL] {
+            reference_study(base).par_iter().for_each(|design| {
+                let puncture = solve_as(&known, design, &with_law(law), &parameters);
+                assert_eq!(puncture.status, Status::Complete, "{design:?}");
+                assert!(is_open(&puncture), "{design:?}");
+                assert_eq!(puncture.measures.sound_force, puncture.measures.critical_force);
+            });
+        }
+    }
+}
+
+/// Two hundred designs; two thousand in a long campaign. One in a thousand may stop.
+#[test]
+fn random_designs_are_solved() {
+    let (known, parameters) = (Calibrations::default(), neo_hookean(on_row(41)));
+    let designs = random(if long_campaigns() { 2000 } else { 200 }, 1);
+    for law in LAWS {
+        let stopped: Vec<_> = designs
+            .par_iter()
+            .filter_map(|design| {
+                let puncture = solve_as(&known, design, &with_law(law), &parameters);
+                assert!(is_open(&puncture), "{design:?}");
+                (puncture.status != Status::Complete).then_some((puncture.status, design))
+            })
+            .collect();
+        assert!(stopped.len() <= designs.len() / 1000, "{stopped:?}");
+    }
+}
+
+/// Relative difference of the critical forces of both laws at a tilt.
+fn difference(design: &Design, tilt_deg: f64) -> f64 {
+    let linear = PunctureParameters { critical_tilt_deg: tilt_deg, ..on_row(21) };
+    let force = |parameters: PunctureParameters| {
+        let known = Calibrations::default();
+        let puncture = solve_as(&known, design, &Common::default(), &parameters);
+        complete(&puncture).critical_force.unwrap()
+    };
+    let linear_force = force(linear);
+    (force(neo_hookean(linear)) - linear_force).abs() / linear_force
+}
+
+/// The relative difference falls at least as fast as the load. Where scales touch at once the gaps are pressed from the beginning.
+#[test]
+fn at_small_loads_both_laws_agree_to_first_order() {
+    let steep = Design { gap: 1e-4, ..design(0.1, 0.3, 60.0, Base::L) };
+    for tilt_deg in [0.1, 0.01, 0.001] {
+        let [there, nearer] = [tilt_deg, 0.1 * tilt_deg].map(|tilt| difference(&steep, tilt));
+        assert!(there < 1.0 && nearer < 0.15 * there, "{there} {nearer} at {tilt_deg}°");
+    }
+    assert!(difference(&steep, 0.1) > 1e-6);
+    // Before contact nothing moves along the row but the ends of the bases that turn.
+    assert!(difference(&settled(), 0.01) < 1e-7);
+}
+
+#[test]
+fn steps_ten_times_smaller_give_the_same_measures() {
+    let (known, coarse) = (Calibrations::default(), Settings::default());
+    for design in spread() {
+        for law in LAWS {
+            let with = |solver| {
+                let common = Common { law, solver };
+                complete(&solve_as(&known, &design, &common, &neo_hookean(on_row(41))))
+            };
+            assert_same_measures(&with(coarse), &with(finer(coarse)), 1e-6);
+        }
+    }
+}
+
+/// The closed form of the far field is that of springs: it begins where bars differ from them by round-off.
+#[test]
+fn automatic_rows_measure_what_longer_rows_do() {
+    let known = Calibrations::default();
+    let narrow = design(0.1, 0.4, 75.0, Base::TwoL);
+    for design in [blocks(), settled(), domino(), narrow, design(1.0, 0.025, 75.0, Base::TwoL)] {
+        let with = |parameters: PunctureParameters| {
+            complete(&solve_as(&known, &design, &Common::default(), &parameters))
+        };
+        let ours = with(automatic());
+        let theirs = with(neo_hookean(on_row(2 * ours.scales + 301)));
+        assert_same_measures(&ours, &theirs, 1e-9);
+        let stretch =
+            |m: &PunctureMeasures| [m.gap_stretch_min, m.gap_stretch_max].map(Option::unwrap);
+        for (ours, theirs) in stretch(&ours).into_iter().zip(stretch(&theirs)) {
+            assert_relative_eq!(ours, theirs, max_relative = 1e-7);
+        }
+    }
+}
+
+#[test]
+fn a_fully_coupled_row_cannot_fold_over_either() {
+    let (law, long) = (Common::default(), automatic());
+    for design in [domino(), settled(), design(0.1, 0.4, 75.0, Base::L)] {
+        let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+        let puncture = puncture::solve(&design, &stiffness, &law, &long).unwrap();
+        assert!((puncture.path.last().unwrap().tilt_deg - 10.0).abs() < 1e-9, "{design:?}");
+        assert!(is_open(&puncture), "{design:?}");
+    }
+}

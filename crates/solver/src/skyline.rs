@@ -1,0 +1,127 @@
+//! Symmetric matrices of a skyline profile, and their inertia.
+
+use crate::linear::SingularMatrix;
+
+/// A symmetric matrix of which each row holds the entries from its first column to the diagonal.
+///
+/// Its factors `L D Lᵀ` are found without exchanges of rows, so that the profile is kept. By Sylvester's law `D` has as many negative
+/// entries as the matrix has negative eigenvalues.
+#[derive(Clone, Debug)]
+pub struct SkylineMatrix {
+    /// First column of each row.
+    first: Vec<usize>,
+    /// Where the first entry of each row stands among the values.
+    starts: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl SkylineMatrix {
+    /// A matrix of zeros whose rows begin in the columns `first`, none beyond its diagonal.
+    pub fn new(first: Vec<usize>) -> Self {
+        let (mut starts, mut stored) = (Vec::with_capacity(first.len()), 0);
+        for (row, first) in first.iter().enumerate() {
+            starts.push(stored);
+            stored += row + 1 - first;
+        }
+        Self { first, starts, values: vec![0.0; stored] }
+    }
+
+    /// Number of rows.
+    pub fn size(&self) -> usize {
+        self.first.len()
+    }
+
+    /// Adds `value` to the entry at (`row`, `column`). Of the two that mirror each other, the one above the diagonal is ignored.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        if column <= row {
+            debug_assert!(
+                column >= self.first[row],
+                "entry ({row}, {column}) is left of the skyline"
+            );
+            self.values[self.starts[row] + column - self.first[row]] += value;
+        }
+    }
+
+    /// The entries of a row from a column on, up to before another.
+    fn entries(&self, row: usize, from: usize, to: usize) -> &[f64] {
+        let start = self.starts[row] - self.first[row];
+        &self.values[start + from..start + to]
+    }
+
+    /// Replaces the matrix by its factors.
+    ///
+    /// # Errors
+    /// If a pivot vanishes or is not finite.
+    pub fn factorise(mut self) -> Result<SkylineFactors, SingularMatrix> {
+        let size = self.size();
+        for row in 0..size {
+            let first = self.first[row];
+            // The entries of the row become those of L D, and then of L.
+            for column in first..row {
+                let from = first.max(self.first[column]);
+                let known = self.entries(row, from, column).iter();
+                let terms = known.zip(self.entries(column, from, column)).map(|(a, b)| a * b);
+                let taken: f64 = terms.sum();
+                self.add(row, column, -taken);
+            }
+            let pivot = self.scale_row(row);
+            if pivot == 0.0 || !pivot.is_finite() {
+                return Err(SingularMatrix { column: row, size });
+            }
+        }
+        Ok(SkylineFactors { factors: self })
+    }
+
+    /// Divides the entries of a row of L D by D, and returns the pivot of the row.
+    fn scale_row(&mut self, row: usize) -> f64 {
+        let first = self.first[row];
+        let mut taken = 0.0;
+        for column in first..row {
+            let pivot = self.entries(column, column, column + 1)[0];
+            let entry = &mut self.values[self.starts[row] + column - first];
+            let factor = *entry / pivot;
+            taken += factor * *entry;
+            *entry = factor;
+        }
+        self.add(row, row, -taken);
+        self.entries(row, row, row + 1)[0]
+    }
+}
+
+/// Factors `L D Lᵀ` of a [`SkylineMatrix`].
+#[derive(Clone, Debug)]
+pub struct SkylineFactors {
+    /// `L` left of the diagonal, `D` on it.
+    factors: SkylineMatrix,
+}
+
+impl SkylineFactors {
+    fn pivot(&self, row: usize) -> f64 {
+        self.factors.entries(row, row, row + 1)[0]
+    }
+
+    /// Number of negative eigenvalues of the matrix.
+    pub fn negative_eigenvalues(&self) -> usize {
+        (0..self.factors.size()).filter(|&row| self.pivot(row) < 0.0).count()
+    }
+
+    /// Solves in place: `x` holds the right-hand side, then the solution.
+    pub fn solve(&self, x: &mut [f64]) {
+        let matrix = &self.factors;
+        for row in 0..matrix.size() {
+            let first = matrix.first[row];
+            let factors = matrix.entries(row, first, row).iter();
+            x[row] -= factors.zip(&x[first..row]).map(|(l, x)| l * x).sum::<f64>();
+        }
+        for (row, x) in x.iter_mut().enumerate() {
+            *x /= self.pivot(row);
+        }
+        for row in (0..matrix.size()).rev() {
+            let first = matrix.first[row];
+            let (head, tail) = x.split_at_mut(row);
+            for (x, l) in head[first..].iter_mut().zip(matrix.entries(row, first, row)) {
+                *x -= l * tail[0];
+            }
+        }
+    }
+}

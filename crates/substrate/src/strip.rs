@@ -1,0 +1,122 @@
+//! The strip of surface between two bases.
+
+/// How the substrate answers where the strip of surface between two neighbouring bases is stretched.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SubstrateLaw {
+    /// Linear springs, Eq. (1) of the paper. Nothing keeps two bases from passing each other.
+    #[default]
+    Linear,
+    /// Strips that are incompressible neo-Hookean bars: none can be pressed to nothing.
+    NeoHookean,
+}
+
+/// The strip of surface between the right end of one base and the left end of the next, measured along the row between the
+/// corners of the deformed bases:
+///
+/// ```text
+///        BR_i ──── s ──── BL_{i+1}        s = d + e,    e = x' − x + a (2 − cos φ − cos φ')
+/// g = s/d                                 1 at rest; the surface folds over where g ≤ 0           (V1)
+/// ```
+///
+/// with the poses `(x, y, φ)` and `(x', y', φ')` of the two scales.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strip {
+    /// Width at rest: the gap `d`.
+    pub width: f64,
+    /// Half-width `a` of the bases on both sides.
+    pub half_base: f64,
+}
+
+impl Strip {
+    /// The stretch `g` of the strip between two poses `(x, y, φ)`.
+    pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
+        // 1 − cos φ without cancellation.
+        let shortened = |rotation: f64| 2.0 * (0.5 * rotation).sin().powi(2);
+        self.stretch_by(right[0] - left[0], shortened(left[2]) + shortened(right[2]))
+    }
+
+    /// The stretch `g` of the strip whose ends have moved apart with the scales by `x' − x`, and whose bases are shorter by `a` times
+    /// `2 − cos φ − cos φ'`.
+    pub fn stretch_by(&self, apart: f64, shortened: f64) -> f64 {
+        1.0 + (apart + self.half_base * shortened) / self.width
+    }
+
+    /// Derivative of the stretch along two directions `(x, y, φ)`.
+    pub fn stretch_rate(
+        &self,
+        [left, right]: [[f64; 3]; 2],
+        [left_rate, right_rate]: [[f64; 3]; 2],
+    ) -> f64 {
+        let turned = left[2].sin() * left_rate[2] + right[2].sin() * right_rate[2];
+        (right_rate[0] - left_rate[0] + self.half_base * turned) / self.width
+    }
+}
+
+/// Energy of a neo-Hookean bar per `k d²`, with the stiffness `k` at rest, and its first two derivatives in the stretch `g`:
+///
+/// ```text
+/// w = (g² + 2/g − 3)/6,   w' = (g − g⁻²)/3,   w" = (1 + 2 g⁻³)/3,   w"(1) = 1                    (V3)
+/// ```
+///
+/// Incompressible, uniaxial. Infinite where the stretch is not above zero, which no bar reaches.
+pub fn neo_hookean(stretch: f64) -> [f64; 3] {
+    if stretch <= 0.0 {
+        return [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY];
+    }
+    let inverse = 1.0 / stretch;
+    let (g, square) = (stretch, inverse * inverse);
+    // g² + 2/g − 3 = (g − 1)² (g + 2)/g, without cancellation.
+    let energy = (g - 1.0).powi(2) * (g + 2.0) * inverse / 6.0;
+    let force = (g - 1.0) * (g * g + g + 1.0) * square / 3.0;
+    [energy, force, (1.0 + 2.0 * square * inverse) / 3.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Strip, neo_hookean};
+    use approx::assert_relative_eq;
+
+    const STRIP: Strip = Strip { width: 0.2, half_base: 0.5 };
+
+    #[test]
+    fn a_bar_at_rest_has_no_force_and_unit_stiffness() {
+        assert_eq!(neo_hookean(1.0), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn force_and_stiffness_are_derivatives_of_the_energy() {
+        for stretch in [0.05, 0.3, 0.9, 1.0, 1.1, 3.0, 20.0] {
+            let step = 1e-5 * stretch;
+            let [low, high] = [stretch - step, stretch + step].map(neo_hookean);
+            let [_, force, stiffness] = neo_hookean(stretch);
+            let slope = |k: usize| (high[k] - low[k]) / (2.0 * step);
+            assert_relative_eq!(slope(0), force, epsilon = 1e-9, max_relative = 1e-8);
+            assert_relative_eq!(slope(1), stiffness, max_relative = 1e-8);
+        }
+    }
+
+    #[test]
+    fn no_strip_can_be_pressed_to_nothing() {
+        assert!(neo_hookean(1e-6)[1] < -1e11);
+        for stretch in [0.0, -0.5] {
+            assert!(neo_hookean(stretch).iter().all(|number| number.is_infinite()));
+        }
+    }
+
+    #[test]
+    fn a_strip_is_measured_between_the_corners_of_the_turned_bases() {
+        let (left, right): ([f64; 3], [f64; 3]) = ([0.3, 0.1, -0.4], [0.1, -0.2, 0.7]);
+        // BL of the right base minus BR of the left one, along the row.
+        let corner = 0.5 + 0.2 + 0.5 + right[0] - 0.5 * right[2].cos();
+        let length = corner - (left[0] + 0.5 * left[2].cos());
+        assert_relative_eq!(STRIP.stretch(left, right), length / 0.2, max_relative = 1e-14);
+        let rates = [[0.2, 9.0, 0.3], [-0.1, 9.0, 0.5]];
+        let at = |step: f64| {
+            let moved =
+                |pose: [f64; 3], rate: [f64; 3]| std::array::from_fn(|k| pose[k] + step * rate[k]);
+            STRIP.stretch(moved(left, rates[0]), moved(right, rates[1]))
+        };
+        let slope = (at(1e-6) - at(-1e-6)) / 2e-6;
+        assert_relative_eq!(STRIP.stretch_rate([left, right], rates), slope, max_relative = 1e-8);
+    }
+}

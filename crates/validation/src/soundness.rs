@@ -1,0 +1,205 @@
+//! Where the model holds: folds of the surface, and what a substrate that cannot fold makes of the claims.
+
+use std::fmt::Write as _;
+
+use sweep::Sweep;
+
+use crate::ValidationError;
+use crate::claims::{CheckedClaim, DesignValue, Finding, digits, named};
+use crate::study::{MeasuredDesign, Study};
+
+/// The sweeps of the claims, on a substrate that cannot fold.
+pub(crate) const NEO_HOOKEAN: [(&str, &str); 2] = [
+    ("neo-Hookean substrate, base L", "name = \"paper\"\nsubstrate.law = \"neo-hookean\""),
+    (
+        "neo-Hookean substrate, base 2L",
+        "name = \"paper-as-written\"\nscale.base = \"2L\"\nsubstrate.law = \"neo-hookean\"",
+    ),
+];
+
+/// Claims that rest on the strongest and steepest designs.
+const CONCERNED: [&str; 6] = ["C12", "C13", "C15", "C18", "C27", "C28"];
+
+/// Designs with the largest critical force of which the folded ones are counted.
+const STRONGEST: usize = 60;
+
+/// The folds of both laws of the substrate, and the claims that they concern.
+#[derive(Clone, Debug)]
+pub struct Soundness {
+    /// What the page says in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
+    rows: Vec<[String; 5]>,
+    /// The statements of the claims concerned, likewise.
+    claims: Vec<[String; 5]>,
+    /// Other claims whose verdict the law changes.
+    turned: Vec<String>,
+}
+
+impl Soundness {
+    /// Compares studies on a linear substrate with those on a neo-Hookean one, in each with a base of `L` and of `2L`; `claims` are those
+    /// of either.
+    pub(crate) fn of(
+        linear: [&Study; 2],
+        neo_hookean: [&Study; 2],
+        claims: [&[CheckedClaim]; 2],
+    ) -> Self {
+        let is_concerned = |claim: &&CheckedClaim| CONCERNED.contains(&claim.claim.id.as_str());
+        let pairs = || claims[0].iter().zip(claims[1]);
+        let concerned = pairs().filter(|(claim, _)| is_concerned(claim));
+        let turned = pairs()
+            .filter(|(claim, other)| !is_concerned(claim) && claim.verdicts != other.verdicts);
+        Self {
+            rows: rows(linear, neo_hookean),
+            claims: concerned.flat_map(|(claim, other)| statements(claim, other)).collect(),
+            turned: turned.map(|(claim, _)| claim.claim.id.clone()).collect(),
+        }
+    }
+
+    /// Returns the section of the page in Markdown.
+    pub(crate) fn section(&self) -> String {
+        let mut text = format!(
+            "## Where the model holds\n\n\
+             Nothing keeps two bases from passing each other on linear springs: the surface of the substrate folds over (V2 of `docs/theory.md`), \
+             and beyond that the numbers are right for the equations but are not armour. With `substrate.law = \"neo-hookean\"` \
+             (`sweeps/paper-neo-hookean.toml`) the surface between two bases stiffens as rubber does, and cannot fold. The 720 designs with either:\n\n\
+             {HEAD}"
+        );
+        for row in &self.rows {
+            let _ = writeln!(text, "| {} |", row.join(" | "));
+        }
+        let _ = write!(text, "\nThe claims that rest on these designs, law by law:\n\n{HEAD}");
+        for claim in &self.claims {
+            let _ = writeln!(text, "| {} |", claim.join(" | "));
+        }
+        let turned = match self.turned.as_slice() {
+            [] => "No other claim has another verdict.".to_owned(),
+            turned => format!("Other claims with another verdict: {}.", turned.join(", ")),
+        };
+        let _ = writeln!(text, "\n{turned}");
+        text
+    }
+}
+
+/// The head of both tables.
+const HEAD: &str = "| | Base L, linear | Base L, neo-Hookean | Base 2L, linear | Base 2L, neo-Hookean |\n|---|---|---|---|---|\n";
+
+/// Returns the rows of the statements of a claim, checked on a linear substrate and on the `other` one.
+fn statements(claim: &CheckedClaim, other: &CheckedClaim) -> Vec<[String; 5]> {
+    let cell = |finding: &Finding| format!("{}: {}", finding.verdict, finding.ours);
+    let row = |(ours, theirs): (&crate::CheckedStatement, &crate::CheckedStatement)| {
+        let says = if ours.says.is_empty() { claim.claim.claim.as_str() } else { ours.says };
+        let [paper, as_written] = &ours.found;
+        let [other_paper, other_as_written] = &theirs.found;
+        [
+            format!("{}: {says}", claim.claim.id),
+            cell(paper),
+            cell(other_paper),
+            cell(as_written),
+            cell(other_as_written),
+        ]
+    };
+    claim.statements.iter().zip(&other.statements).map(row).collect()
+}
+
+/// Returns what is counted of each study.
+fn rows(linear: [&Study; 2], neo_hookean: [&Study; 2]) -> Vec<[String; 5]> {
+    let studies = [linear[0], neo_hookean[0], linear[1], neo_hookean[1]];
+    let of_each = |what: &str, count: fn(&Study) -> String| {
+        let [a, b, c, d] = studies.map(count);
+        [what.to_owned(), a, b, c, d]
+    };
+    let mut rows = vec![
+        of_each("designs whose surface folds over before 10°", |study| {
+            study.designs.iter().filter(|design| folds(design)).count().to_string()
+        }),
+        of_each("of the 60 with the largest `F_c*`", |study| {
+            strongest(study).into_iter().filter(|design| folds(design)).count().to_string()
+        }),
+        of_each("force at the fold over `F_c*`: smallest, median, largest", |study| {
+            let part = |d: &MeasuredDesign| Some(d.fold_force? / d.critical_force?);
+            spread(study.designs.iter().filter_map(part), digits)
+        }),
+        of_each("width of the tightest gap at 10°, over that at rest", |study| {
+            spread(study.designs.iter().filter_map(|d| d.gap_stretch_min).reduce(f64::min), digits)
+        }),
+        of_each("width of the widest", |study| {
+            spread(study.designs.iter().filter_map(|d| d.gap_stretch_max).reduce(f64::max), digits)
+        }),
+        of_each("largest `F_c*`", |study| largest(study, |design| design.critical_force)),
+        of_each("largest force before a fold", |study| largest(study, |d| d.sound_force)),
+    ];
+    for (what, folded) in [("that fold", true), ("that do not", false)] {
+        let changes = [0, 1].map(|base| changes(linear[base], neo_hookean[base], folded));
+        let [paper, as_written] = changes;
+        let what = format!(
+            "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
+        );
+        rows.push([what, String::new(), paper, String::new(), as_written]);
+    }
+    rows
+}
+
+fn folds(design: &MeasuredDesign) -> bool {
+    design.fold_force.is_some()
+}
+
+/// Returns the designs with the largest critical force.
+fn strongest(study: &Study) -> Vec<&MeasuredDesign> {
+    let mut designs: Vec<_> = study.designs.iter().collect();
+    let force = |design: &MeasuredDesign| design.critical_force.unwrap_or(f64::NEG_INFINITY);
+    designs.sort_by(|a, b| force(b).total_cmp(&force(a)));
+    designs.truncate(STRONGEST);
+    designs
+}
+
+/// Formats the largest value of all designs, with the design that has it.
+fn largest(study: &Study, value: DesignValue) -> String {
+    let values = study.designs.iter().filter_map(|design| Some((value(design)?, design)));
+    let best = values.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or_else(String::new, |(value, design)| format!("{} {}", digits(value), named(design)))
+}
+
+/// Formats how the critical force changes from one study to another, of the designs that fold in the first or of the others.
+fn changes(from: &Study, to: &Study, folded: bool) -> String {
+    let pairs = from.designs.iter().zip(&to.designs).filter(|(a, _)| folds(a) == folded);
+    let change = |(a, b): (&MeasuredDesign, &MeasuredDesign)| {
+        Some(100.0 * (b.critical_force? / a.critical_force? - 1.0))
+    };
+    spread(pairs.filter_map(change), |percent| format!("{:+.1} %", percent + 0.0))
+}
+
+/// Formats the smallest, the median and the largest of values; one value alone, or nothing.
+fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String) -> String {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    let last = values.len().saturating_sub(1);
+    let mut places = vec![0, values.len() / 2, last];
+    places.dedup();
+    let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
+    shown.collect::<Vec<_>>().join(", ")
+}
+
+/// Solves the sweeps of the claims on a substrate that cannot fold; `begin` is called with the name of each.
+///
+/// # Errors
+/// If the temporary folder cannot be written.
+pub(crate) fn neo_hookean_studies(
+    mut begin: impl FnMut(&str),
+) -> Result<[Study; 2], ValidationError> {
+    let [paper, as_written] = NEO_HOOKEAN.map(|(part, text)| {
+        begin(part);
+        Study::run(Sweep::parse(text, "paper", &[])?)
+    });
+    Ok([paper?, as_written?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{digits, spread};
+
+    #[test]
+    fn a_spread_is_three_values_or_as_many_as_there_are() {
+        assert_eq!(spread([3.0, 1.0, 2.0, 5.0, 4.0], digits), "1.000, 3.000, 5.000");
+        assert_eq!(spread([2.0], digits), "2.000");
+        assert_eq!(spread([], digits), "");
+    }
+}

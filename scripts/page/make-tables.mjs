@@ -1,0 +1,34 @@
+// Tables for tests of the page: one with folds and physical units, one of 20,000 designs; both from a run.
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+const [place] = process.argv.slice(2);
+const [header, ...rows] = readFileSync(join(place, "results", "designs.csv"), "utf8").trim().split(/\r?\n/).map((line) => line.split(","));
+const column = (name) => header.indexOf(name);
+
+const write = (name, headers, lines, definition = (text) => text) => {
+  mkdirSync(join(place, name), { recursive: true });
+  writeFileSync(join(place, name, "designs.csv"), [headers, ...lines].map((line) => line.join()).join("\n") + "\n");
+  writeFileSync(join(place, name, "run.toml"), definition(readFileSync(join(place, "results", "run.toml"), "utf8")));
+};
+
+// Every seventh design folds, at a third of its critical force.
+const force = (row) => Number(row[column("critical_force")]);
+const more = (row, k) => {
+  const folded = k % 7 === 3;
+  return [folded ? -1.5 : 0.5, folded ? force(row) / 3 : "", folded ? force(row) / 3 : force(row), 0.3 * force(row), row[column("penetration")], 5 + k, 0.5 + 0.01 * k];
+};
+write("folded", [...header, "gap_stretch_min", "fold_force", "sound_force", "critical_force_N", "penetration_mm", "bend_radius_mm", "areal_mass_kg_m2"], rows.map((row, k) => [...row, ...more(row, k)]));
+
+// The designs again and again, at other widths, with other values.
+const COPIES = Math.ceil(20000 / rows.length), at = column("slant_deg");
+const widths = Array.from({ length: COPIES }, (_, k) => Number((0.2 + 0.01 * k).toFixed(2)));
+const copies = rows.flatMap((row) => widths.map((width) => ({ row, width })));
+const lines = copies.map(({ row, width }, k) => {
+  const own = [...row];
+  own[0] = String(k + 1).padStart(5, "0");
+  for (const name of ["critical_force", "penetration", "compliance"]) own[column(name)] = String(Number(row[column(name)]) * (1 + 0.1 * Math.sin(7 * k) + 0.1 * width));
+  return [...own.slice(0, at), width, ...own.slice(at)];
+});
+const widen = (text) => text.replace(/^width_over_t = .*\n/m, "").replace(/^slant_deg = /m, `width_over_t = [${widths.join(", ")}]\nslant_deg = `);
+write("large", [...header.slice(0, at), "width_over_t", ...header.slice(at)], lines, widen);

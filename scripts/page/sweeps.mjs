@@ -1,0 +1,113 @@
+// Pages of other sweeps: more axes, folds and physical units, failures, 20,000 designs.
+import assert from "node:assert/strict";
+import { spots, table } from "./browser.mjs";
+
+export default ({ open, folders }) => ({
+  async "marks of a sweep with more axes do not stand on each other, and every design has a name of its own"() {
+    const page = await open(folders.axes);
+    assert.deepEqual(await page.locator("#view label").evaluateAll((all) => all.map((label) => label.firstChild.textContent.trim())), ["Along the axis", "a panel for each", "membrane thickness/t"]);
+    const marks = await spots(page, "critical-force");
+    const places = new Set(marks.map(({ x, y }) => `${x.toFixed(1)} ${y.toFixed(1)}`));
+    assert.ok(marks.length > 10 && places.size === marks.length, `${marks.length} marks in ${places.size} places`);
+    const titles = await page.evaluate(() => squama.rows.map(squama.parameters));
+    assert.equal(new Set(titles).size, titles.length);
+    const legend = await page.locator("#tetrahedron-legend button").allTextContents();
+    assert.ok(legend.length > 1 && legend.every((label) => /b\/t \d/.test(label) && /h\/t \d/.test(label)), legend[0]);
+    // Figures follow the design that is chosen.
+    const other = await page.evaluate(() => squama.rows.findLast((row) => squama.cell(row, "width_over_t") !== squama.view.shown("width_over_t")));
+    await page.evaluate((row) => squama.choose(row), other);
+    const shown = await page.evaluate(() => squama.charts[0].make(900).rows);
+    assert.ok(shown.includes(other));
+    await page.locator("#view-against").selectOption("width_over_t");
+    assert.match(await page.evaluate(() => squama.charts[0].make(900).names[0].text), /width/);
+    await page.close();
+  },
+
+  async "folded designs are marked everywhere, explained, and left out by a switch"() {
+    const page = await open(folders.folded), rows = table(folders.folded, "designs.csv");
+    const folded = rows.filter((row) => row.fold_force !== "").map((row) => row.design);
+    assert.ok(folded.length > 2);
+    assert.equal(await page.locator("#table tr.folded").count(), folded.length);
+    assert.match(await page.locator("#summary-list").textContent(), new RegExp(`${rows.length - folded.length} designs; of ${folded.length}, marked`));
+    await page.evaluate((design) => squama.choose(squama.rowOf(design)), folded[0]);
+    assert.match(await page.locator("#detail-doubts").textContent(), /Do not trust the critical force of this design/);
+    const crossed = await page.evaluate(() => new Set(squama.charts[0].make(900).panels.flatMap(({ marks }) => marks.filter(({ kind }) => kind?.endsWith("folded")).map(({ row }) => squama.number(row)))).size);
+    assert.equal(crossed, folded.length);
+    await page.locator("#sound").check();
+    assert.equal(await page.locator("#table tr.folded").count(), 0);
+    assert.match(await page.locator("#table-count").textContent(), new RegExp(`^${rows.length - folded.length} of`));
+    assert.ok((await page.locator("#best tbody td:nth-child(2)").allTextContents()).every((design) => !folded.includes(design)));
+    await page.close();
+  },
+
+  async "physical columns stand in table, detail, summary and figures, with their units"() {
+    const page = await open(folders.folded);
+    const headers = await page.locator("#table thead tr:first-child th").allTextContents();
+    assert.ok(headers.includes("critical force (N)") && headers.includes("bend radius (mm)"), headers.join());
+    assert.match(await page.locator("#detail-values").textContent(), /critical force \(N\)/);
+    assert.match(await page.locator("#summary-list").textContent(), /largest critical force, N/);
+    assert.equal(await page.evaluate(() => squama.charts.find(({ id }) => id === "measure").make(900).names[1].text), "critical force, N");
+    await page.close();
+  },
+
+  async "failures are listed with their reasons, and lead to their designs"() {
+    const stopped = await open(folders.someFailed), expected = table(folders.someFailed, "failures.csv");
+    assert.ok(expected.length > 0 && expected.length < 12);
+    const cells = (k) => stopped.locator(`#failure-list tbody td:nth-child(${k})`).allTextContents();
+    assert.deepEqual((await cells(1)).map((title) => title.slice(0, 4)), expected.map((row) => row.design));
+    assert.deepEqual(await cells(2), expected.map((row) => row.measure));
+    assert.deepEqual(await cells(3), expected.map((row) => row.reason));
+    await stopped.locator("#failure-list tbody tr").last().focus();
+    await stopped.keyboard.press("Enter");
+    assert.equal(await stopped.locator("#detail-title").textContent(), `Design ${expected.at(-1).design}`);
+    assert.match(await stopped.locator("#detail-doubts").textContent(), /was not solved to its end/);
+    await stopped.close();
+  },
+
+  async "a run in which no puncture ended is ranked by what there is"() {
+    const nothing = await open(folders.allFailed);
+    await nothing.waitForTimeout(300);
+    assert.match(await nothing.locator("#tetrahedron").textContent(), /shows four criteria/);
+    assert.match(await nothing.locator("#rank-command code").textContent(), /--criteria max:coverage --weights 1$/);
+    assert.ok(await nothing.locator("#best tbody tr").count() > 5);
+    assert.ok(await nothing.locator("#failure-list tbody tr").count() >= 12);
+    assert.ok((await spots(nothing, "coverage")).length >= 12);
+    await nothing.evaluate(() => squama.require([{ column: "coverage", sign: ">", limit: 2 }]));
+    assert.equal(await nothing.locator("#best tbody tr").count(), 0);
+    await nothing.waitForTimeout(200);
+    assert.match(await nothing.locator("#tetrahedron").textContent(), /nothing to rank/);
+    await nothing.close();
+  },
+
+  async "a page of 20,000 designs: sliders, sorting and scrolling within 100 ms"() {
+    const page = await open(folders.large);
+    await page.waitForTimeout(2000);
+    const times = await page.evaluate(async () => {
+      document.documentElement.style.scrollBehavior = "auto";
+      const rest = () => new Promise((done) => { setTimeout(done, 500); });
+      const scroll = document.querySelector(".scroll"), slider = document.getElementById("weight-n");
+      const work = {
+        slider: (k) => { slider.value = 20 + k; slider.dispatchEvent(new Event("input")); },
+        scrolling: (k) => { scroll.scrollTop = 30000 * k + 777; scroll.dispatchEvent(new Event("scroll")); },
+        sorting: (k) => document.querySelectorAll("#table thead button")[4 + k].click(),
+      };
+      const median = {};
+      for (const [name, act] of Object.entries(work)) {
+        const all = [];
+        for (let k = 0; k < 7; k++) {
+          const start = performance.now();
+          act(k);
+          document.body.offsetHeight;
+          all.push(performance.now() - start);
+          await rest();
+        }
+        median[name] = all.sort((a, b) => a - b)[3];
+      }
+      return median;
+    });
+    console.log(`        ${Object.entries(times).map(([name, ms]) => `${name} ${ms.toFixed(0)} ms`).join(", ")}`);
+    for (const [name, ms] of Object.entries(times)) assert.ok(ms < 100, `${name}: ${ms} ms`);
+    assert.ok(await page.locator("#table tbody tr[data-row]").count() < 100, "only rows in sight exist");
+    await page.close();
+  },
+});
