@@ -179,6 +179,23 @@ struct Followed {
     status: Status,
 }
 
+impl Followed {
+    /// The result of the puncture.
+    fn puncture(self) -> Puncture {
+        let Self { record, needle, folds, mut path, status } = self;
+        let path = &mut path;
+        let mut measures = PunctureMeasures::new(&record, &folds, path);
+        let (instability, snaps) = needle.finish(path, &mut measures);
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let scales = scales(path.system(), &path.point().state);
+        let Record { path, events, history, .. } = record;
+        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
+    }
+}
+
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
@@ -216,7 +233,7 @@ impl<'a> Problem<'a> {
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
         let (start, longest) = self.start()?;
-        Ok(self.puncture(self.follow(start, longest, &[])?))
+        Ok(self.follow(start, longest, &[])?.puncture())
     }
 
     /// The system with which the path begins, and the longest row that it may grow to.
@@ -237,7 +254,7 @@ impl<'a> Problem<'a> {
     #[cfg(test)]
     fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
         let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
-        Ok(self.puncture(self.follow(self.part(first)?, longest, &[])?))
+        Ok(self.follow(self.part(first)?, longest, &[])?.puncture())
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
@@ -314,19 +331,5 @@ impl<'a> Problem<'a> {
         let mut chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
         chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
         Ok(chain.with_law(parameters.substrate_law))
-    }
-
-    fn puncture(&self, followed: Followed) -> Puncture {
-        let Followed { record, needle, folds, mut path, status } = followed;
-        let path = &mut path;
-        let mut measures = PunctureMeasures::new(&record, &folds, path);
-        let (instability, snaps) = needle.finish(path, &mut measures);
-        let measures = match status {
-            Status::Complete => measures,
-            _ => measures.without_final_values(),
-        };
-        let scales = scales(path.system(), &path.point().state);
-        let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
     }
 }

@@ -203,8 +203,10 @@ impl<S: Skin> Linearised<'_, S> {
             (None, Some((_, name))) => (*name).to_owned(),
             (None, None) => "another scale takes over".to_owned(),
         };
-        let [left, right] =
-            [left_rate, right_rate].map(|rate| rate.filter(|rate| rate.is_finite()));
+        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
+        let jumps = quantity.turns && named.is_some();
+        let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
+        let [left, right] = [left_rate, right_rate].map(known);
         let smooth = left.zip(right).is_some_and(|(left, right)| {
             (left - right).abs() <= SMOOTH * left.abs().max(right.abs())
         });
@@ -222,8 +224,7 @@ impl<S: Skin> Quantity<S> {
         motion: &SideMotion<S::Mode>,
         side: usize,
     ) -> Option<f64> {
-        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
-        let moved = motion.moved.as_ref().filter(|_| !(self.turns && motion.change.is_some()))?;
+        let moved = motion.moved.as_ref()?;
         let systems = [&neighbours.below, &neighbours.above];
         let scale = self.largest.map_or(0, |f| f(systems[side], &moved[side].state));
         let value = |side: usize| {

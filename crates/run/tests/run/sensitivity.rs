@@ -32,12 +32,7 @@ fn compare(case: &Case) -> usize {
         let along = [(parameter, size)];
         let Some(off) = differences.off(&derivative.measure, &along, ours * size) else { continue };
         let ParameterDerivative { measure, parameter, .. } = derivative;
-        if off > TOLERANCE {
-            println!(
-                "{measure} by {parameter}: {ours:e} is off by {off:e}, {:?} {:?}",
-                case.design, case.common.law
-            );
-        }
+        assert!(off <= TOLERANCE, "{measure} by {parameter}: {ours:e} is off by {off:e}, {case:?}");
         compared += 1;
     }
     compared + compare_along_gradients(case, &derivatives, &differences)

@@ -48,7 +48,7 @@ pub fn differentiate(
         Status::Complete => problem.derivatives(&mut followed, variations)?,
         _ => Vec::new(),
     };
-    Ok((problem.puncture(followed), derivatives))
+    Ok((followed.puncture(), derivatives))
 }
 
 impl Problem<'_> {

@@ -111,7 +111,7 @@ struct Moving<'a> {
     corners: Vec<Vec<f64>>,
     /// Corner functions of the last two lines, and their rates for each motion.
     lines: [Vec<Influence>; 2],
-    moving_lines: Vec<[Vec<Influence>; 2]>,
+    line_rates: Vec<[Vec<Influence>; 2]>,
     at_rest: Sides,
     rates: Vec<Sides>,
     products: Vec<Tractions>,
@@ -142,7 +142,7 @@ impl<'a> Moving<'a> {
             z: Vec::new(),
             corners: Vec::new(),
             lines: [blank(), blank()],
-            moving_lines: motions.iter().map(|_| [blank(), blank()]).collect(),
+            line_rates: motions.iter().map(|_| [blank(), blank()]).collect(),
             at_rest: Sides::default(),
             rates: motions.iter().map(|_| Sides::default()).collect(),
             products: motions.iter().map(|_| none()).collect(),
@@ -181,12 +181,12 @@ impl<'a> Moving<'a> {
         self.x = offset;
         self.lines.swap(0, 1);
         self.line.evaluate(offset, &mut self.lines[1]);
-        self.moving_lines.iter_mut().for_each(|lines| lines.swap(0, 1));
+        self.line_rates.iter_mut().for_each(|lines| lines.swap(0, 1));
     }
 
     /// The rates (S15) of the last line, which moves by `dx` against the field point.
     fn move_line(&mut self, motion: usize, dx: f64) {
-        let (x, rates) = (self.x, self.moving_lines[motion][1].iter_mut());
+        let (x, rates) = (self.x, self.line_rates[motion][1].iter_mut());
         let corners = self.lines[1].iter().zip(&self.z).zip(&self.corners[motion]);
         for (rate, ((corner, &z), &dz)) in rates.zip(corners) {
             let turn = (x * dz - z * dx) / (x * x + z * z).sqrt();
@@ -197,7 +197,7 @@ impl<'a> Moving<'a> {
 
     fn append(&mut self, side: usize) {
         append_cells(&self.lines[0], &self.lines[1], &mut self.at_rest[side]);
-        for ([last, next], rates) in self.moving_lines.iter().zip(&mut self.rates) {
+        for ([last, next], rates) in self.line_rates.iter().zip(&mut self.rates) {
             append_cells(last, next, &mut rates[side]);
         }
     }

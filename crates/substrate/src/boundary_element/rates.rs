@@ -156,10 +156,10 @@ impl Footprint {
 
 impl RowReactions {
     /// Changes every number.
-    fn update(&mut self, mut f: impl FnMut(&mut f64)) {
+    fn update(&mut self, f: impl FnMut(&mut f64)) {
         let numbers = self.direct.iter_mut().chain(self.neighbours.iter_mut().flatten());
         let cross = self.cross.iter_mut().flat_map(|terms| [&mut terms.force, &mut terms.moment]);
-        numbers.chain(cross).for_each(|number| f(number));
+        numbers.chain(cross).for_each(f);
     }
 
     /// Every number.

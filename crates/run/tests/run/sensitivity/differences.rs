@@ -23,9 +23,11 @@ const STEP: f64 = 5e-5;
 /// Steps, as multiples: a short one for designs near a kink, longer ones for derivatives that drown in round-off.
 const STEPS: [i32; 3] = [32, 8, 2];
 
-/// Largest change of a measure, as a part of it, that differences over the whole size of a parameter owe to the tolerances of the
-/// solver.
-const NOISE: f64 = 1e-8;
+/// Differences with neighbouring steps that agree to this part are those of a smooth measure.
+const AGREE: f64 = 1e-4;
+
+/// Elasticity below which a derivative is round-off, of the solver and of what is differenced.
+const NOISE: f64 = 1e-7;
 
 /// Part of a largest stiffness to which its search is exact, with some allowance: it ends where three values agree to 1e-10.
 const SEARCHED: f64 = 2e-10;
@@ -36,17 +38,26 @@ impl<'a> Differences<'a> {
     }
 
     /// How far a derivative along a direction is from the centred difference that is nearest to it, relative to it. `None` if the
-    /// measure does not exist nearby.
+    /// measure does not exist nearby, or has a kink nearby.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
-        let offs = STEPS.iter().filter_map(|&steps| {
+        let estimates = STEPS.map(|steps| {
             let difference = |steps: i32| -> Option<f64> {
                 Some((at(steps)? - at(-steps)?) / (2.0 * f64::from(steps) * STEP))
             };
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
-            self.distance(measure, fine + (fine - rough) / 3.0, ours, f64::from(steps) * STEP)
+            Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
-        offs.reduce(f64::min)
+        let estimates: Vec<_> = estimates.into_iter().flatten().collect();
+        let distance = |&(estimate, step)| self.distance(measure, estimate, ours, step);
+        // Where no two of them agree there is a kink between.
+        let agree = |pair: &[(f64, f64)]| {
+            let [a, b] = [pair[0].0, pair[1].0];
+            (a - b).abs() <= AGREE * a.abs().max(b.abs())
+        };
+        let any = estimates.windows(2).any(agree);
+        let nearest = estimates.iter().filter_map(distance).reduce(f64::min)?;
+        (any || nearest == 0.0).then_some(nearest)
     }
 
     /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.

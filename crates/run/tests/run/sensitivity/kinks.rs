@@ -93,7 +93,7 @@ fn where_the_row_of_coverage_changes_both_sides_are_right() {
 #[test]
 fn where_the_mesh_is_graded_anew_both_sides_are_right() {
     let mut case = random_case(0);
-    (case.design.width, case.design.length) = (0.5, 0.5);
+    (case.design.width, case.design.length) = (0.4, 0.4);
     let kinks = compare_sides(&case);
     let named = kinks.iter().filter(|k| k.kink.as_deref().unwrap().contains("mesh"));
     assert!(named.count() > 5, "{kinks:?}");
