@@ -15,6 +15,7 @@ pub fn scalar(scalar: Scalar) -> Value {
         Scalar::Number(number) => number.into(),
         Scalar::Count(count) => count.into(),
         Scalar::Word(word) => word.into(),
+        Scalar::List(list) => list.as_slice().into(),
     }
 }
 

@@ -26,6 +26,8 @@ const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 
 /// Dashes and shades that tell designs of one slant from each other.
 const DASHES: [&str; 5] = ["none", "7 4", "2 3", "9 3 2 3", "12 5"];
+/// Dashes where no needle follows a path.
+const UNSTABLE: &str = "1 2.5";
 const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 
 /// A solved design.
@@ -49,6 +51,8 @@ struct Curve {
     points: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,
     rings: Vec<[f64; 2]>,
+    /// Whether the line from each point to the next is one that no needle follows.
+    unstable: Vec<bool>,
 }
 
 /// Returns the curves of `designs` as figures: those for which there are paths.
@@ -75,7 +79,7 @@ const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
     x: "displacement $u^*$ = $u/t$, dimensionless",
     y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
-    note: "× a contact closes, opens or passes a corner;  ○ the surface folds over",
+    note: "× a contact closes, opens or passes a corner;  ○ the surface folds over;  fine dots: unstable under a held depth",
 };
 const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
@@ -96,19 +100,30 @@ const FLEXURE_ENERGY: FigureText = FigureText {
     note: "solid: bending, dashed: axial, dotted: contacts",
 };
 
-fn puncture(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 3]> {
+fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
     let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
-    let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
+    let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
+    let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
-    Some([points.collect(), events.collect(), fold.into_iter().collect()])
+    Some(CurveValues {
+        points: points.collect(),
+        crosses: crosses.collect(),
+        rings: fold.into_iter().collect(),
+        unstable: unstable.collect(),
+    })
 }
 
-fn flexure(solved: &DesignCurves) -> Option<[Vec<[f64; 2]>; 3]> {
+fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
     let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
-    let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
-    Some([points.collect(), events.collect(), Vec::new()])
+    let crosses = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
+    Some(CurveValues {
+        points: points.collect(),
+        crosses: crosses.collect(),
+        rings: vec![],
+        unstable: vec![],
+    })
 }
 
 /// The energies of each design, the dashes of each.
@@ -131,14 +146,22 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     ])
 }
 
-/// Points, crosses and rings of a curve; `None` where there is none.
-type CurveValues = fn(&DesignCurves) -> Option<[Vec<[f64; 2]>; 3]>;
+/// What a curve shows of a design.
+struct CurveValues {
+    points: Vec<[f64; 2]>,
+    crosses: Vec<[f64; 2]>,
+    rings: Vec<[f64; 2]>,
+    unstable: Vec<bool>,
+}
+
+/// The values of a design; `None` where there are none.
+type ValuesOf = fn(&DesignCurves) -> Option<CurveValues>;
 
 fn one_panel(
     name: &str,
     text: &FigureText,
     designs: &[DesignCurves],
-    values: CurveValues,
+    values: ValuesOf,
 ) -> Option<String> {
     let curves = curves_of(designs, values);
     if curves.is_empty() {
@@ -166,17 +189,18 @@ fn one_panel(
 }
 
 /// Returns a curve for each design, darker and with other dashes where slants repeat.
-fn curves_of(designs: &[DesignCurves], values: CurveValues) -> Vec<Curve> {
+fn curves_of(designs: &[DesignCurves], values: ValuesOf) -> Vec<Curve> {
     let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
-        let Some([points, crosses, rings]) = values(solved) else { continue };
+        let Some(values) = values(solved) else { continue };
+        let CurveValues { points, crosses, rings, unstable } = values;
         let slant = solved.design.slant_deg;
         let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
         let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
-        curves.push(Curve { name, color, dashes, points, crosses, rings });
+        curves.push(Curve { name, color, dashes, points, crosses, rings, unstable });
     }
     curves
 }
@@ -202,22 +226,41 @@ fn logarithmic(text: &FigureText, curves: &[Curve]) -> Option<ChartAxis> {
     (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(text.y, [low / 30.0, high].into_iter()))
 }
 
+impl Curve {
+    /// The parts of the line that are alike stable, with their dashes.
+    fn parts(&self) -> Vec<(&[[f64; 2]], &'static str)> {
+        let is_unstable = |k: usize| self.unstable.get(k) == Some(&true);
+        let mut parts = Vec::new();
+        let mut start = 0;
+        for end in 1..self.points.len() {
+            if end + 1 == self.points.len() || is_unstable(end) != is_unstable(start) {
+                let dashes = if is_unstable(start) { UNSTABLE } else { self.dashes };
+                parts.push((&self.points[start..=end], dashes));
+                start = end;
+            }
+        }
+        parts
+    }
+}
+
 fn drawn(panel: &ChartPanel, curve: &Curve) -> Element {
     let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
         points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
     };
-    let path = polyline(&spots(&curve.points))
-        .with("stroke", curve.color.as_str())
-        .at("stroke-width", 1.8)
-        .with("stroke-dasharray", curve.dashes)
-        .with("stroke-linejoin", "round");
+    let paths = curve.parts().into_iter().map(|(points, dashes)| {
+        polyline(&spots(points))
+            .with("stroke", curve.color.as_str())
+            .at("stroke-width", 1.8)
+            .with("stroke-dasharray", dashes)
+            .with("stroke-linejoin", "round")
+    });
     let crosses = apart(spots(&curve.crosses)).into_iter().flat_map(|[x, y]| {
         [1.0, -1.0].map(|s| line([x - 3.0, y - 3.0 * s], [x + 3.0, y + 3.0 * s], INK, 0.8))
     });
     let ring =
         |at: Spot| circle(at, 6.5).with("fill", "none").with("stroke", RED).at("stroke-width", 2.2);
     let rings = spots(&curve.rings).into_iter().map(ring);
-    Element::group("curve").containing([path]).containing(crosses).containing(rings)
+    Element::group("curve").containing(paths).containing(crosses).containing(rings)
 }
 
 /// Returns spots without those that stand on the one before: crosses would bury a steep path.
@@ -284,6 +327,7 @@ fn energies_of(
         points: points.clone(),
         crosses: Vec::new(),
         rings: Vec::new(),
+        unstable: Vec::new(),
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
     [panel.frame(), panel.x_name(), panel.y_name(58.0)].into_iter().chain(curves).collect()

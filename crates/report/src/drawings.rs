@@ -4,6 +4,7 @@ mod animation;
 mod bodies;
 mod contacts;
 mod row;
+mod scale_bar;
 mod strip;
 mod surface;
 mod view;

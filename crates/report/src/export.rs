@@ -1,10 +1,14 @@
 //! The tables of a folder as one workbook for Excel and other spreadsheets.
 //!
-//! The workbook is made from the tables alone, row by row, so that a million designs need no more
-//! memory than a dozen. Its bytes are the same whenever and wherever it is written.
+//! The workbook is made from the files of the folder alone, and tables are read row by row, once to see what their columns
+//! hold and once to write them, so that a million designs need no more memory than a dozen. Its bytes are the same whenever
+//! and wherever it is written.
 
 mod explanation;
+mod measure_chart;
+mod profile;
 mod sheet;
+mod summary;
 
 use std::any::Any;
 use std::fs::File;
@@ -12,12 +16,15 @@ use std::io::{self, BufRead as _, BufReader};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, XlsxError};
+use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
 use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
 use sweep::reason;
 
+use measure_chart::MeasureChart;
+use profile::ColumnProfile;
 use sheet::{Guide, Sheet};
+use summary::{BestValues, summary};
 
 /// Rows that a sheet takes below its header.
 const ROWS: u32 = 1_048_575;
@@ -69,11 +76,11 @@ pub enum ExportError {
     Output(#[from] OutputError),
 }
 
-/// Writes every table in the folder `results` to the workbook `file`: a sheet for each, and one that
-/// explains the columns.
+/// Writes every table in the folder `results` to the workbook `file`: a summary, a sheet for each table, with a chart where it
+/// is that of a measure, and one that explains the columns.
 ///
-/// Numbers are numbers and everything else is text; a design number is a number that shows its
-/// leading zeros. What failed is red, and the values that a table is about have a scale of colours.
+/// Numbers are numbers, with the digits that a person needs shown and all of them held, and everything else is text; a
+/// design number is a number that shows its leading zeros. What failed is red, and the values that a table is about have a scale of colours.
 ///
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
@@ -110,15 +117,25 @@ fn write(
     workbook.set_properties(&properties().map_err(failed)?);
     workbook.set_tempdir(folder.path()).map_err(failed)?;
     let mut guide = Guide::new(&mut workbook).map_err(failed)?;
-    let mut tables = Vec::new();
+    let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
     for file in RunFolder::tables().filter(|file| results.holds(file)) {
         let table = file.trim_end_matches(".csv").to_owned();
-        let source = (results.path().join(&file), results.file(&file)?);
-        let rows = copy(source, &table, &mut workbook, &mut guide, &failed)?;
+        let path = results.path().join(&file);
+        let (profiles, values) = look_over((&path, results.file(&file)?))?;
+        if file == RunFolder::DESIGNS {
+            best = values;
+        }
+        let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
+        let (page, rows) = copy((&path, results.file(&file)?), sheet, &mut guide, &failed)?;
+        pages.push(page);
         tables.push((table, rows));
     }
     if let Some(held) = results.shortfall() {
         guide.note(&format!("made from {held}")).map_err(failed)?;
+    }
+    workbook.push_worksheet(summary(results, &best).map_err(failed)?);
+    for page in pages {
+        workbook.push_worksheet(page);
     }
     workbook.push_worksheet(guide.finish().map_err(failed)?);
     workbook.save_to_writer(&mut file).map_err(failed)?;
@@ -133,29 +150,48 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// Makes a sheet of the table in a file with its path; returns how many rows it has.
-fn copy(
-    (path, file): (PathBuf, File),
-    table: &str,
-    workbook: &mut Workbook,
-    guide: &mut Guide,
-    failed: &dyn Fn(XlsxError) -> ExportError,
-) -> Result<u32, ExportError> {
-    let unreadable = |reason| ExportError::Unreadable { file: path.clone(), reason };
+/// What a table, in a file with its path, holds: its profiles by column, and its best values.
+fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
+    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
     let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
-    let mut sheet = Sheet::new(workbook, table, format, &header).map_err(failed)?;
+    let (mut columns, mut best) =
+        (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
+    let mut row = csv::StringRecord::new();
+    while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+        ColumnProfile::add(&mut columns, format, &row);
+        best.add(format, &row);
+    }
+    Ok((TableProfile { format, header, columns }, best))
+}
+
+/// What is known of a table before it is written as a sheet.
+struct TableProfile {
+    format: CsvFormat,
+    header: csv::StringRecord,
+    columns: Vec<ColumnProfile>,
+}
+
+/// Fills a sheet with the table in a file with its path; returns its page and how many rows it has.
+fn copy(
+    (path, file): (&Path, File),
+    mut sheet: Sheet,
+    guide: &mut Guide,
+    failed: &dyn Fn(XlsxError) -> ExportError,
+) -> Result<(Worksheet, u32), ExportError> {
+    let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
+    let (_, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
+    let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
         if sheet.rows() == ROWS {
-            return Err(ExportError::TooManyRows { file: path });
+            return Err(ExportError::TooManyRows { file: path.to_owned() });
         }
         sheet.add(&row).map_err(failed)?;
     }
-    guide.explain(table, &header).map_err(failed)?;
+    guide.explain(sheet.table(), &header).map_err(failed)?;
     let rows = sheet.rows();
-    sheet.finish(workbook).map_err(failed)?;
-    Ok(rows)
+    Ok((sheet.finish().map_err(failed)?, rows))
 }
 
 fn open(file: File) -> io::Result<(CsvFormat, csv::Reader<BufReader<File>>)> {

@@ -26,7 +26,7 @@
 //! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
-//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, states: &states }.svg()?;
+//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, thickness_mm: None, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
 //! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg)?.starts_with(b"\x89PNG"));
@@ -40,6 +40,7 @@ mod designs;
 pub mod drawings;
 #[cfg(feature = "xlsx")]
 mod export;
+mod facts;
 mod figures;
 mod label;
 mod page;
@@ -52,6 +53,7 @@ pub use curves::{DesignCurves, curves};
 pub use designs::Designs;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};
+pub use facts::facts;
 pub use figures::{Figure, figures};
 pub use page::{Fact, Page, SolvedDesign};
 pub use palette::{Mark, SlantPalette};

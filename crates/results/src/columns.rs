@@ -5,9 +5,11 @@ mod column;
 mod failures;
 mod measured_value;
 mod path;
+mod physical;
 mod reruns;
 mod samples;
 mod sensitivity;
+mod tilts;
 mod values;
 
 use std::borrow::Borrow;
@@ -17,7 +19,9 @@ use sweep::{Axis, Parameter, Sweep};
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
 use measured_value::MeasuredValue;
+use physical::{explain_physical, physical_columns};
 use samples::SAMPLE_VALUES;
+use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
@@ -36,10 +40,15 @@ fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {
     VALUES.iter().chain(samples)
 }
 
+/// The measured value of that name.
+fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
+    VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)
+}
+
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let value = VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)?;
-    Some((value.unit, value.meaning))
+    let value = measured_value(name).map(|value| (value.unit, value.meaning));
+    value.or_else(|| explain_tilt_value(name)).or_else(|| explain_physical(name))
 }
 
 /// The layout of a table: the name of its file, and its columns.
@@ -63,17 +72,23 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 }
 
 /// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
-/// imperfections have.
+/// imperfections or several critical tilts have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
     let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, None));
+    columns.extend(physical_columns(sweep, None));
+    columns
 }
 
 fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
     let belongs = |value: &&MeasuredValue| value.tables.contains(&table);
     let (leading, others): (Vec<_>, Vec<_>) =
         values(sweep).filter(belongs).partition(|value| value.name == table);
-    assemble(sweep, &leading, &others)
+    let mut columns = assemble(sweep, &leading, &others);
+    columns.extend(tilt_columns(sweep, Some(table)));
+    columns.extend(physical_columns(sweep, Some(table)));
+    columns
 }
 
 /// The columns of `failures.csv`.

@@ -14,6 +14,7 @@
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
+//! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
 //! | [`write_measures`] | writes the measures of one design, a row each |
@@ -49,6 +50,7 @@ mod digest;
 mod folder;
 mod measure_table;
 mod path_tables;
+mod quantity;
 mod reader;
 pub mod round_off;
 mod shell;
@@ -75,6 +77,7 @@ pub use folder::{
 };
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
+pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};

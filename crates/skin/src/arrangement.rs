@@ -57,6 +57,14 @@ impl Arrangement {
         }
     }
 
+    /// The gaps over the length that they and the bases of the scales have, `Σd/Σp`: the compliance of a strip without contact.
+    pub(crate) fn share_of_gaps(&self) -> f64 {
+        match self {
+            Self::Even(row) => row.gap() / row.pitch(),
+            Self::Uneven(row) => row.gaps().iter().sum::<f64>() / row.length(),
+        }
+    }
+
     /// The pairs of neighbours, from the left; one that stands for all where they are alike.
     pub(crate) fn pairs(&self) -> Vec<Pair> {
         match self {

@@ -1,6 +1,7 @@
 //! Pure bending of a membrane that carries scales.
 
 mod accuracy;
+mod first_touch;
 mod frame;
 mod measures;
 mod mesh;
@@ -24,6 +25,7 @@ use crate::arrangement::Arrangement;
 use crate::record::{ContactEvent, Iteration};
 use crate::{Common, ContactChange, Design, Sample, Status};
 
+pub use first_touch::contact_curvature;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
@@ -56,7 +58,8 @@ pub struct FlexureParameters {
     pub membrane_axis_offset: f64,
     /// How the membrane of a gap is resolved.
     pub elements_per_gap: MembraneMesh,
-    /// Rotation of each end at which bending ends, degrees.
+    /// Rotation of each end at which bending ends, degrees. Below zero the strip bends the other way, the scales on the
+    /// outside.
     pub max_end_rotation_deg: f64,
 }
 

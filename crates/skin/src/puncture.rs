@@ -4,6 +4,7 @@ mod bars;
 mod ending;
 mod fold;
 mod measures;
+mod number_list;
 mod point;
 mod sensitivity;
 mod snap;
@@ -12,6 +13,7 @@ mod stability;
 mod system;
 #[cfg(test)]
 mod tests;
+mod tilts;
 mod window;
 
 use contact::ContactLaw;
@@ -21,6 +23,7 @@ use snap::Needle;
 use solver::{Path, Settings, Stop};
 use substrate::{RowStiffness, SubstrateLaw};
 use system::{Chain, Layout};
+use tilts::TiltWatch;
 use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
@@ -30,11 +33,13 @@ use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
+pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
+pub use tilts::TiltMeasures;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -64,6 +69,8 @@ pub struct PunctureParameters {
     pub critical_tilt_deg: f64,
     /// How the substrate answers where the surface between two bases is stretched.
     pub substrate_law: SubstrateLaw,
+    /// Tilts at which measures are taken on the way, degrees.
+    pub tilts_deg: NumberList,
 }
 
 impl Default for PunctureParameters {
@@ -76,6 +83,7 @@ impl Default for PunctureParameters {
             load_position: 1.0,
             critical_tilt_deg: 10.0,
             substrate_law: SubstrateLaw::Linear,
+            tilts_deg: NumberList::default(),
         }
     }
 }
@@ -87,6 +95,8 @@ pub struct Puncture {
     pub status: Status,
     /// The measures of the puncture.
     pub measures: PunctureMeasures,
+    /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -175,6 +185,7 @@ struct Followed {
     record: Record<Chain>,
     needle: Needle,
     folds: Vec<Fold>,
+    at_tilts: Vec<Option<TiltMeasures>>,
     path: Path<Chain>,
     status: Status,
 }
@@ -182,7 +193,7 @@ struct Followed {
 impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
-        let Self { record, needle, folds, mut path, status } = self;
+        let Self { record, needle, folds, at_tilts, mut path, status } = self;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         let (instability, snaps) = needle.finish(path, &mut measures);
@@ -192,7 +203,18 @@ impl Followed {
         };
         let scales = scales(path.system(), &path.point().state);
         let Record { path, events, history, .. } = record;
-        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
     }
 }
 
@@ -268,6 +290,7 @@ impl<'a> Problem<'a> {
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path, functions);
         let (mut needle, mut folds) = (Needle::default(), Vec::new());
+        let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -276,6 +299,7 @@ impl<'a> Problem<'a> {
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
                 needle.follow(&mut path, [&before, &point], record.events.len());
+                tilts.follow(&mut path, &before, &point);
                 folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
                 record.visit(&mut path, &point);
             }
@@ -291,7 +315,8 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(Followed { record, needle, folds, path, status })
+        let at_tilts = tilts.finish();
+        Ok(Followed { record, needle, folds, at_tilts, path, status })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.

@@ -6,6 +6,9 @@ use skin::puncture;
 use skin::{Base, Common, Design, Imperfection};
 use substrate::{Coupling, Footprint};
 
+use crate::material::Material;
+use crate::parameter::Scalar;
+
 /// One design with everything that it is solved with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Case {
@@ -15,6 +18,8 @@ pub struct Case {
     pub common: Common,
     /// The other parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
+    /// The friction between needle and scale from which the critical tilts were found.
+    pub needle_friction: Option<Scalar>,
     /// The other parameters of bending.
     pub flexure: flexure::FlexureParameters,
     /// The neighbours of a scale that the substrate couples it with.
@@ -23,6 +28,8 @@ pub struct Case {
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
     pub samples: Samples,
+    /// What it is made of, in physical units, as far as that is given.
+    pub material: Material,
 }
 
 /// The imperfect rows that are solved.
@@ -51,10 +58,12 @@ impl Default for Case {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             common: Common::default(),
             puncture: puncture::PunctureParameters::default(),
+            needle_friction: None,
             flexure: flexure::FlexureParameters::default(),
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },
+            material: Material::default(),
         }
     }
 }

@@ -98,10 +98,18 @@ impl Sweep {
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
-    /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given.
+    /// Whether the designs have a value for the parameter of that name.
+    pub fn gives(&self, key: &str) -> bool {
+        let is_given = |parameter: &Parameter| parameter.is_given(self.grid.base());
+        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_given)
+    }
+
+    /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given, and
+    /// the critical tilt none if the friction of the needle is.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
         let shared = |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
+                && parameter.is_given(self.grid.base())
                 && !parameter.alternative().is_some_and(|other| self.gives_alone(other))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
@@ -112,7 +120,8 @@ impl Sweep {
     /// Whether the definition gives this parameter, so that it leaves nothing to the other way to say the same.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
-        self.grid.axis(parameter.key).is_some() || matches!(value, Scalar::Count(_))
+        let leaves_it = parameter.takes_word() && matches!(value, Scalar::Word(_));
+        self.grid.axis(parameter.key).is_some() || (parameter.takes_word() && !leaves_it)
     }
 }
 

@@ -16,6 +16,7 @@
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
 //! | [`Case`] | one design with everything that it is solved with |
+//! | [`Material`] | what it is made of, in physical units |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
 //!
 //! ```
@@ -41,6 +42,7 @@ mod case;
 mod decimal;
 mod definition;
 mod grid;
+mod material;
 pub mod number;
 mod parameter;
 mod subset;
@@ -54,6 +56,7 @@ pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
+pub use material::Material;
 pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use visible::{shortened, visible};

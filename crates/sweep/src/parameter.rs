@@ -5,6 +5,8 @@ mod scalar;
 
 use std::fmt;
 
+use skin::puncture::{MOST_NUMBERS, NumberList};
+
 use crate::case::Case;
 use crate::decimal::Decimal;
 use crate::number;
@@ -51,11 +53,31 @@ pub(crate) enum ParameterKind {
         get: fn(&Case) -> usize,
         set: fn(&mut Case, usize),
     },
+    /// A number whose sign tells the sense of a rotation: within bounds but for the sign.
+    SignedNumber {
+        noun: &'static str,
+        size: Range,
+        field: fn(&mut Case) -> &mut f64,
+    },
+    /// A number that need not be given.
+    OptionalNumber {
+        noun: &'static str,
+        range: Range,
+        field: fn(&mut Case) -> &mut Option<f64>,
+    },
     /// A count, or the word `auto`.
     CountOrAuto {
         range: CountRange,
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
+    },
+    /// A number or a short list of them, ascending, or the word.
+    Numbers {
+        noun: &'static str,
+        range: Range,
+        word: Option<&'static str>,
+        get: fn(&Case) -> Scalar,
+        set: fn(&mut Case, Scalar),
     },
 }
 
@@ -83,8 +105,12 @@ pub(crate) struct CountRange {
 /// The word of a count that is to be found.
 const AUTO: &str = "auto";
 
-/// The two ways to say how long a strip is.
-const ALTERNATIVES: [&str; 2] = ["gaps", "membrane_length_over_t"];
+/// The word of a number that is not given. No definition has it.
+const NOT_GIVEN: &str = "not given";
+
+/// Two ways each to say how long a strip is, and at which tilt a needle slips. The first of two may leave it to the other, by a word.
+const ALTERNATIVES: [[&str; 2]; 2] =
+    [["gaps", "membrane_length_over_t"], ["needle_friction", "critical_tilt_deg"]];
 
 /// The sections that describe the skin.
 const CONTINUOUS: [&str; 6] = ["designs", "scale", "substrate", "contact", "puncture", "flexure"];
@@ -118,12 +144,12 @@ impl Parameter {
 
     /// The parameter that says the same in another way: a definition has one of the two.
     pub(crate) fn alternative(&self) -> Option<&'static Self> {
-        let [first, second] = ALTERNATIVES;
-        match self.key {
-            key if key == first => Self::named(second),
-            key if key == second => Self::named(first),
+        let other = ALTERNATIVES.iter().find_map(|&[first, second]| match self.key {
+            key if key == first => Some(second),
+            key if key == second => Some(first),
             _ => None,
-        }
+        });
+        other.and_then(Self::named)
     }
 
     /// `section.key`.
@@ -135,13 +161,24 @@ impl Parameter {
     pub fn get(&self, case: &Case) -> Scalar {
         let mut case = *case;
         match &self.kind {
-            ParameterKind::Number { field, .. } => Scalar::Number(*field(&mut case)),
+            ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
+                Scalar::Number(*field(&mut case))
+            }
+            ParameterKind::OptionalNumber { field, .. } => {
+                field(&mut case).map_or(Scalar::Word(NOT_GIVEN), Scalar::Number)
+            }
             ParameterKind::Count { field, .. } => Scalar::Count(*field(&mut case)),
             ParameterKind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
             ParameterKind::CountOrAuto { get, .. } => {
                 get(&case).map_or(Scalar::Word(AUTO), Scalar::Count)
             }
+            ParameterKind::Numbers { get, .. } => get(&case),
         }
+    }
+
+    /// Whether a case has a value for it: one that need not be given may have none.
+    pub fn is_given(&self, case: &Case) -> bool {
+        self.get(case) != Scalar::Word(NOT_GIVEN)
     }
 
     /// The value that it has unless a definition says otherwise.
@@ -152,7 +189,11 @@ impl Parameter {
     /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
-            (ParameterKind::Number { field, .. }, Scalar::Number(number)) => *field(case) = number,
+            (
+                ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
+                Scalar::Number(number),
+            ) => *field(case) = number,
+            (ParameterKind::OptionalNumber { field, .. }, value) => *field(case) = value.number(),
             (ParameterKind::Count { field, .. }, Scalar::Count(count)) => *field(case) = count,
             (ParameterKind::Word { words, set, .. }, Scalar::Word(word)) => {
                 // `read` takes no other words.
@@ -162,6 +203,7 @@ impl Parameter {
                 set(case, Some(count));
             }
             (ParameterKind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
+            (ParameterKind::Numbers { set, .. }, value) => set(case, value),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
     }
@@ -172,8 +214,16 @@ impl Parameter {
     /// If it is of another type or out of range.
     pub fn read(&self, written: &Value) -> Result<Scalar, WrongValue> {
         let value = match (&self.kind, written) {
-            (ParameterKind::Number { .. }, Value::Number(text)) => {
-                text.parse().ok().map(Scalar::Number)
+            (
+                ParameterKind::Number { .. }
+                | ParameterKind::SignedNumber { .. }
+                | ParameterKind::OptionalNumber { .. }
+                | ParameterKind::Numbers { .. },
+                Value::Number(text),
+            ) => text.parse().ok().map(Scalar::Number),
+            (ParameterKind::Numbers { .. }, Value::List(items)) => list(items).map(Scalar::List),
+            (ParameterKind::Numbers { word: Some(word), .. }, Value::Text(text)) => {
+                (text == word).then_some(Scalar::Word(word))
             }
             (
                 ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. },
@@ -199,9 +249,11 @@ impl Parameter {
     /// The value that a number of a range stands for.
     pub(crate) fn scalar(&self, number: Decimal) -> Scalar {
         match self.kind {
-            ParameterKind::Number { .. } | ParameterKind::Word { .. } => {
-                Scalar::Number(number.to_f64())
-            }
+            ParameterKind::Number { .. }
+            | ParameterKind::SignedNumber { .. }
+            | ParameterKind::OptionalNumber { .. }
+            | ParameterKind::Numbers { .. }
+            | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
             ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. } => {
                 // Whole and in bounds: whoever reads a range has seen both ends and the step.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
@@ -212,13 +264,19 @@ impl Parameter {
     /// Whether measures change continuously with this parameter, so that they have derivatives with respect to it: a number that
     /// describes the skin, not how it is solved or how it scatters.
     pub fn is_continuous(&self) -> bool {
-        matches!(self.kind, ParameterKind::Number { .. }) && CONTINUOUS.contains(&self.section)
+        let is_number =
+            matches!(self.kind, ParameterKind::Number { .. } | ParameterKind::SignedNumber { .. });
+        is_number && CONTINUOUS.contains(&self.section)
     }
 
     /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
     /// number.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
-        let ParameterKind::Number { field, .. } = &self.kind else { return None };
+        let (ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. }) =
+            &self.kind
+        else {
+            return None;
+        };
         let mut moved = *case;
         *field(&mut moved) += by;
         Some(moved)
@@ -227,7 +285,11 @@ impl Parameter {
     /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
     /// is smaller. `None` if the parameter is no number.
     pub fn size(&self, case: &Case) -> Option<f64> {
-        let ParameterKind::Number { range, .. } = &self.kind else { return None };
+        let (ParameterKind::Number { range, .. } | ParameterKind::SignedNumber { size: range, .. }) =
+            &self.kind
+        else {
+            return None;
+        };
         let value = self.get(case).number()?.abs();
         Some(if matches!(range.low, Excluded(0.0)) { value } else { value.max(1.0) })
     }
@@ -235,6 +297,14 @@ impl Parameter {
     /// Whether it takes numbers, so that a range of it makes sense.
     pub(crate) fn takes_numbers(&self) -> bool {
         !matches!(self.kind, ParameterKind::Word { .. })
+    }
+
+    /// Whether a word may stand in the place of its numbers.
+    pub(crate) fn takes_word(&self) -> bool {
+        matches!(
+            self.kind,
+            ParameterKind::CountOrAuto { .. } | ParameterKind::Numbers { word: Some(_), .. }
+        )
     }
 
     /// Whether its numbers are whole.
@@ -257,7 +327,18 @@ impl Parameter {
 
     fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
-            (ParameterKind::Number { range, .. }, Scalar::Number(number)) => range.contains(number),
+            (
+                ParameterKind::Number { range, .. }
+                | ParameterKind::OptionalNumber { range, .. }
+                | ParameterKind::Numbers { range, .. },
+                Scalar::Number(number),
+            ) => range.contains(number),
+            (ParameterKind::Numbers { range, .. }, Scalar::List(numbers)) => {
+                numbers.as_slice().iter().all(|&number| range.contains(number))
+            }
+            (ParameterKind::SignedNumber { size, .. }, Scalar::Number(number)) => {
+                size.contains(number.abs())
+            }
             (
                 ParameterKind::Count { range, .. } | ParameterKind::CountOrAuto { range, .. },
                 Scalar::Count(count),
@@ -269,11 +350,21 @@ impl Parameter {
     /// The values that the parameter takes, in words.
     pub fn expected(&self) -> String {
         match &self.kind {
-            ParameterKind::Number { noun, range, .. } => format!("{noun} {range}"),
+            ParameterKind::Number { noun, range, .. }
+            | ParameterKind::OptionalNumber { noun, range, .. } => format!("{noun} {range}"),
+            ParameterKind::SignedNumber { noun, size, .. } => {
+                format!("{noun} {size}, or its negative")
+            }
             ParameterKind::Count { range, .. } => format!("a whole number {range}"),
             ParameterKind::Word { words, .. } => any_of(words),
             ParameterKind::CountOrAuto { range, .. } => {
                 format!("a whole number {range} or \"{AUTO}\"")
+            }
+            ParameterKind::Numbers { noun, range, word, .. } => {
+                let word = word.map(|word| format!(", or \"{word}\"")).unwrap_or_default();
+                format!(
+                    "{noun} {range}, or a list of up to {MOST_NUMBERS} in ascending order{word}"
+                )
             }
         }
     }
@@ -282,6 +373,16 @@ impl Parameter {
 /// `words` in quotes, as alternatives.
 pub(crate) fn any_of(words: &[&str]) -> String {
     words.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ")
+}
+
+/// The list of the numbers of `items`; `None` if one is no number, or they are too many or not ascending.
+fn list(items: &[Value]) -> Option<NumberList> {
+    let number = |item: &Value| match item {
+        Value::Number(text) => text.parse().ok(),
+        _ => None,
+    };
+    let numbers: Vec<f64> = items.iter().map(number).collect::<Option<_>>()?;
+    NumberList::new(&numbers).filter(|list| !list.is_empty())
 }
 
 /// Negative zero is zero.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use sweep::Sweep;
 
 use crate::study::Study;
-use crate::{Headlines, ValidationError, claims};
+use crate::{Headlines, PartProgress, ValidationError, claims};
 
 /// A setting with the claims that it reproduces.
 #[derive(Clone, Debug)]
@@ -21,7 +21,7 @@ pub struct ScoredSetting {
     pub headlines: Headlines,
 }
 
-/// A sweep over combinations of open choices, on the designs of the paper.
+/// Sweeps over combinations of open choices, on the designs of the paper.
 #[derive(Clone, Debug)]
 pub struct SettingSearch {
     /// Every setting, the one that reproduces most first.
@@ -29,17 +29,24 @@ pub struct SettingSearch {
 }
 
 impl SettingSearch {
-    /// Solves the sweep and checks every claim on each setting.
+    /// Solves the sweeps and checks every claim on each setting; `progress` is called when a sweep begins.
     ///
     /// # Errors
     /// If the temporary folder cannot be written.
-    pub fn run(sweep: Sweep) -> Result<Self, ValidationError> {
-        let study = Study::run(sweep)?;
+    pub fn run(
+        sweeps: &[Sweep],
+        mut progress: impl FnMut(PartProgress<'_>),
+    ) -> Result<Self, ValidationError> {
         let score = |(setting, study): (String, Study)| {
             let [reproduced, in_part] = claims::score(&study);
             ScoredSetting { setting, reproduced, in_part, headlines: Headlines::of(&study) }
         };
-        let mut settings: Vec<_> = study.settings().into_par_iter().map(score).collect();
+        let mut settings = Vec::new();
+        for (done, sweep) in sweeps.iter().enumerate() {
+            progress(PartProgress { done, parts: sweeps.len(), part: sweep.name() });
+            let study = Study::run(sweep.clone())?;
+            settings.par_extend(study.settings().into_par_iter().map(score));
+        }
         // Stable: of equal ones the first in the sweep comes first.
         settings.sort_by_key(|s| std::cmp::Reverse((s.reproduced.len(), s.in_part.len())));
         Ok(Self { settings })

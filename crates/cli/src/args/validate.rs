@@ -10,11 +10,11 @@ use clap::Args;
 Examples:
   squama validate
   squama validate --out validation.md
-  squama validate --search sweeps/open-questions.toml
+  squama validate --search sweeps/open-questions.toml sweeps/gaps.toml
 
 Solves problems with known answers, both sweeps of the paper, and sweeps over what the paper leaves
 open; prints the tables and writes them down. Takes about a minute on two cores. With --search, checks
-the claims on every setting of a sweep over open choices instead, and prints what each reproduces.
+the claims on every setting of sweeps over open choices instead, and prints what each reproduces.
 Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
 change it.")]
 pub struct ValidateArguments {
@@ -22,7 +22,7 @@ pub struct ValidateArguments {
     #[arg(long, value_name = "FILE", default_value = "docs/validation.md")]
     pub out: PathBuf,
 
-    /// A sweep of the paper's designs with further axes: which settings come closest to the claims
-    #[arg(long, value_name = "SWEEP.toml", conflicts_with = "out")]
-    pub search: Option<PathBuf>,
+    /// Sweeps of the paper's designs with further axes: which settings come closest to the claims
+    #[arg(long, value_name = "SWEEP.toml", num_args = 1.., conflicts_with = "out")]
+    pub search: Vec<PathBuf>,
 }

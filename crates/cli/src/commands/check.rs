@@ -9,7 +9,7 @@ use super::DONE;
 use super::source::{folder_of, read};
 use crate::args;
 use crate::json;
-use crate::print::{aligned, counted, print};
+use crate::print::{aligned, counted, digits, print};
 
 /// Values that an axis lists before it is cut short.
 const LISTED: u64 = 12;
@@ -35,6 +35,9 @@ fn report(sweep: &Sweep, path: &Path) -> String {
     ];
     if sweep.measures().contains(&Measure::Puncture) {
         rows.push(row("calibrations", &calibrations(sweep).to_string()));
+    }
+    if let Some(moduli) = contact_moduli(sweep) {
+        rows.push(row("contact modulus", &moduli));
     }
     rows.push(row("output", &folder_of(sweep, None).display().to_string()));
     let axes: Vec<_> = grid.axes().iter().map(axis_row).collect();
@@ -64,6 +67,19 @@ fn as_json(sweep: &Sweep) -> Value {
         "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
     })
+}
+
+/// The modulus of the scales in contact that the ratios of the definition make of the moduli of its material, where all designs
+/// share them.
+fn contact_moduli(sweep: &Sweep) -> Option<String> {
+    let shared = |key: &str| sweep.shared().find(|(p, _)| p.key == key)?.1.number();
+    let modulus = |of: &str, ratio: &str| Some(shared(of)? * shared(ratio)?);
+    let puncture = modulus("substrate_modulus_MPa", "contact_modulus_over_substrate");
+    let bending = modulus("membrane_modulus_MPa", "contact_modulus_over_membrane");
+    let words = |modulus: Option<f64>, of: &str| Some(format!("{} MPa in {of}", digits(modulus?)));
+    let parts: Vec<_> =
+        [words(puncture, "puncture"), words(bending, "bending")].into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
 }
 
 fn row(what: &str, value: &str) -> [String; 2] {

@@ -87,6 +87,7 @@ impl Drawing<'_> {
             name: &name,
             design: &case.design,
             load_position: case.puncture.load_position,
+            thickness_mm: case.material.thickness_mm,
             states: &states,
         };
         if self.arguments.animate {
@@ -130,7 +131,10 @@ impl Drawing<'_> {
             [] if self.arguments.animate => {
                 (0..=FRAMES).map(|k| last * f64::from(k) / f64::from(FRAMES)).collect()
             }
-            [] => ROTATIONS_DEG.into_iter().filter(|&rotation| rotation <= last).collect(),
+            [] => {
+                let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
+                reached.map(|size| size * last.signum() + 0.0).collect()
+            }
             at => at.to_vec(),
         };
         let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
@@ -146,6 +150,7 @@ impl Drawing<'_> {
             name: &name,
             design: &self.case.design,
             membrane_thickness: parameters.membrane_thickness,
+            thickness_mm: self.case.material.thickness_mm,
             states: &states,
         };
         if self.arguments.animate {

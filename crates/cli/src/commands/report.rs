@@ -121,6 +121,7 @@ fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
         name: &name,
         design: &case.design,
         load_position: case.puncture.load_position,
+        thickness_mm: case.material.thickness_mm,
         states: &states,
     };
     let path = solved.puncture.path.iter();

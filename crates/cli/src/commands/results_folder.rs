@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
-use report::{Designs, Fact};
+use report::{Designs, Fact, facts};
 use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
-use sweep::toml_source::{self, KeyValue, Value};
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -59,21 +58,4 @@ impl ResultsFolder {
             Err(error) => Err(error),
         }
     }
-}
-
-/// The entries of the table `run` of `run.toml`.
-fn facts(text: &str) -> Vec<Fact> {
-    let table = toml_source::parse(text, "run.toml").unwrap_or_default();
-    let run = table.into_iter().find(|entry| entry.key == "run").map(|entry| entry.value);
-    let Some(Value::Table(entries)) = run else { return Vec::new() };
-    let fact = |entry: KeyValue| match entry.value {
-        Value::Table(counts) => {
-            let count = |entry: &KeyValue| format!("{} {}", entry.value, entry.key);
-            let counts: Vec<_> = counts.iter().map(count).collect();
-            (entry.key.replace('_', " "), counts.join(", "))
-        }
-        Value::Text(text) => (entry.key.replace('_', " "), text),
-        value => (entry.key.replace('_', " "), value.to_string()),
-    };
-    entries.into_iter().map(fact).collect()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use indicatif::{ProgressBar, ProgressStyle};
 use sweep::Sweep;
-use validation::{SettingSearch, Validation};
+use validation::{PartProgress, SettingSearch, Validation, ValidationError};
 
 use super::source::require_folder_of;
 use super::{DONE, INCOMPLETE};
@@ -14,8 +14,10 @@ use crate::print::print;
 
 /// Carries out the validation, prints its page and writes it down.
 pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
-    if let Some(path) = &arguments.search {
-        print(&SettingSearch::run(Sweep::read(path, &[])?)?.table())?;
+    if !arguments.search.is_empty() {
+        let sweeps = arguments.search.iter().map(|path| Sweep::read(path, &[]));
+        let sweeps = sweeps.collect::<Result<Vec<_>, _>>()?;
+        print(&with_bar(|progress| SettingSearch::run(&sweeps, progress))?.table())?;
         return Ok(DONE);
     }
     let out = &arguments.out;
@@ -25,7 +27,7 @@ pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     require_folder_of("--out", out)?;
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    let validation = with_bar()?;
+    let validation = with_bar(|progress| Validation::run(progress))?;
     let page = validation.page();
     results::write_text(folder, &name.to_string_lossy(), &page)?;
     print(&page)?;
@@ -36,19 +38,20 @@ pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
 }
 
-/// Carries out the validation behind a bar on the terminal that names the part in hand.
-fn with_bar() -> Result<Validation, validation::ValidationError> {
+/// Works behind a bar on the terminal that names the part in hand.
+fn with_bar<T>(
+    work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> Result<T, ValidationError>,
+) -> Result<T, ValidationError> {
     let bar = ProgressBar::new(0);
-    if let Ok(style) =
-        ProgressStyle::with_template("{wide_bar} {pos}/{len} parts  {elapsed}  {msg}")
-    {
+    let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {msg}";
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    let validation = Validation::run(|progress| {
+    let done = work(&mut |progress| {
         bar.set_length(progress.parts as u64);
         bar.set_position(progress.done as u64);
         bar.set_message(progress.part.to_owned());
     });
     bar.finish_and_clear();
-    validation
+    done
 }

@@ -11,6 +11,7 @@ mod images;
 mod imperfections;
 mod json;
 mod kills;
+mod materials;
 mod output;
 mod process;
 mod rankings;
@@ -77,6 +78,13 @@ impl Place {
     fn squama(&self, arguments: &str) -> Command {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("squama"));
         command.current_dir(self.folder.path()).args(arguments.split_whitespace());
+        command
+    }
+
+    /// `squama` with these arguments.
+    fn squama_with(&self, arguments: &[String]) -> Command {
+        let mut command = self.squama("");
+        command.args(arguments);
         command
     }
 

@@ -7,6 +7,7 @@ use skin::puncture::{RowSnapshot, ScaleState};
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
+use super::scale_bar::scale_bar;
 use super::surface;
 use super::view::View;
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
@@ -36,6 +37,8 @@ pub struct PunctureDrawing<'a> {
     pub design: &'a Design,
     /// Place of the load on the top of the punctured scale.
     pub load_position: f64,
+    /// Thickness of the scales, mm, if it is known: then there is a scale bar.
+    pub thickness_mm: Option<f64>,
     /// The states, from the top; the row at rest is drawn above them.
     pub states: &'a [RowSnapshot],
 }
@@ -74,6 +77,7 @@ struct RowSheet {
     first: i64,
     last: i64,
     view: View,
+    thickness_mm: Option<f64>,
     /// The height on paper of the bars of the reactions, px.
     bars: f64,
     height: f64,
@@ -116,6 +120,7 @@ impl RowSheet {
             first,
             last,
             view,
+            thickness_mm: puncture.thickness_mm,
             bars,
             height: bars + BARS + 18.0,
             force: LONGEST / largest.fold(f64::MIN_POSITIVE, f64::max),
@@ -138,6 +143,7 @@ impl RowSheet {
         let bottom = AIR + self.view.scale + SUBSTRATE;
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
+        inside.extend(scale_bar(&self.view, self.thickness_mm, [WIDTH - MARGIN, 14.0]));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)

@@ -8,6 +8,7 @@ use skin::{Contact, Design};
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
 use super::row::short;
+use super::scale_bar::scale_bar;
 use super::view::{Extent, View};
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::label::{Anchor, label};
@@ -30,6 +31,8 @@ pub struct FlexureDrawing<'a> {
     pub design: &'a Design,
     /// Thickness `h/t` of the membrane.
     pub membrane_thickness: f64,
+    /// Thickness of the scales, mm, if it is known: then there are scale bars.
+    pub thickness_mm: Option<f64>,
     /// The states, from the top.
     pub states: &'a [StripSnapshot],
 }
@@ -74,7 +77,9 @@ impl FlexureDrawing<'_> {
             contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
         ]);
         let cell = self.cell(row, state, tall);
-        DrawingPanel { height: tall + 8.0, caption: caption(state), inside: vec![whole, cell] }
+        let bar = scale_bar(&view, self.thickness_mm, [MARGIN + area[0], 14.0]);
+        let inside = [whole, cell].into_iter().chain(bar).collect();
+        DrawingPanel { height: tall + 8.0, caption: caption(state), inside }
     }
 
     /// Draws the gap in the middle of the strip, enlarged, with the forces and the overlap.
@@ -97,7 +102,9 @@ impl FlexureDrawing<'_> {
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
         let [border, name] = enlargement(frame);
-        Element::group("gap").containing([
+        let bar =
+            scale_bar(&view, self.thickness_mm, [frame[0] + ENLARGED - 12.0, frame[1] + 22.0]);
+        let parts = [
             border,
             shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
             shape.scales(&view, outline(row, scale).clamp(0.4, 0.9)),
@@ -106,7 +113,8 @@ impl FlexureDrawing<'_> {
             contacts::forces(&view, &shape.contacts, unit),
             moments(&view, &shape),
             name,
-        ])
+        ];
+        Element::group("gap").containing(parts.into_iter().chain(bar))
     }
 }
 

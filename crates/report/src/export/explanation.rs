@@ -49,7 +49,22 @@ impl Explanation {
             let parameter = parameter_of(name)?;
             Some(Self { unit: parameter.unit, meaning: parameter.meaning })
         };
-        among(&numbers, name).or_else(measured).or_else(parameter)
+        among(&numbers, name)
+            .or_else(measured)
+            .or_else(parameter)
+            .or_else(|| Self::of_criterion(name))
+    }
+}
+
+impl Explanation {
+    /// A column of a ranking by criteria of one's own.
+    fn of_criterion(name: &str) -> Option<Self> {
+        let meaning = match name.rsplit_once('_')?.1 {
+            "rescaled" => "criterion from 0, the worst of all ranked designs, to 1, the best",
+            "weight" => "weight of the criterion",
+            _ => return None,
+        };
+        Some(Self { unit: "-", meaning })
     }
 }
 

@@ -9,6 +9,8 @@ use rust_xlsxwriter::{
 use results::{CsvFormat, Outcome};
 
 use super::explanation::{Explanation, is_leading};
+use super::profile::ColumnProfile;
+use super::{MeasureChart, TableProfile};
 
 /// Ink and background of a failure.
 const RED: [Color; 2] = [Color::RGB(0x009C_0006), Color::RGB(0x00FF_C7CE)];
@@ -17,6 +19,8 @@ const GREY: Color = Color::RGB(0x00E6_E6E6);
 /// The scale of a measure: light to dark blue-green, on which black stays legible.
 const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
 
+/// Height of a header of two lines, points.
+const HEADER: f64 = 31.0;
 /// Characters that the button of a filter takes.
 const BUTTON: usize = 3;
 /// The narrowest and the widest column, in characters.
@@ -35,6 +39,7 @@ impl Formats {
     fn new(digits: usize) -> Self {
         let header = Format::new().set_bold().set_background_color(GREY);
         let header = header.set_border_bottom(FormatBorder::Thin).set_align(FormatAlign::Left);
+        let header = header.set_align(FormatAlign::Top).set_text_wrap();
         let red = |format: Format| format.set_font_color(RED[0]).set_background_color(RED[1]);
         let number = Format::new().set_num_format("0".repeat(digits));
         let failed_number = red(number.clone());
@@ -49,6 +54,7 @@ pub(super) struct Sheet {
     format: CsvFormat,
     columns: Vec<SheetColumn>,
     formats: Formats,
+    chart: Option<MeasureChart>,
     rows: u32,
 }
 
@@ -62,18 +68,22 @@ struct SheetColumn {
     is_status: bool,
     /// Whether its values have a scale of colours.
     is_measure: bool,
+    /// How its numbers are shown.
+    number: Format,
     /// Characters of the longest cell.
     width: usize,
 }
 
 impl SheetColumn {
-    fn new(table: &str, place: usize, name: &str) -> Self {
+    fn new(table: &str, place: usize, name: &str, profile: &ColumnProfile) -> Self {
+        let header = name.chars().count() + BUTTON;
         Self {
             place: ColNum::try_from(place).unwrap_or(ColNum::MAX),
             is_number: name == "design" || name.ends_with("_design"),
             is_status: name.ends_with("_status") || (table == "failures" && name == "reason"),
             is_measure: is_leading(table, name),
-            width: name.chars().count() + BUTTON,
+            number: Format::new().set_num_format(profile.number_format()),
+            width: header.max(profile.width() + 1),
         }
     }
 
@@ -88,19 +98,27 @@ impl Sheet {
     pub fn new(
         workbook: &mut Workbook,
         table: &str,
-        format: CsvFormat,
-        header: &StringRecord,
+        profile: &TableProfile,
     ) -> Result<Self, XlsxError> {
+        let TableProfile { format, header, columns: profiles } = profile;
         let mut page = workbook.new_worksheet_with_constant_memory()?;
         page.set_name(table)?;
-        let columns = header.iter().enumerate();
-        let columns: Vec<_> =
-            columns.map(|(place, name)| SheetColumn::new(table, place, name)).collect();
+        let columns = header.iter().zip(profiles).enumerate();
+        let column = |(place, (name, profile))| SheetColumn::new(table, place, name, profile);
+        let columns: Vec<_> = columns.map(column).collect();
         let formats = Formats::new(4);
         for (column, name) in columns.iter().zip(header) {
-            page.write_string_with_format(0, column.place, name, &formats.header)?;
+            page.write_string_with_format(0, column.place, titled(table, name), &formats.header)?;
         }
-        Ok(Self { table: table.to_owned(), page, format, columns, formats, rows: 0 })
+        page.set_row_height(0, HEADER)?;
+        let chart = MeasureChart::new(table, header);
+        let (table, format) = (table.to_owned(), *format);
+        Ok(Self { table, page, format, columns, formats, chart, rows: 0 })
+    }
+
+    /// The name of the table.
+    pub fn table(&self) -> &str {
+        &self.table
     }
 
     /// How many rows there are below the header.
@@ -119,8 +137,7 @@ impl Sheet {
         self.rows += 1;
         let pairs = || self.columns.iter().zip(cells);
         let has_failed = pairs().any(|(column, cell)| column.says_failed(cell));
-        for (column, cell) in self.columns.iter_mut().zip(cells).filter(|(_, c)| !c.is_empty()) {
-            column.width = column.width.max(cell.chars().count());
+        for (column, cell) in self.columns.iter().zip(cells).filter(|(_, c)| !c.is_empty()) {
             let (page, place) = (&mut self.page, column.place);
             let formats = &self.formats;
             match self.format.number(cell) {
@@ -128,18 +145,23 @@ impl Sheet {
                     let format = if has_failed { &formats.failed_number } else { &formats.number };
                     page.write_number_with_format(self.rows, place, number, format)?
                 }
-                Some(number) => page.write_number(self.rows, place, number)?,
+                Some(number) => {
+                    page.write_number_with_format(self.rows, place, number, &column.number)?
+                }
                 None if column.says_failed(cell) => {
                     page.write_string_with_format(self.rows, place, cell, &formats.failed)?
                 }
                 None => page.write_string(self.rows, place, cell)?,
             };
         }
+        if let Some(chart) = &mut self.chart {
+            chart.add(self.rows, self.format, cells);
+        }
         Ok(())
     }
 
-    /// Puts the sheet into the workbook, with filters and colours.
-    pub fn finish(mut self, workbook: &mut Workbook) -> Result<(), XlsxError> {
+    /// Returns the page, with filters, colours and the chart of a measure.
+    pub fn finish(mut self) -> Result<Worksheet, XlsxError> {
         // A filter needs a row to stand on.
         let (last_row, last_column) = (self.rows.max(1), self.columns.len().saturating_sub(1));
         let last_column = ColNum::try_from(last_column).unwrap_or(ColNum::MAX);
@@ -160,8 +182,18 @@ impl Sheet {
         if self.table == "failures" && self.rows > 0 {
             self.page.set_tab_color(RED[0]);
         }
-        workbook.push_worksheet(self.page);
-        Ok(())
+        if let Some(chart) = &self.chart {
+            chart.insert(&mut self.page, &self.table, self.rows, last_column)?;
+        }
+        Ok(self.page)
+    }
+}
+
+/// The header of a column: its name, and below it its unit, if it has one.
+fn titled(table: &str, name: &str) -> String {
+    match Explanation::of(table, name) {
+        Some(Explanation { unit, .. }) if unit != "-" => format!("{name}\n[{unit}]"),
+        _ => name.to_owned(),
     }
 }
 

@@ -30,6 +30,12 @@ fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
 }
 
 fn svg(design: &Design, states: &[RowSnapshot]) -> String {
-    let drawing = drawings::PunctureDrawing { name: "test", design, load_position: 1.0, states };
+    let drawing = drawings::PunctureDrawing {
+        name: "test",
+        design,
+        load_position: 1.0,
+        thickness_mm: None,
+        states,
+    };
     drawing.svg().expect("a drawing")
 }

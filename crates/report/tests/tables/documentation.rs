@@ -51,9 +51,20 @@ fn the_guide_to_the_results_explains_every_column() {
     let geometry = &PARAMETERS[..3].iter().collect::<Vec<_>>();
     let imperfect = design_columns(&sweep("name = 'x'\nimperfection.gap_cv = 0.1"));
     let with_imperfections = &imperfect[design_columns(&sweep("name = 'x'")).len()..];
+    let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nmembrane_modulus_MPa = 1\nscale_density_kg_m3 = 1";
+    let physical =
+        design_columns(&sweep(&format!("name = 'x'\nimperfection.gap_cv = 0.1\n{material}")));
+    let in_physical_units = &physical[imperfect.len()..];
+    let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
+    let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
     let expected = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
+        (
+            "`designs.csv`, with `puncture.critical_tilt_deg = [5, 10]` in addition",
+            columns(at_tilts),
+        ),
+        ("`designs.csv`, with a material in addition", columns(in_physical_units)),
         ("Statuses", statuses),
         (
             "`failures.csv`, after the columns that say which design it is",
@@ -90,8 +101,10 @@ fn the_guide_to_the_results_explains_every_column() {
 fn the_paper_sweep_writes_every_key_with_its_default() {
     let paper = text("sweeps/paper.toml");
     for parameter in PARAMETERS {
+        // What is not given by default stands there as a remark.
+        let remark = if parameter.section == "material" { "# " } else { "" };
         assert!(
-            paper.contains(&format!("\n{} = ", parameter.key)),
+            paper.contains(&format!("\n{remark}{} = ", parameter.key)),
             "{} is missing",
             parameter.path()
         );

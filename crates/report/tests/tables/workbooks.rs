@@ -12,7 +12,14 @@ use crate::samples::{Criteria, write_results};
 fn sheet(file: &Path, name: &str) -> Vec<Vec<Data>> {
     let mut workbook: Xlsx<_> = open_workbook(file).expect("a workbook");
     let range = workbook.worksheet_range(name).expect("a sheet");
-    range.rows().map(<[Data]>::to_vec).collect()
+    let mut rows: Vec<Vec<Data>> = range.rows().map(<[Data]>::to_vec).collect();
+    // Units stand below the names.
+    for cell in &mut rows[0] {
+        if let Data::String(text) = cell {
+            *text = text.split('\n').next().expect("a name").to_owned();
+        }
+    }
+    rows
 }
 
 fn names(file: &Path) -> String {
@@ -52,7 +59,7 @@ fn every_number_is_the_same_to_the_last_bit() {
     let file = exported(place.path());
     let table = fs::read_to_string(place.path().join("designs.csv")).expect("a table");
     assert_eq!(sheet(&file, "designs"), expected(&table, ','));
-    assert_eq!(names(&file), "designs columns");
+    assert_eq!(names(&file), "summary designs columns");
 }
 
 #[test]
@@ -69,7 +76,7 @@ fn extreme_numbers_failures_and_texts_come_through() {
     let file = exported(place.path());
     assert_eq!(sheet(&file, "designs"), expected(designs, ','));
     assert_eq!(sheet(&file, "failures"), expected(failures, ','));
-    assert_eq!(names(&file), "designs failures columns");
+    assert_eq!(names(&file), "summary designs failures columns");
     let guide = sheet(&file, "columns");
     let text = |text: &str| Data::String(text.to_owned());
     assert_eq!(guide[0], ["sheet", "column", "unit", "meaning"].map(text));
@@ -122,7 +129,7 @@ fn what_failed_is_red_and_measures_have_a_scale() {
     let designs = "design,coverage,puncture_status\r\n0001,0.1,complete\r\n0002,0.2,row limit\r\n";
     fs::write(place.path().join("designs.csv"), designs).expect("writable");
     let file = exported(place.path());
-    let archive = zip_text(&file, "xl/worksheets/sheet1.xml");
+    let archive = zip_text(&file, "xl/worksheets/sheet2.xml");
     assert!(archive.contains("<cfRule type=\"colorScale\""));
     assert_eq!(archive.matches("<color rgb=").count(), 3);
     assert!(archive.contains("<conditionalFormatting sqref=\"B2:B3\">"));
@@ -142,6 +149,57 @@ fn what_failed_is_red_and_measures_have_a_scale() {
     assert_ne!(fill("A3"), "0");
     assert_eq!(fill("A3"), fill("C3"));
     assert!(styles.contains("FFFFC7CE"));
+}
+
+#[test]
+fn the_first_sheet_tells_what_the_run_is() {
+    let place = tempfile::tempdir().expect("a folder");
+    let table = "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance\r\n\
+                 0001,0.1,1,45,0.5,2,0.1,0.2\r\n0002,0.2,1,45,0.7,1,0.1,0.3\r\n0003,0.2,1,45,0.7,1,0.2,0.1\r\n";
+    fs::write(place.path().join("designs.csv"), table).expect("writable");
+    let run = "[run]\nversion = '1'\nstatus = { complete = 3 }\n[definition]\nname = 'x'\n";
+    fs::write(place.path().join("run.toml"), run).expect("writable");
+    let results = results::Results::read(place.path()).expect("results");
+    let preferences = "requirements = ['coverage >= 0.5']\nweights = [1, 3, 0, 0]";
+    let preferences = ranking::Preferences::parse(preferences, "x").expect("preferences");
+    let ranking =
+        ranking::Ranking::by(&results, preferences, Default::default()).expect("a ranking");
+    ranking::write_ranking(place.path(), &ranking).expect("writable");
+    let cells = sheet(&exported(place.path()), "summary");
+    let line = |row: &Vec<Data>| {
+        let cells = row.iter().filter(|cell| **cell != Data::Empty);
+        cells.map(ToString::to_string).collect::<Vec<_>>().join(" | ")
+    };
+    let lines: Vec<_> =
+        cells.iter().map(line).take_while(|line| !line.starts_with("Definition")).collect();
+    insta::assert_snapshot!(lines.join("\n"));
+    let definition = cells.iter().map(line).find(|line| line.starts_with("contact.c2"));
+    assert_eq!(
+        definition.as_deref(),
+        Some("contact.c2 | 0.23 | - | exponent C2 of the contact law")
+    );
+}
+
+#[test]
+fn what_is_round_off_is_not_seen_and_a_measure_has_a_chart() {
+    let place = tempfile::tempdir().expect("a folder");
+    let table = "design,gap_over_t,length_over_t,slant_deg,compliance\r\n\
+                 0001,0.1,1,0,0.7999999996252686\r\n0002,0.1,1,45,0.3\r\n0003,0.2,1,0,0.5\r\n";
+    for file in ["designs.csv", "compliance.csv"] {
+        fs::write(place.path().join(file), table).expect("writable");
+    }
+    let file = exported(place.path());
+    assert_eq!(names(&file), "summary designs compliance columns");
+    let styles = zip_text(&file, "xl/styles.xml");
+    assert!(styles.contains("formatCode=\"0.000\""), "{styles}");
+    assert_eq!(sheet(&file, "compliance")[1][4], Data::Float(0.799_999_999_625_268_6));
+    let chart = zip_text(&file, "xl/charts/chart1.xml");
+    assert!(chart.contains("<c:scatterChart>"));
+    let ranges = ["compliance!$E$2:$E$3", "compliance!$E$4:$E$4", "compliance!$D$2:$D$3"];
+    assert!(ranges.iter().all(|range| chart.contains(range)), "{chart}");
+    let header =
+        zip_text(&file, "xl/worksheets/sheet3.xml") + &zip_text(&file, "xl/sharedStrings.xml");
+    assert!(header.contains("[1/(E_m I_m)]"));
 }
 
 /// A file within a workbook.

@@ -66,6 +66,7 @@ impl From<Scalar> for Cell {
             Scalar::Number(number) => number.into(),
             Scalar::Count(count) => count.into(),
             Scalar::Word(word) => word.into(),
+            Scalar::List(_) => scalar.to_string().into(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::cell::Cell;
 use super::column::Column;
+use super::samples::SAMPLE_VALUES;
 use crate::design::row::DesignRow;
 use crate::folder::MEASURE_TABLES;
 
@@ -17,6 +18,11 @@ pub(super) struct MeasuredValue {
 impl MeasuredValue {
     pub(super) fn column(&self) -> Column<DesignRow> {
         Column::new(self.name, self.unit, self.meaning, self.cell)
+    }
+
+    /// Whether it is a statistic of imperfect samples.
+    pub(super) fn is_of_samples(&self) -> bool {
+        SAMPLE_VALUES.iter().any(|value| value.name == self.name)
     }
 
     /// Whether it is what a table of its own is about.

@@ -316,6 +316,13 @@ pub(super) static VALUES: &[MeasuredValue] = &[
         meaning: "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
         cell: |r| measured(r, |m| m.sound_force),
     },
+    MeasuredValue {
+        tables: COMPLIANCE,
+        name: "contact_curvature",
+        unit: "1/t",
+        meaning: "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close",
+        cell: |r| bent(r, |m| m.contact_curvature),
+    },
 ];
 
 fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureMeasures) -> Option<T>) -> Cell {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use skin::flexure::{self, Flexure};
-use skin::puncture::{self, Puncture};
+use skin::puncture::{self, Puncture, TiltMeasures};
 
 use super::failure::{Failure, finite};
 use super::outcome::Outcome;
@@ -26,6 +26,9 @@ pub struct DesignResult {
     /// The puncture, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub puncture: Option<PunctureResult>,
+    /// The measures of the puncture at several critical tilts, if they were asked for; `None` where the path did not get there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_tilts: Vec<Option<TiltMeasures>>,
     /// The bending, if it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flexure: Option<FlexureResult>,
@@ -194,7 +197,19 @@ mod tests {
         };
         let (path, events, scales, history) = (vec![], vec![], vec![], vec![]);
         let (instability, snaps, folds) = (vec![], vec![], vec![]);
-        Puncture { status, measures, path, instability, events, snaps, folds, scales, history }
+        let at_tilts = vec![];
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
     }
 
     #[test]

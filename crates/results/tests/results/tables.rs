@@ -25,10 +25,15 @@ fn with_another_axis_and_another_measure() {
 
 #[test]
 fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
-    let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, p.default().to_toml());
-    // A strip has either a length or a number of gaps.
-    let names_without = |other: &str| {
-        let chosen = sweep::PARAMETERS.iter().filter(|p| p.key != other);
+    let value = |p: &sweep::Parameter| match p.section {
+        // Nothing is given by default.
+        "material" => "1".to_owned(),
+        _ => p.default().to_toml(),
+    };
+    let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
+    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction.
+    let names_without = |others: [&str; 2]| {
+        let chosen = sweep::PARAMETERS.iter().filter(|p| !others.contains(&p.key));
         let axes: String = chosen.map(axis).collect();
         let sweep = sweep(&format!("name = 'x'\n[designs]\n{axes}"));
         results::columns::design_columns(&sweep)
@@ -36,11 +41,41 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
             .map(|c| c.name.into_owned())
             .collect::<Vec<_>>()
     };
-    let mut names = names_without("gaps");
+    let mut names = names_without(["gaps", "needle_friction"]);
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
-    assert!(names_without("membrane_length_over_t").iter().any(|name| name == "gaps_asked"));
+    let others = names_without(["membrane_length_over_t", "critical_tilt_deg"]);
+    assert!(["gaps_asked", "needle_friction"].iter().all(|name| others.iter().any(|n| n == name)));
     let count = names.len();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), count);
+}
+
+/// One path has columns for each of several critical tilts, or frictions, behind the others.
+#[test]
+fn several_critical_tilts_have_columns_of_their_own() {
+    let added = |text: &str| {
+        let (plain, with) = (headers("name = 'x'"), headers(&format!("name = 'x'\n{text}")));
+        let added = plain
+            .lines()
+            .zip(with.lines())
+            .map(|(plain, with)| with.strip_prefix(plain).expect("behind the others").to_owned());
+        added.collect::<Vec<_>>()
+    };
+    let force = ",critical_force_at_5deg,critical_force_at_10.5deg";
+    let displacement = ",critical_displacement_at_5deg,critical_displacement_at_10.5deg";
+    let penetration = ",penetration_at_5deg,penetration_at_10.5deg";
+    let expected = [
+        format!("{force}{displacement}{penetration}"),
+        String::new(),
+        format!("{force}{displacement}"),
+        format!("{displacement}{penetration}"),
+        String::new(),
+    ];
+    assert_eq!(added("puncture.critical_tilt_deg = [5, 10.5]"), expected);
+    let by_friction = added("puncture.needle_friction = [0.1, 0.2]").concat();
+    assert!(
+        by_friction.contains(",critical_force_at_friction_0.1,critical_force_at_friction_0.2,")
+    );
+    assert_eq!(added("puncture.needle_friction = 0.1").concat(), "");
 }

@@ -64,8 +64,18 @@ impl Evaluator {
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
-        let result =
-            DesignResult { coverage, puncture, flexure, samples, sensitivity, settings, failures };
+        let at_tilts = puncture_path.as_ref().map(|path| path.at_tilts.clone());
+        let at_tilts = at_tilts.unwrap_or_default();
+        let result = DesignResult {
+            coverage,
+            puncture,
+            at_tilts,
+            flexure,
+            samples,
+            sensitivity,
+            settings,
+            failures,
+        };
         let row = DesignRow { number, case: *case, result };
         let mut solved = SolvedDesign { row, puncture: puncture_path, flexure: flexure_path };
         let failures = self.measures.iter().filter_map(|measure| failure(*measure, &solved));

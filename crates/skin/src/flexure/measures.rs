@@ -21,7 +21,7 @@ pub struct FlexureMeasures {
     pub contact: Option<bool>,
     /// `κ*` at the first contact.
     pub first_contact_curvature: Option<f64>,
-    /// Largest `M*`.
+    /// `M*` of the largest size; negative on a path to the outside.
     pub max_moment: Option<f64>,
     /// Part of the axial energy in the elastic energy at the end of the path.
     pub axial_energy_share: Option<f64>,
@@ -32,6 +32,9 @@ pub struct FlexureMeasures {
     pub error: Option<f64>,
     /// Gaps `n` of the strip, a whole number in a chain.
     pub gaps: f64,
+    /// `κ*` at which scales would touch, whether or not the path goes so far; `None` for a gap that cannot close, and for
+    /// imperfect strips.
+    pub contact_curvature: Option<f64>,
 }
 
 impl FlexureMeasures {
@@ -47,11 +50,24 @@ impl FlexureMeasures {
             initial_compliance: record.path.first().map(|start| start.stiffness.recip()),
             contact: Some(first.is_some()),
             first_contact_curvature: first.map(|point| point.curvature),
-            max_moment: record.path.iter().map(|point| point.moment).reduce(f64::max),
+            max_moment: record.path.iter().map(|point| point.moment).reduce(larger),
             axial_energy_share: share.filter(|share| share.is_finite()),
             membrane_strain_max: strains.reduce(f64::max),
             error: None,
+            contact_curvature: None,
             gaps: strip.gaps() as f64 * strip.repeats(),
+        }
+    }
+
+    /// The measures with what is known in closed form in the place of what was computed: before contact the compliance is
+    /// `Σd/Σp`, and no energy stretches the membrane.
+    pub(crate) fn in_closed_form(self, free_compliance: f64) -> Self {
+        let bare = self.contact == Some(false);
+        Self {
+            initial_compliance: self.initial_compliance.map(|_| free_compliance),
+            compliance: self.compliance.map(|found| if bare { free_compliance } else { found }),
+            axial_energy_share: self.axial_energy_share.map(|found| if bare { 0.0 } else { found }),
+            ..self
         }
     }
 
@@ -61,10 +77,16 @@ impl FlexureMeasures {
             initial_compliance: self.initial_compliance,
             first_contact_curvature: self.first_contact_curvature,
             contact: self.first_contact_curvature.map(|_| true),
+            contact_curvature: self.contact_curvature,
             gaps: self.gaps,
             ..Self::default()
         }
     }
+}
+
+/// The moment of the larger size.
+fn larger(a: f64, b: f64) -> f64 {
+    if b.abs() > a.abs() { b } else { a }
 }
 
 /// Part of the axial energy in the elastic energy; not a number at rest.

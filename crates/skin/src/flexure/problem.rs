@@ -6,6 +6,7 @@ use membrane::{Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
+use super::first_touch::contact_curvature;
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Extent, Strip};
@@ -47,6 +48,8 @@ pub(crate) struct FlexureProblem<'a> {
     pub(crate) gaps: f64,
     /// Gaps that are solved for.
     solved: usize,
+    /// The curvature of first contact of the design; `None` for a sample.
+    contact_curvature: Option<f64>,
 }
 
 impl<'a> FlexureProblem<'a> {
@@ -97,6 +100,10 @@ impl<'a> FlexureProblem<'a> {
         solved: usize,
     ) -> Result<Self, OutOfRange> {
         let modulus = parameters.contact_modulus_over_membrane;
+        let contact_curvature = match row {
+            Arrangement::Even(_) => contact_curvature(design, parameters)?,
+            Arrangement::Uneven(_) => None,
+        };
         Ok(Self {
             common,
             parameters,
@@ -106,6 +113,7 @@ impl<'a> FlexureProblem<'a> {
             law: ContactLaw::new(common.law, design.length, design.width, modulus)?,
             gaps,
             solved,
+            contact_curvature,
         })
     }
 
@@ -184,7 +192,10 @@ impl<'a> FlexureProblem<'a> {
     /// The result of a strip that was bent.
     pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
         let Bent { record, mut path, status, error, steps } = bent;
-        let measures = FlexureMeasures { error, ..FlexureMeasures::new(&record, &mut path) };
+        let measures =
+            FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
+        let measures =
+            FlexureMeasures { error, contact_curvature: self.contact_curvature, ..measures };
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),

@@ -74,12 +74,12 @@ impl PunctureMeasures {
         let peak = peak(&record.path);
         let scales = 0..chain.layout.scales();
         let fold = folds.first().map(|fold| fold.point);
-        let nodes = scales.clone().map(|i| -chain.displacement(&state.z, i)[1]);
+        let nodes = scales.map(|i| -chain.displacement(&state.z, i)[1]);
         Self {
             critical_force: Some(end.force),
             peak_force: peak.map(|point| point.force),
             critical_displacement: Some(end.displacement),
-            penetration: scales.map(|i| chain.base_depth(&state.z, i)).reduce(f64::max),
+            penetration: Some(chain.penetration(&state.z)),
             sink: nodes.reduce(f64::max),
             first_contact_displacement: record.first_contact().map(|point| point.displacement),
             contacts: Some(end.contacts),

@@ -229,6 +229,12 @@ impl Chain {
         self.half_base * rotation.sin().abs() - y
     }
 
+    /// Depth of the deepest base corner of any scale below its place at rest.
+    pub(crate) fn penetration(&self, z: &[f64]) -> f64 {
+        let depths = (0..self.layout.scales()).map(|scale| self.base_depth(z, scale));
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Reaction of the linear substrate on a scale (force and moment), opposed to its displacement: minus
     /// the `F_x, F_y, M` of Eq. (1), or of (S9). Bars change the force along the row and the moment.
     pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {

@@ -48,12 +48,12 @@ pub(crate) enum Reach {
 }
 
 /// The row beyond the ends of the part that is solved for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Surroundings {
     /// How the scales beyond move; `None` if they are taken to be at rest.
     far: Option<FarField>,
     /// Widths of the gaps beyond the left and the right end, from the nearest on.
-    gaps: [[f64; LOOKED_AT]; 2],
+    gaps: [Vec<f64>; 2],
     /// Displacements of the left and of the right end, over `t`, that can close a gap beyond them.
     closing: [f64; 2],
     /// Distance of the farthest corner of a scale from its node.
@@ -71,7 +71,7 @@ impl Surroundings {
         layout: Layout,
     ) -> Result<Self, OutOfRange> {
         let Some(far) = stiffness.far_field() else {
-            let gaps = [[f64::INFINITY; LOOKED_AT]; 2];
+            let gaps = [Vec::new(), Vec::new()];
             return Ok(Self { far: None, gaps, closing: [STILL; 2], arm: 1.0 });
         };
         let wider = Layout { left: layout.left + LOOKED_AT, right: layout.right + LOOKED_AT };
@@ -89,8 +89,8 @@ impl Surroundings {
         let arm = |corner| Vec2::norm(&scale.corner(corner));
         let arm = arm(Corner::TopLeft).max(arm(Corner::TopRight));
         let gaps = [
-            std::array::from_fn(|k| row.gap(LOOKED_AT - 1 - k)),
-            std::array::from_fn(|k| row.gap(last + k)),
+            (0..LOOKED_AT).map(|k| row.gap(LOOKED_AT - 1 - k)).collect(),
+            (0..LOOKED_AT).map(|k| row.gap(last + k)).collect(),
         ];
         Ok(Self { far: Some(far), gaps, closing, arm })
     }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `closed_forms` | the strip before contact, and the first contact of upright blocks |
 //! | `elastica` | strips of an extensible elastica, solved by another method |
+//! | `first_touch` | the curvature of first contact in closed form, and bending to the outside |
 //! | `chain` | the assembled chain against the unit cell |
 //! | `steps` | the same path with steps a tenth as long |
 //! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
@@ -11,6 +12,7 @@
 mod chain;
 mod closed_forms;
 mod elastica;
+mod first_touch;
 mod robustness;
 #[path = "../samples/mod.rs"]
 mod samples;

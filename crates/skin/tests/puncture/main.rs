@@ -13,6 +13,7 @@
 //! | `neo_hookean` | a substrate whose surface cannot fold over |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
+//! | `tilts` | measures at tilts on the way, against paths that end there |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
 mod ends;
@@ -28,6 +29,7 @@ mod samples;
 mod scaling;
 mod snapshots;
 mod steps;
+mod tilts;
 mod two_blocks;
 
 use approx::assert_relative_eq;

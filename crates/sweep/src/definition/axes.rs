@@ -36,6 +36,10 @@ fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Prob
     let mut values = Vec::with_capacity(items.len());
     let mut seen = HashSet::with_capacity(items.len());
     for item in items {
+        if let Value::List(_) = item {
+            let expected = "a value for each design, not a list".to_owned();
+            return Err(WrongValue::NotAccepted { found: item.to_string(), expected }.into());
+        }
         let value = parameter.read(item)?;
         if !seen.insert(value.key()) {
             return Err(Problem::Twice { value: item.to_string() });

@@ -123,7 +123,7 @@ impl Reader {
         })
     }
 
-    /// Refuses a number of gaps besides the length of the strip.
+    /// Refuses a number of gaps besides the length of the strip, or a friction besides the critical tilt.
     fn check_alternatives(&self) -> Result<(), InvalidDefinition> {
         for (parameter, place) in &self.shared {
             let gives = !matches!(parameter.get(&self.case), Scalar::Word(_));

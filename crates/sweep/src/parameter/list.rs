@@ -2,11 +2,12 @@
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
-use skin::puncture::RowLength;
+use skin::puncture::{NumberList, RowLength};
 use substrate::{Coupling, SubstrateLaw};
 
+use crate::case::Case;
 use crate::parameter::Bound::{Excluded, Included};
-use crate::parameter::{CountRange, Parameter, ParameterKind, Range};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Scalar};
 
 const LENGTH: Range = Range { low: Excluded(0.0), high: Included(1e6) };
 const POSITIVE: Range = Range { low: Excluded(0.0), high: Included(1e30) };
@@ -158,11 +159,32 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "critical_tilt_deg",
         section: "puncture",
         unit: "deg",
-        meaning: "tilt of the punctured scale at which the puncture ends",
-        kind: ParameterKind::Number {
+        meaning: "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each",
+        kind: ParameterKind::Numbers {
             noun: "an angle",
             range: Range { low: Excluded(0.0), high: Excluded(90.0) },
-            field: |c| &mut c.puncture.critical_tilt_deg,
+            word: None,
+            get: |c| match c.puncture.tilts_deg {
+                tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),
+                tilts => Scalar::List(tilts),
+            },
+            set: |c, tilts| set_tilts(c, tilts, |tilt| tilt),
+        },
+    },
+    Parameter {
+        key: "needle_friction",
+        section: "puncture",
+        unit: "-",
+        meaning: "friction between needle and scale, whose arctangent is the critical tilt, instead of that",
+        kind: ParameterKind::Numbers {
+            noun: "a number",
+            range: POSITIVE,
+            word: Some("none"),
+            get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
+            set: |c, friction| {
+                c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
+                set_tilts(c, friction, |friction| friction.atan().to_degrees());
+            },
         },
     },
     Parameter {
@@ -252,10 +274,10 @@ pub static PARAMETERS: &[Parameter] = &[
         key: "max_end_rotation_deg",
         section: "flexure",
         unit: "deg",
-        meaning: "rotation of each end at which bending ends",
-        kind: ParameterKind::Number {
+        meaning: "rotation of each end at which bending ends; below zero, bending the other way, scales outside",
+        kind: ParameterKind::SignedNumber {
             noun: "an angle",
-            range: Range { low: Excluded(0.0), high: Included(180.0) },
+            size: Range { low: Excluded(0.0), high: Included(180.0) },
             field: |c| &mut c.flexure.max_end_rotation_deg,
         },
     },
@@ -376,4 +398,62 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.common.solver.max_points,
         },
     },
+    Parameter {
+        key: "thickness_mm",
+        section: "material",
+        unit: "mm",
+        meaning: "thickness t of the scales",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: POSITIVE,
+            field: |c| &mut c.material.thickness_mm,
+        },
+    },
+    Parameter {
+        key: "substrate_modulus_MPa",
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_s of the substrate",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.substrate_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: "membrane_modulus_MPa",
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_m of the membrane",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.membrane_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: "scale_density_kg_m3",
+        section: "material",
+        unit: "kg/m^3",
+        meaning: "density of the scales",
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.scale_density_kg_m3,
+        },
+    },
 ];
+
+/// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
+fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
+    let tilts = match value {
+        Scalar::Number(number) => {
+            case.puncture.critical_tilt_deg = tilt(number);
+            NumberList::default()
+        }
+        Scalar::List(numbers) => numbers.map(tilt),
+        Scalar::Count(_) | Scalar::Word(_) => return,
+    };
+    case.puncture.critical_tilt_deg = tilts.last().unwrap_or(case.puncture.critical_tilt_deg);
+    case.puncture.tilts_deg = tilts;
+}

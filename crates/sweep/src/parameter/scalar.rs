@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use skin::puncture::NumberList;
+
 use crate::number;
 
 /// The value of one parameter.
@@ -13,6 +15,8 @@ pub enum Scalar {
     Count(usize),
     /// One of a few words.
     Word(&'static str),
+    /// A short list of real numbers.
+    List(NumberList),
 }
 
 impl fmt::Display for Scalar {
@@ -21,6 +25,10 @@ impl fmt::Display for Scalar {
             Self::Number(number) => f.write_str(&number::text(*number)),
             Self::Count(count) => write!(f, "{count}"),
             Self::Word(word) => f.write_str(word),
+            Self::List(list) => {
+                let numbers = list.as_slice().iter().map(|&number| number::text(number));
+                write!(f, "[{}]", numbers.collect::<Vec<_>>().join(", "))
+            }
         }
     }
 }
@@ -30,7 +38,7 @@ impl Scalar {
     pub fn number(self) -> Option<f64> {
         match self {
             Self::Number(number) => Some(number),
-            Self::Count(_) | Self::Word(_) => None,
+            Self::Count(_) | Self::Word(_) | Self::List(_) => None,
         }
     }
 
@@ -41,6 +49,8 @@ impl Scalar {
             Self::Number(number) => ((number + 0.0).to_bits(), ""),
             Self::Count(count) => (count as u64, ""),
             Self::Word(word) => (0, word),
+            // An axis has no lists among its values.
+            Self::List(_) => (0, "list"),
         }
     }
 

@@ -83,3 +83,32 @@ fn the_record_of_a_run_is_a_definition() {
     let text = "[run]\nversion = '1'\n[definition]\nname = 'x'\n[definition.contact]\nc1 = 2";
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
+
+/// Several critical tilts, or the frictions whose arctangents they are: the largest is where a puncture ends.
+#[test]
+fn critical_tilts_are_given_in_degrees_or_by_friction() {
+    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]).unwrap();
+    let puncture = |sweep: &Sweep, index| sweep.grid().case(index).puncture;
+    let sweep = read("puncture.critical_tilt_deg = [5, 10, 15]");
+    assert_eq!(puncture(&sweep, 0).critical_tilt_deg, 15.0);
+    assert_eq!(puncture(&sweep, 0).tilts_deg.as_slice(), [5.0, 10.0, 15.0]);
+    assert!(
+        sweep.to_toml().contains("\ncritical_tilt_deg = [5, 10, 15]\nneedle_friction = \"none\"\n")
+    );
+    let by_friction = read("puncture.needle_friction = [0.1, 0.2]");
+    let tilts = [0.1_f64, 0.2].map(|friction| friction.atan().to_degrees());
+    assert_eq!(puncture(&by_friction, 0).tilts_deg.as_slice(), tilts);
+    assert_eq!(puncture(&by_friction, 0).critical_tilt_deg, tilts[1]);
+    assert!(!by_friction.to_toml().contains("critical_tilt_deg"));
+    let alone = read("puncture.needle_friction = 0.2");
+    assert_eq!(puncture(&alone, 0).critical_tilt_deg, tilts[1]);
+    assert!(puncture(&alone, 0).tilts_deg.is_empty());
+    let axis = read("designs.needle_friction = [0.1, 0.2]");
+    let last = axis.grid().len() - 1;
+    assert_eq!([0, last].map(|index| puncture(&axis, index).critical_tilt_deg), tilts);
+    for sweep in [sweep, by_friction, alone, axis] {
+        let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
+        assert_eq!(again.to_toml(), sweep.to_toml());
+        assert_eq!(again.grid().case(0), sweep.grid().case(0));
+    }
+}

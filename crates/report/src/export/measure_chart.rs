@@ -1,0 +1,121 @@
+//! The chart of a measure: its values over an axis of the grid, as spreadsheets draw it.
+
+use csv::StringRecord;
+use rust_xlsxwriter::{
+    Chart, ChartFormat, ChartLine, ChartMarker, ColNum, RowNum, Worksheet, XlsxError,
+};
+
+use results::{CsvFormat, MEASURE_TABLES};
+
+/// The columns that may be along the axis of a chart, the first that varies.
+const ALONG: [&str; 3] = ["slant_deg", "length_over_t", "gap_over_t"];
+/// The column by whose values the marks are told apart.
+const APART: &str = "gap_over_t";
+/// Series of a chart, at most: what has more is one series.
+const SERIES: usize = 24;
+/// Width and height of a chart, px.
+const SIZE: (u32, u32) = (760, 460);
+
+/// The chart of a table of one measure, while its rows are seen.
+#[derive(Debug)]
+pub(super) struct MeasureChart {
+    value: ColNum,
+    along: Vec<AxisColumn>,
+    apart: Option<usize>,
+    /// Rows that begin a run of equal values of the column that tells marks apart, and those values.
+    runs: Vec<(RowNum, String)>,
+    is_positive: bool,
+}
+
+/// A column that may be along the axis.
+#[derive(Debug)]
+struct AxisColumn {
+    name: &'static str,
+    place: usize,
+    first: Option<String>,
+    varies: bool,
+}
+
+impl MeasureChart {
+    /// The chart of a table with this header; `None` if it is not that of a measure.
+    pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
+        MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
+        let place = |name: &str| header.iter().position(|column| column == name);
+        let value = ColNum::try_from(place(table)?).ok()?;
+        let axis = |name: &'static str| {
+            Some(AxisColumn { name, place: place(name)?, first: None, varies: false })
+        };
+        let along: Vec<_> = ALONG.into_iter().filter_map(axis).collect();
+        let apart = place(APART);
+        (!along.is_empty()).then_some(Self {
+            value,
+            along,
+            apart,
+            runs: Vec::new(),
+            is_positive: true,
+        })
+    }
+
+    /// Sees a row of the table, the first being row 1.
+    pub fn add(&mut self, row: RowNum, format: CsvFormat, cells: &StringRecord) {
+        for axis in &mut self.along {
+            let cell = cells.get(axis.place).unwrap_or_default();
+            let first = axis.first.get_or_insert_with(|| cell.to_owned());
+            axis.varies |= first != cell;
+        }
+        let apart = self.apart.and_then(|place| cells.get(place)).unwrap_or_default();
+        if self.runs.len() <= SERIES && self.runs.last().is_none_or(|(_, value)| value != apart) {
+            self.runs.push((row, apart.to_owned()));
+        }
+        let value = cells.get(usize::from(self.value)).and_then(|cell| format.number(cell));
+        self.is_positive &= value.is_none_or(|value| value > 0.0);
+    }
+
+    /// Puts the chart on the sheet of its table, which has `rows` rows below its header and as many `columns`.
+    pub fn insert(
+        &self,
+        page: &mut Worksheet,
+        table: &str,
+        rows: RowNum,
+        columns: ColNum,
+    ) -> Result<(), XlsxError> {
+        let axis = self.along.iter().find(|axis| axis.varies).or(self.along.first());
+        let Some(axis) = axis.filter(|_| rows > 0) else { return Ok(()) };
+        let place = ColNum::try_from(axis.place).unwrap_or(0);
+        let mut chart = Chart::new_scatter();
+        for (name, first, last) in self.series(axis, rows) {
+            let series = chart.add_series();
+            series.set_categories((table, first, place, last, place));
+            series.set_values((table, first, self.value, last, self.value));
+            series.set_name(name.as_str()).set_marker(&marker());
+            series.set_format(ChartFormat::new().set_line(ChartLine::new().set_hidden(true)));
+        }
+        chart.title().set_name(table.replace('_', " ").as_str());
+        chart.x_axis().set_name(axis.name);
+        chart.y_axis().set_name(table);
+        if self.is_positive && table != "coverage" {
+            chart.y_axis().set_log_base(10);
+        }
+        chart.set_width(SIZE.0).set_height(SIZE.1);
+        page.insert_chart(1, columns + 1, &chart)?;
+        Ok(())
+    }
+
+    /// Name, first and last row of each series: one for each gap, if the rows of each stand together.
+    fn series(&self, axis: &AxisColumn, rows: RowNum) -> Vec<(String, RowNum, RowNum)> {
+        let mut values: Vec<&str> = self.runs.iter().map(|(_, value)| value.as_str()).collect();
+        values.sort_unstable();
+        values.dedup();
+        let stand_together = values.len() == self.runs.len() && self.runs.len() <= SERIES;
+        if !stand_together || axis.name == APART {
+            return vec![("all designs".to_owned(), 1, rows)];
+        }
+        let ends = self.runs.iter().skip(1).map(|(row, _)| row - 1).chain([rows]);
+        let runs = self.runs.iter().zip(ends);
+        runs.map(|((first, value), last)| (format!("{APART} {value}"), *first, last)).collect()
+    }
+}
+
+fn marker() -> ChartMarker {
+    ChartMarker::new().set_size(4).clone()
+}

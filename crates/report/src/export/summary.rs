@@ -1,0 +1,222 @@
+//! The first sheet of a workbook: what the run is, how it ended, which designs are best.
+
+use std::fs::File;
+
+use ranking::{CRITERIA, Criterion, Goal, Preferences};
+use results::round_off::Leader;
+use results::{CsvFormat, RunFolder, VerifiedFolder};
+use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
+use sweep::{PARAMETERS, Sweep};
+
+use super::explanation::Explanation;
+use crate::facts::facts;
+
+/// The name of the sheet.
+const NAME: &str = "summary";
+/// The designs of the ranking that are listed.
+const LISTED: usize = 10;
+/// Widths of its columns, in characters.
+const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
+
+/// The best values of the designs, as rows of `designs.csv` pass.
+#[derive(Debug, Default)]
+pub(super) struct BestValues {
+    columns: Vec<(&'static Criterion, usize)>,
+    best: [Option<Leader<String>>; 4],
+    designs: u64,
+}
+
+impl BestValues {
+    /// The best values of a table with this header.
+    pub fn new(header: &csv::StringRecord) -> Self {
+        let place = |criterion: &'static Criterion| {
+            Some((criterion, header.iter().position(|name| name == criterion.column)?))
+        };
+        Self { columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+    }
+
+    /// Sees a row.
+    pub fn add(&mut self, format: CsvFormat, row: &csv::StringRecord) {
+        self.designs += 1;
+        let design = row.get(0).unwrap_or_default();
+        for ((criterion, place), best) in self.columns.iter().zip(&mut self.best) {
+            let value = row.get(*place).and_then(|cell| format.number(cell));
+            let is_better = if criterion.goal == Goal::Maximize { f64::gt } else { f64::lt };
+            if let Some(value) = value {
+                Leader::enter(best, design.to_owned(), value, is_better);
+            }
+        }
+    }
+}
+
+/// The sheet while it is written.
+struct Sheet {
+    page: Worksheet,
+    row: u32,
+    bold: Format,
+}
+
+/// The summary of the run in `folder`.
+pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
+    let mut page = Worksheet::new();
+    page.set_name(NAME)?;
+    for (place, width) in (0..).zip(WIDTHS) {
+        page.set_column_width(place, width)?;
+    }
+    let mut sheet = Sheet { page, row: 0, bold: Format::new().set_bold() };
+    let record = folder.text(RunFolder::RUN_INFO).unwrap_or_default();
+    let definition = Sweep::parse(&record, RunFolder::RUN_INFO, &[]).ok();
+    sheet.title(definition.as_ref())?;
+    sheet.run(&record, folder.shortfall(), best)?;
+    sheet.best(best)?;
+    sheet.ranking(folder)?;
+    if let Some(sweep) = &definition {
+        sheet.definition(sweep)?;
+    }
+    Ok(sheet.page)
+}
+
+impl Sheet {
+    fn title(&mut self, sweep: Option<&Sweep>) -> Result<(), XlsxError> {
+        let name = sweep.map_or("a sweep", Sweep::name);
+        let large = self.bold.clone().set_font_size(14);
+        self.page.write_string_with_format(0, 0, name, &large)?;
+        self.row = 1;
+        Ok(())
+    }
+
+    /// Begins a part, after an empty row.
+    fn part(&mut self, cells: &[&str]) -> Result<(), XlsxError> {
+        self.row += 1;
+        for (place, cell) in (0..).zip(cells) {
+            self.page.write_string_with_format(self.row, place, *cell, &self.bold)?;
+        }
+        self.row += 1;
+        Ok(())
+    }
+
+    /// Adds a row; what is a number becomes one.
+    fn add(&mut self, cells: &[&str]) -> Result<(), XlsxError> {
+        let left = Format::new().set_align(FormatAlign::Left);
+        for (place, cell) in (0..).zip(cells) {
+            match CsvFormat::Plain.number(cell) {
+                Some(number) if !is_design_number(cell) => {
+                    self.page.write_number_with_format(self.row, place, number, &left)?
+                }
+                _ => self.page.write_string(self.row, place, *cell)?,
+            };
+        }
+        self.row += 1;
+        Ok(())
+    }
+
+    /// How many designs there are, and what the record of the run says of it.
+    fn run(
+        &mut self,
+        record: &str,
+        shortfall: Option<String>,
+        best: &BestValues,
+    ) -> Result<(), XlsxError> {
+        self.part(&["Run"])?;
+        if let Some(held) = shortfall {
+            self.add(&["made from", &held])?;
+        }
+        let facts = facts(record);
+        if facts.is_empty() {
+            self.add(&["designs", &best.designs.to_string()])?;
+        }
+        for (name, value) in facts {
+            self.add(&[&name, &value])?;
+        }
+        Ok(())
+    }
+
+    fn best(&mut self, best: &BestValues) -> Result<(), XlsxError> {
+        self.part(&["Best designs", "design", "value", "unit"])?;
+        for ((criterion, _), leader) in best.columns.iter().zip(&best.best) {
+            let Some(leader) = leader else { continue };
+            let ties = match leader.ties {
+                0 => String::new(),
+                ties => format!(", and {ties} more"),
+            };
+            let extreme = ["largest", "least"][usize::from(criterion.goal == Goal::Minimize)];
+            let name = format!("{extreme} {}", criterion.column.replace('_', " "));
+            let unit = Explanation::of("designs", &criterion.column).map_or("-", |e| e.unit);
+            let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
+            self.add(&[
+                &name,
+                &format!("{}{ties}", leader.first),
+                &sweep::number::text(value),
+                unit,
+            ])?;
+        }
+        Ok(())
+    }
+
+    /// What the ranking of the run goes by, and its first designs.
+    fn ranking(&mut self, folder: &VerifiedFolder) -> Result<(), XlsxError> {
+        let Ok(Some(preferences)) = Preferences::read(folder.path()) else { return Ok(()) };
+        self.part(&["Ranking: requirements"])?;
+        if preferences.requirements.is_empty() {
+            self.add(&["none"])?;
+        }
+        for requirement in &preferences.requirements {
+            self.add(&[&requirement.to_string()])?;
+        }
+        self.part(&["Ranking: criteria", "weight", "column"])?;
+        for (criterion, weight) in preferences.criteria.iter().zip(preferences.weights.values()) {
+            self.add(&[&criterion.name, &sweep::number::text(*weight), &criterion.to_string()])?;
+        }
+        self.add(&["scale", preferences.scale.name()])?;
+        self.part(&["Ranking: best designs", "design", "fitness"])?;
+        for [rank, design, fitness] in leading(folder) {
+            self.add(&[&rank, &design, &fitness])?;
+        }
+        Ok(())
+    }
+
+    fn definition(&mut self, sweep: &Sweep) -> Result<(), XlsxError> {
+        self.part(&["Definition", "value", "unit", "meaning"])?;
+        for axis in sweep.grid().axes() {
+            let parameter = axis.parameter();
+            let key = format!("designs.{}", parameter.key);
+            self.add(&[&key, &axis.to_toml(), parameter.unit, parameter.meaning])?;
+        }
+        let shared: Vec<_> = sweep.shared().collect();
+        for parameter in PARAMETERS {
+            if let Some((_, value)) = shared.iter().find(|(p, _)| *p == parameter) {
+                self.add(&[
+                    &parameter.path(),
+                    &value.to_string(),
+                    parameter.unit,
+                    parameter.meaning,
+                ])?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether it is the number of a design, which keeps its zeros and so is a text.
+fn is_design_number(cell: &str) -> bool {
+    cell.len() > 1 && cell.starts_with('0') && cell.chars().all(|c| c.is_ascii_digit())
+}
+
+/// Rank, number and fitness of the first designs of the ranking of a folder.
+fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
+    let [ranking, ..] = RunFolder::RANKING;
+    let file = File::open(folder.path().join(ranking));
+    let Ok((format, mut table)) = file.and_then(super::open) else { return Vec::new() };
+    let Ok(header) = table.headers().cloned() else { return Vec::new() };
+    let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
+    let row = |row: csv::StringRecord| {
+        places.map(|place| {
+            let cell = place.and_then(|place| row.get(place)).unwrap_or_default();
+            match format.number(cell).filter(|_| cell.contains(['.', ','])) {
+                Some(number) => format!("{number:.6}"),
+                None => cell.to_owned(),
+            }
+        })
+    };
+    table.records().take(LISTED).filter_map(Result::ok).map(row).collect()
+}

@@ -1,0 +1,214 @@
+//! From dimensionless values to millimetres, newtons and kilograms.
+
+use skin::Design;
+use sweep::{Case, Sweep};
+
+/// The kind of a dimensionless value, which says what one unit of it is worth (`docs/theory.md`, U1–U7).
+///
+/// With the thickness `t`, the moduli `E_s` and `E_m`, the width `b`, and `I_m = b h³/12` of the membrane:
+///
+/// ```text
+/// length           u  = u* t                                                           (U1)
+/// force            F  = F* E_s/(1 − ν²) (L/t) t²                                       (U2)
+/// force per width  F/b                                                                 (U3)
+/// stiffness        K  = K* E_s t                                                       (U4)
+/// moment           M  = M* E_m I_m/t                                                   (U5)
+/// rigidity         E_m I_m/C_f*                                                        (U6)
+/// bend radius      R  = t/κ*                                                           (U7)
+/// ```
+///
+/// Lengths are in mm and moduli in `MPa`, so forces are in N.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length, in units of `t`.
+    Length,
+    /// A puncture force.
+    Force,
+    /// A puncture force over the width of the scales.
+    ForcePerWidth,
+    /// A puncture stiffness.
+    Stiffness,
+    /// A bending moment.
+    Moment,
+    /// A flexural rigidity, from a compliance.
+    Rigidity,
+    /// A bend radius, from a curvature.
+    Radius,
+}
+
+impl Quantity {
+    /// All quantities.
+    pub const ALL: [Self; 7] = [
+        Self::Length,
+        Self::Force,
+        Self::ForcePerWidth,
+        Self::Stiffness,
+        Self::Moment,
+        Self::Rigidity,
+        Self::Radius,
+    ];
+
+    /// The physical unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Length | Self::Radius => "mm",
+            Self::Force => "N",
+            Self::ForcePerWidth | Self::Stiffness => "N/mm",
+            Self::Moment => "N mm",
+            Self::Rigidity => "N mm^2",
+        }
+    }
+
+    /// The keys of the material that it needs.
+    pub fn needs(self) -> &'static [&'static str] {
+        match self {
+            Self::Length | Self::Radius => &["thickness_mm"],
+            Self::Force | Self::ForcePerWidth | Self::Stiffness => {
+                &["thickness_mm", "substrate_modulus_MPa"]
+            }
+            Self::Moment | Self::Rigidity => &["thickness_mm", "membrane_modulus_MPa"],
+        }
+    }
+
+    /// Whether the designs of a sweep have what it needs.
+    pub(crate) fn is_given(self, sweep: &Sweep) -> bool {
+        self.needs().iter().all(|key| sweep.gives(key))
+    }
+
+    /// The dimensionless `value` of a case in the physical unit. `None` if the material does not say what it needs, or for
+    /// the inverse of 0.
+    ///
+    /// ```
+    /// use results::Quantity;
+    /// use sweep::Sweep;
+    ///
+    /// let text = "name = 'x'\nmaterial.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.31\n\
+    ///             designs.gap_over_t = 0.1\ndesigns.length_over_t = 0.1\ndesigns.slant_deg = 75";
+    /// let case = Sweep::parse(text, "x.toml", &[])?.grid().case(0);
+    /// // 22.4 · 0.31 MPa/(1 − 0.5²) · 0.1 · (1 mm)²
+    /// let force = Quantity::Force.physical(22.4, &case).expect("a force");
+    /// assert!((force - 0.925_866_666_666_666_6).abs() < 1e-12);
+    /// assert_eq!(Quantity::Rigidity.physical(0.5, &case), None);
+    /// # Ok::<(), sweep::InvalidDefinition>(())
+    /// ```
+    pub fn physical(self, value: f64, case: &Case) -> Option<f64> {
+        let material = &case.material;
+        let thickness = material.thickness_mm?;
+        let physical = match self {
+            Self::Length => value * thickness,
+            Self::Force => value * force_unit(case)?,
+            Self::ForcePerWidth => value * force_unit(case)? / (case.design.width * thickness),
+            Self::Stiffness => value * material.substrate_modulus_mpa? * thickness,
+            Self::Moment => value * bending_stiffness(case)? / thickness,
+            Self::Rigidity => bending_stiffness(case)? / value,
+            Self::Radius => thickness / value,
+        };
+        physical.is_finite().then_some(physical)
+    }
+}
+
+/// `E_s/(1 − ν²) L t`, N.
+fn force_unit(case: &Case) -> Option<f64> {
+    let (thickness, modulus) = (case.material.thickness_mm?, case.material.substrate_modulus_mpa?);
+    let plane_strain = modulus / (1.0 - case.puncture.poisson_ratio.powi(2));
+    Some(plane_strain * case.design.length * thickness * thickness)
+}
+
+/// `E_m I_m`, N mm².
+fn bending_stiffness(case: &Case) -> Option<f64> {
+    let (thickness, modulus) = (case.material.thickness_mm?, case.material.membrane_modulus_mpa?);
+    let (width, height) = (case.design.width, case.flexure.membrane_thickness);
+    Some(modulus * width * height.powi(3) / 12.0 * thickness.powi(4))
+}
+
+/// The keys of the material that the areal mass needs.
+pub(crate) const MASS_NEEDS: [&str; 2] = ["thickness_mm", "scale_density_kg_m3"];
+
+/// The mass of the scales over the area of the skin that they stand on, kg/m²: the density times the area of a parallelogram
+/// (base times thickness) over the pitch, `ρ 2a t/p` (U8). `None` if thickness or density is not given.
+pub fn areal_mass(case: &Case) -> Option<f64> {
+    let (thickness, density) = (case.material.thickness_mm?, case.material.scale_density_kg_m3?);
+    let base = 2.0 * Design::half_base(&case.design);
+    Some(density * base / (base + case.design.gap) * thickness * 1e-3)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use sweep::Material;
+
+    use super::*;
+
+    fn case() -> Case {
+        let mut case = Case::default();
+        case.design.gap = 0.1;
+        case.design.length = 0.5;
+        case.design.width = 2.0;
+        case.flexure.membrane_thickness = 0.25;
+        case.material = Material {
+            thickness_mm: Some(2.0),
+            substrate_modulus_mpa: Some(0.3),
+            membrane_modulus_mpa: Some(4.5),
+            scale_density_kg_m3: Some(1200.0),
+        };
+        case
+    }
+
+    #[track_caller]
+    fn close(found: Option<f64>, expected: f64) {
+        let found = found.expect("a value");
+        assert!((found - expected).abs() <= 1e-12 * expected.abs(), "{found} {expected}");
+    }
+
+    #[test]
+    fn each_quantity_is_the_one_by_hand() {
+        let case = case();
+        close(Quantity::Length.physical(0.3, &case), 0.6);
+        // 3 · 0.3/(1 − 0.25) · 0.5 · 4 = 2.4 N, on a width of 4 mm.
+        close(Quantity::Force.physical(3.0, &case), 2.4);
+        close(Quantity::ForcePerWidth.physical(3.0, &case), 0.6);
+        close(Quantity::Stiffness.physical(5.0, &case), 3.0);
+        // b = 4 mm, h = 0.5 mm: I = 4 · 0.125/12 = 1/24 mm⁴, E I = 0.1875 N mm².
+        close(Quantity::Moment.physical(2.0, &case), 0.1875);
+        close(Quantity::Rigidity.physical(0.5, &case), 0.375);
+        close(Quantity::Radius.physical(0.25, &case), 8.0);
+        // 1200 kg/m³ · 0.5/0.6 · 0.002 m.
+        close(areal_mass(&case), 2.0);
+    }
+
+    #[test]
+    fn what_is_not_given_makes_no_value() {
+        let bare = Case { material: Material::default(), ..case() };
+        assert!(Quantity::ALL.iter().all(|quantity| quantity.physical(1.0, &bare).is_none()));
+        assert_eq!(areal_mass(&bare), None);
+        assert_eq!(Quantity::Radius.physical(0.0, &case()), None);
+    }
+
+    proptest! {
+        /// With another unit of length, of force and of mass every quantity changes as its dimension says.
+        #[test]
+        fn quantities_have_their_dimensions(
+            length in 0.01_f64..100.0, force in 0.01_f64..100.0, value in 0.01_f64..100.0,
+        ) {
+            let mut other = case();
+            let stress = |modulus: Option<f64>| modulus.map(|modulus| modulus * force / (length * length));
+            let material = case().material;
+            other.material = Material {
+                thickness_mm: material.thickness_mm.map(|thickness| thickness * length),
+                substrate_modulus_mpa: stress(material.substrate_modulus_mpa),
+                membrane_modulus_mpa: stress(material.membrane_modulus_mpa),
+                scale_density_kg_m3: material.scale_density_kg_m3,
+            };
+            let dimensions = [
+                length, force, force / length, force / length, force * length,
+                force * length * length, length,
+            ];
+            for (quantity, dimension) in Quantity::ALL.into_iter().zip(dimensions) {
+                let values = [case(), other].map(|case| quantity.physical(value, &case).expect("a value"));
+                prop_assert!((values[1] / values[0] / dimension - 1.0).abs() < 1e-12, "{quantity:?}");
+            }
+            let masses = [case(), other].map(|case| areal_mass(&case).expect("a mass"));
+            prop_assert!((masses[1] / masses[0] / length - 1.0).abs() < 1e-12);
+        }
+    }
+}

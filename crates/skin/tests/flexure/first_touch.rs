@@ -1,0 +1,71 @@
+//! The curvature of first contact: the closed form, and the strip that is solved.
+
+use proptest::prelude::*;
+use skin::flexure::{self, FlexureParameters, contact_curvature};
+use skin::{Base, Common, Design};
+
+fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
+    Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
+}
+
+#[test]
+fn upright_scales_touch_where_the_radius_is_their_height() {
+    let touch = |offset: f64| {
+        let parameters = FlexureParameters { membrane_axis_offset: offset, ..Default::default() };
+        contact_curvature(&design(0.1, 1.0, 0.0), &parameters).expect("a design").expect("closed")
+    };
+    assert_eq!(touch(0.0), 0.1 / 1.1);
+    assert_eq!(touch(0.25), 0.1 / 1.25 / 1.1);
+}
+
+#[test]
+fn a_slight_slant_changes_little() {
+    let touch = |slant| contact_curvature(&design(0.1, 1.0, slant), &FlexureParameters::default());
+    let [upright, slanted] =
+        [0.0, 1e-6].map(|slant| touch(slant).expect("a design").expect("closed"));
+    assert!((slanted / upright - 1.0).abs() < 1e-6, "{upright} {slanted}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// Bent on a strip long enough to touch, scales touch where the closed form says; on the default one too, or never.
+    #[test]
+    fn it_is_the_first_contact_of_the_strip_that_is_solved(
+        gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0, offset in 0.0_f64..0.3,
+        short in any::<bool>(),
+    ) {
+        let design = design(gap, length, slant);
+        let parameters = FlexureParameters {
+            membrane_axis_offset: offset,
+            membrane_length: if short { 100.0 } else { 6.0 },
+            ..Default::default()
+        };
+        let closed_form = contact_curvature(&design, &parameters).expect("a design");
+        let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");
+        let end = solved.path.last().expect("a path").curvature;
+        match (closed_form, solved.measures.first_contact_curvature) {
+            (Some(expected), Some(found)) => {
+                prop_assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+            }
+            (Some(expected), None) => prop_assert!(expected > end * (1.0 - 1e-9), "{expected} {end}"),
+            (None, found) => prop_assert_eq!(found, None),
+        }
+    }
+
+    /// Bent the other way the scales open: the membrane alone bends.
+    #[test]
+    fn the_other_way_scales_open(gap in 0.05_f64..0.8, length in 0.1_f64..1.5, slant in 0.0_f64..75.0) {
+        let design = design(gap, length, slant);
+        let parameters = FlexureParameters { max_end_rotation_deg: -180.0, ..Default::default() };
+        let solved = flexure::solve(&design, &Common::default(), &parameters).expect("a strip");
+        prop_assert_eq!(solved.status, skin::Status::Complete);
+        prop_assert_eq!(solved.measures.contact, Some(false));
+        let end = solved.path.last().expect("a path");
+        prop_assert!((end.end_rotation_deg + 180.0).abs() < 1e-9);
+        prop_assert!(end.curvature < 0.0 && end.moment < 0.0);
+        let pitch = length + gap;
+        prop_assert_eq!(solved.measures.compliance, Some(gap / pitch));
+        prop_assert_eq!(solved.measures.max_moment, Some(end.moment));
+    }
+}

@@ -1,0 +1,56 @@
+//! Measures at tilts on the way, against paths that end there.
+
+use approx::assert_relative_eq;
+use skin::Status;
+use skin::puncture::{NumberList, PunctureParameters};
+use substrate::Calibrations;
+
+use crate::samples::{forty, solve_with, spread};
+
+/// Force, displacement and penetration at 3°, 5°, 10° and 15° from one path.
+#[test]
+fn one_path_has_the_measures_of_paths_that_end_at_each_tilt() {
+    let known = Calibrations::default();
+    let tilts = [3.0, 5.0, 10.0, 15.0];
+    let parameters = PunctureParameters {
+        critical_tilt_deg: 15.0,
+        tilts_deg: NumberList::new(&tilts).unwrap(),
+        ..PunctureParameters::default()
+    };
+    let mut compared = 0;
+    for design in spread().into_iter().chain(forty()) {
+        let all = solve_with(&known, &design, &parameters);
+        assert_eq!(all.at_tilts.len(), tilts.len());
+        for (critical_tilt_deg, ours) in tilts.into_iter().zip(&all.at_tilts) {
+            let one = PunctureParameters { critical_tilt_deg, ..PunctureParameters::default() };
+            let one = solve_with(&known, &design, &one);
+            if one.status != Status::Complete {
+                continue;
+            }
+            let (ours, measures) = (ours.unwrap(), one.measures);
+            let close = |ours: f64, theirs: Option<f64>| {
+                assert_relative_eq!(ours, theirs.unwrap(), max_relative = 1e-9);
+            };
+            close(ours.force, measures.critical_force);
+            close(ours.displacement, measures.critical_displacement);
+            close(ours.penetration, measures.penetration);
+            compared += 1;
+        }
+    }
+    assert!(compared > 180, "{compared}");
+}
+
+/// The tilts on the way change nothing on the path, and at the last of them stands what stands at its end.
+#[test]
+fn tilts_on_the_way_leave_the_path_as_it_is() {
+    let known = Calibrations::default();
+    let tilts_deg = NumberList::new(&[2.5, 10.0]).unwrap();
+    for design in spread() {
+        let plain = solve_with(&known, &design, &PunctureParameters::default());
+        let parameters = PunctureParameters { tilts_deg, ..PunctureParameters::default() };
+        let with = solve_with(&known, &design, &parameters);
+        assert_eq!((&plain.path, plain.measures), (&with.path, with.measures));
+        assert_eq!(with.at_tilts[1].map(|at| at.force), with.measures.critical_force);
+        assert_eq!(with.at_tilts[1].map(|at| at.penetration), with.measures.penetration);
+    }
+}

@@ -1,0 +1,14 @@
+//! What a skin is made of, in physical units.
+
+/// Thickness, moduli and density of a skin in physical units, as far as they are given. The mechanics need none of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Material {
+    /// Thickness `t` of the scales, mm.
+    pub thickness_mm: Option<f64>,
+    /// Modulus `E_s` of the substrate, in `MPa`.
+    pub substrate_modulus_mpa: Option<f64>,
+    /// Modulus `E_m` of the membrane, in `MPa`.
+    pub membrane_modulus_mpa: Option<f64>,
+    /// Density `ρ` of the scales, kg/m³.
+    pub scale_density_kg_m3: Option<f64>,
+}
