@@ -111,7 +111,7 @@ impl FlexureDrawing<'_> {
             contacts::overlaps(&view, &shape.overlaps),
             contacts::halos(&view, &shape.contacts, 8.0),
             contacts::forces(&view, &shape.contacts, unit),
-            moments(&view, &shape),
+            moments(&view, &shape, state.moment >= 0.0),
             name,
         ];
         Element::group("gap").containing(parts.into_iter().chain(bar))
@@ -140,10 +140,10 @@ fn outline(row: &Row, scale: f64) -> f64 {
 
 fn caption(state: &StripSnapshot) -> String {
     format!(
-        "$κ^*$ = {},  $M^*$ = {},  each end turned by {:.2}°,  {}",
+        "$κ^*$ = {},  $M^*$ = {},  each end turned by {}°,  {}",
         short(state.curvature),
         short(state.moment),
-        state.end_rotation_deg + 0.0,
+        format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(state.contacts.len())
     )
 }
@@ -231,7 +231,7 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
 }
 
 /// Returns the moments that bend the gap, as arrows round its two ends.
-fn moments(view: &View, shape: &Shape) -> Element {
+fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
         return Element::group("moments");
     };
@@ -250,9 +250,14 @@ fn moments(view: &View, shape: &Shape) -> Element {
     };
     // From below the base outwards, so that scales that lean over stay free.
     let turn = 2.0;
+    let [of_left, of_right] = if inward {
+        [around(left, 5.3, -turn), around(right, -2.16, turn)]
+    } else {
+        [around(left, 5.3 - turn, turn), around(right, turn - 2.16, -turn)]
+    };
     Element::group("moments").containing([
-        around(left, 5.3, -turn),
-        around(right, -2.16, turn),
+        of_left,
+        of_right,
         label("$M$", shifted(left, [-30.0, 26.0]), 13.0, Anchor::Middle),
         label("$M$", shifted(right, [30.0, 26.0]), 13.0, Anchor::Middle),
     ])
