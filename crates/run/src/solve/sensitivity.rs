@@ -9,7 +9,7 @@ use substrate::{OneSided, RowStiffness, StiffnessSlopes};
 use sweep::{Case, PARAMETERS, Parameter};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
-const STEP: f64 = 1e-5;
+const STEP: f64 = 2e-6;
 
 /// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
 const MESH: &str = "the mesh of the substrate is graded by another length";
