@@ -63,7 +63,7 @@ fn every_branch_of_the_contact_is_exercised() {
     for number in [43, 76, 97, 118] {
         let case = steep_case(number);
         exercised.extend(branches(&case));
-        assert!(compare(&case) > 100);
+        assert!(compare(&case) > 30, "{case:?}");
     }
     assert_eq!(exercised, BTreeSet::from(["corner", "edge", "flush", "tip"]));
 }

@@ -49,15 +49,15 @@ impl<'a> Differences<'a> {
             Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
         let estimates: Vec<_> = estimates.into_iter().flatten().collect();
-        let distance = |&(estimate, step)| self.distance(measure, estimate, ours, step);
-        // Where no two of them agree there is a kink between.
-        let agree = |pair: &[(f64, f64)]| {
-            let [a, b] = [pair[0].0, pair[1].0];
-            (a - b).abs() <= AGREE * a.abs().max(b.abs())
-        };
-        let any = estimates.windows(2).any(agree);
-        let nearest = estimates.iter().filter_map(distance).reduce(f64::min)?;
-        (any || nearest == 0.0).then_some(nearest)
+        // A difference is not better than it agrees with that of the next step; where none agrees there is a kink between.
+        let offs = estimates.windows(2).filter_map(|pair| {
+            let [(rough, _), (fine, step)] = [pair[0], pair[1]];
+            let spread = (rough - fine).abs() / ours.abs().max(1e-300);
+            let off = [rough, fine].map(|estimate| self.distance(measure, estimate, ours, step));
+            let nearest = off.into_iter().flatten().reduce(f64::min)?;
+            (spread <= AGREE || nearest == 0.0).then_some((nearest - spread).max(0.0))
+        });
+        offs.reduce(f64::min)
     }
 
     /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.
