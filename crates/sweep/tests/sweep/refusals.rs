@@ -207,9 +207,9 @@ fn long_lists_and_many_keys_are_read_or_refused_at_once() {
     let text = format!("name = 'x'\n[designs]\ngap_over_t = [\n{}\n]", values.join(",\n"));
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
     assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
-    let twice = text.replace("\n]", ",\n0.000001\n]");
+    let twice = text.replace("\n]", ",\n0.25\n]");
     let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
-    assert!(error.contains("0.000001 stands in the list twice"), "{error}");
+    assert!(error.contains("0.25 stands in the list twice"), "{error}");
     let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
     let keys = keys.join("\n");
     let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();
