@@ -87,7 +87,7 @@ impl FlexureDrawing<'_> {
 
     /// Draws an enlarged gap with the forces and the overlap.
     fn cell(&self, row: &Row, enlarged: &Enlarged, tall: f64) -> Element {
-        let Enlarged { shape, scale, middle, height } = enlarged;
+        let Enlarged { shape, scale, middle, height, .. } = enlarged;
         let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - height)];
         let view = View {
             scale: *scale,
@@ -107,7 +107,7 @@ impl FlexureDrawing<'_> {
             contacts::overlaps(&view, &shape.overlaps),
             contacts::halos(&view, &shape.contacts, 8.0),
             contacts::forces(&view, &shape.contacts, unit),
-            moments(&view, shape),
+            moments(&view, shape, enlarged.bends_inward),
             name,
         ];
         Element::group("gap").containing(parts.into_iter().chain(bar))
@@ -123,6 +123,8 @@ struct Enlarged {
     middle: [f64; 2],
     /// Height of the part that shows it, px.
     height: f64,
+    /// Whether the moment bends the strip with its scales inside.
+    bends_inward: bool,
 }
 
 impl Enlarged {
@@ -135,7 +137,7 @@ impl Enlarged {
         });
         let scale = ((ENLARGED - ARROWS[0]) / width).min((HEIGHT[1] - ARROWS[1]) / height);
         let height = (scale * height + ARROWS[1]).clamp(HEIGHT[0], HEIGHT[1]);
-        Self { shape, scale, middle, height }
+        Self { shape, scale, middle, height, bends_inward: state.moment >= 0.0 }
     }
 }
 
@@ -161,10 +163,10 @@ fn outline(row: &Row, scale: f64) -> f64 {
 
 fn caption(state: &StripSnapshot) -> String {
     format!(
-        "$κ^*$ = {},  $M^*$ = {},  each end turned by {:.2}°,  {}",
+        "$κ^*$ = {},  $M^*$ = {},  each end turned by {}°,  {}",
         short(state.curvature),
         short(state.moment),
-        state.end_rotation_deg + 0.0,
+        format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(state.contacts.len())
     )
 }
@@ -252,7 +254,7 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
 }
 
 /// Returns the moments that bend the gap, as arrows round its two ends.
-fn moments(view: &View, shape: &Shape) -> Element {
+fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
         return Element::group("moments");
     };
@@ -271,9 +273,14 @@ fn moments(view: &View, shape: &Shape) -> Element {
     };
     // From below the base outwards, so that scales that lean over stay free.
     let turn = 2.0;
+    let [of_left, of_right] = if inward {
+        [around(left, 5.3, -turn), around(right, -2.16, turn)]
+    } else {
+        [around(left, 5.3 - turn, turn), around(right, turn - 2.16, -turn)]
+    };
     Element::group("moments").containing([
-        around(left, 5.3, -turn),
-        around(right, -2.16, turn),
+        of_left,
+        of_right,
         label("$M$", shifted(left, [-30.0, 26.0]), 13.0, Anchor::Middle),
         label("$M$", shifted(right, [30.0, 26.0]), 13.0, Anchor::Middle),
     ])
