@@ -22,9 +22,33 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     (whole * base + partial) / shift
 }
 
+/// Part of the lengths within which a change of the number of scales that are cut counts as happening here.
+const NEAR: f64 = 1e-9;
+
+/// Returns the rate of [`coverage`] where shift, base and pitch change at the given `rates`, on the side to which they lead.
+pub(crate) fn coverage_rate([shift, base, pitch]: [f64; 3], rates: [f64; 3]) -> f64 {
+    if shift < TOUCH {
+        // As long as the shift is smaller than the gap nothing is covered.
+        return 0.0;
+    }
+    let [shifts, bases, pitches] = rates;
+    let whole = (shift / pitch).round();
+    let at_pitch = (shift - whole * pitch).abs() <= NEAR * pitch;
+    let whole = match at_pitch {
+        true if shifts >= whole * pitches => whole,
+        true => whole - 1.0,
+        false => (shift / pitch).floor(),
+    };
+    let partial = shift - (whole + 1.0) * pitch + base;
+    let rate = shifts - (whole + 1.0) * pitches + bases;
+    let reaches_in = partial > NEAR * pitch || (partial >= -NEAR * pitch && rate > 0.0);
+    let (partial, rate) = if reaches_in { (partial, rate) } else { (0.0, 0.0) };
+    (whole * bases + rate) / shift - (whole * base + partial) / shift.powi(2) * shifts
+}
+
 #[cfg(test)]
 mod tests {
-    use super::coverage;
+    use super::{coverage, coverage_rate};
     use proptest::prelude::*;
 
     /// The coverage by its definition: a sum over neighbours, interval by interval.
@@ -61,6 +85,49 @@ mod tests {
         ) {
             let at = |gap: f64| coverage(slant.to_radians().tan(), base, base + gap);
             prop_assert!(at(wider * gap) <= at(gap) + 1e-12);
+        }
+    }
+
+    /// A difference in a direction, from the place itself on.
+    fn difference(at: [f64; 3], rates: [f64; 3]) -> f64 {
+        let moved = |h: f64| {
+            let [shift, base, pitch] = std::array::from_fn(|k| at[k] + h * rates[k]);
+            coverage(shift, base, pitch)
+        };
+        let h = 1e-5;
+        (-3.0 * moved(0.0) + 4.0 * moved(h) - moved(2.0 * h)) / (2.0 * h)
+    }
+
+    proptest! {
+        #[test]
+        fn rates_are_those_of_differences(
+            slant in 1.0_f64..80.0, base in 0.02_f64..6.0, gap in 0.05_f64..2.0,
+            rates in prop::array::uniform3(-1.0_f64..1.0),
+        ) {
+            let shift = slant.to_radians().tan();
+            let at = [shift, base, base + gap];
+            let ours = coverage_rate(at, rates);
+            let off = (ours - difference(at, rates)).abs();
+            // A change of count within the difference is another matter.
+            let places = [shift / at[2], (shift + base) / at[2]];
+            let apart = places.iter().all(|place| (place - place.round()).abs() > 1e-3);
+            prop_assert!(!apart || off < 1e-6 * (1.0 + ours.abs()), "{ours} {off}");
+        }
+    }
+
+    #[test]
+    fn where_the_count_changes_each_side_has_its_rate() {
+        // The line ends at the corner of the first neighbour's base, and at the far corner of the second.
+        for at in [[1.25, 0.5, 1.75], [3.5, 0.5, 1.75], [1.75, 0.5, 1.75]] {
+            let mut kinks = 0;
+            for rates in [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 1.0]] {
+                let back = rates.map(|rate| -rate);
+                let [right, left] = [rates, back].map(|rates| coverage_rate(at, rates));
+                assert!((right - difference(at, rates)).abs() < 1e-7, "{at:?} {rates:?}");
+                assert!((left - difference(at, back)).abs() < 1e-7, "{at:?} {back:?}");
+                kinks += usize::from((right + left).abs() > 0.1);
+            }
+            assert!(kinks >= 2, "{at:?}");
         }
     }
 

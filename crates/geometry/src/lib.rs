@@ -14,6 +14,7 @@
 //! | [`Parallelogram`] | one scale: half-width of its base and slant |
 //! | [`Corner`] | a corner of a scale |
 //! | [`Row`] | identical scales at a constant gap: pitch, coverage |
+//! | [`RowChange`] | rates at which the lengths of a row change, for the rate of its coverage |
 //! | [`UnevenRow`] | scales of unequal slants at unequal gaps |
 //! | [`OutOfRange`] | a parameter without meaning, with its value and what is accepted |
 //!
@@ -34,7 +35,7 @@ mod uneven_row;
 
 pub use out_of_range::OutOfRange;
 pub use parallelogram::{Corner, Parallelogram};
-pub use row::Row;
+pub use row::{Row, RowChange};
 pub use uneven_row::{UnevenRow, clearance};
 
 /// A point or a vector of the plane, in units of `t`.

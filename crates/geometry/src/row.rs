@@ -41,4 +41,23 @@ impl Row {
     pub fn coverage(&self) -> f64 {
         coverage::coverage(self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch())
     }
+
+    /// Returns the rate of the coverage where the lengths of the row change, on the side to which the change leads: the coverage has
+    /// a kink where the number of scales that the line cuts changes.
+    pub fn coverage_rate(&self, change: &RowChange) -> f64 {
+        let lengths = [self.scale.shift(), 2.0 * self.scale.half_base(), self.pitch()];
+        let RowChange { shift, half_base, gap } = *change;
+        coverage::coverage_rate(lengths, [shift, 2.0 * half_base, 2.0 * half_base + gap])
+    }
+}
+
+/// Rates at which the lengths of a row change, over `t`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RowChange {
+    /// Rate of the shift `S` of the top against the base.
+    pub shift: f64,
+    /// Rate of the half-width `a` of the base.
+    pub half_base: f64,
+    /// Rate of the gap.
+    pub gap: f64,
 }

@@ -92,7 +92,7 @@ impl Elastica {
         check(&span)?;
         let accepted = ORDERS.contains(&order);
         OutOfRange::unless(accepted, "order of the membrane", order as f64, "2 to 128")?;
-        Ok(Self { section, span, rule: Arc::new(Lobatto::new(order)) })
+        Ok(Self { section, span, rule: Lobatto::shared(order) })
     }
 
     /// A membrane of this section and order over another span.

@@ -1,5 +1,8 @@
 //! Polynomials through the Gauss–Lobatto–Legendre points.
 
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use nalgebra::{DMatrix, DVector};
 
 /// The Gauss–Lobatto–Legendre rule of order `n` on `[0, 1]`: `n + 1` points, both ends among them.
@@ -29,7 +32,17 @@ pub(crate) struct Lobatto {
     legendre: DVector<f64>,
 }
 
+/// The rules that have been asked for, by order.
+static SHARED: Mutex<BTreeMap<usize, Arc<Lobatto>>> = Mutex::new(BTreeMap::new());
+
 impl Lobatto {
+    /// The rule of order `n ≥ 1`, shared by all who ask for it.
+    pub(crate) fn shared(n: usize) -> Arc<Self> {
+        // A panic elsewhere leaves the map whole, so a poisoned lock is as good as any.
+        let mut rules = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(rules.entry(n).or_insert_with(|| Arc::new(Self::new(n))))
+    }
+
     /// The rule of order `n ≥ 1`.
     pub(crate) fn new(n: usize) -> Self {
         let x = DVector::from_iterator(n + 1, (0..=n).map(|i| point(n, i)));

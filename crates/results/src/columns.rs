@@ -8,6 +8,7 @@ mod path;
 mod physical;
 mod reruns;
 mod samples;
+mod sensitivity;
 mod tilts;
 mod values;
 
@@ -31,6 +32,7 @@ pub use path::{
     PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
 pub use reruns::RERUN_COLUMNS;
+pub use sensitivity::DERIVATIVE_COLUMNS;
 
 /// The measured values of the designs of `sweep`.
 fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {

@@ -3,6 +3,7 @@
 pub mod design_result;
 pub mod failure;
 pub mod outcome;
+pub mod parameter_derivative;
 pub mod rerun_change;
 pub mod row;
 pub mod sample_statistics;

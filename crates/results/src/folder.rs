@@ -42,6 +42,8 @@ impl RunFolder {
     pub const DESIGNS: &'static str = "designs.csv";
     /// The table of measures without a value.
     pub const FAILURES: &'static str = "failures.csv";
+    /// The table of the derivatives of the measures.
+    pub const SENSITIVITY: &'static str = "sensitivity.csv";
     /// The table of what reruns have changed.
     pub const RERUNS: &'static str = "reruns.csv";
     /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
@@ -73,7 +75,7 @@ impl RunFolder {
     /// order in which people read them.
     pub fn tables() -> impl Iterator<Item = String> {
         let measures = MEASURE_TABLES.iter().map(|(value, _)| Self::measure_table(value));
-        let of_runs = [Self::FAILURES, Self::RERUNS].into_iter();
+        let of_runs = [Self::SENSITIVITY, Self::FAILURES, Self::RERUNS].into_iter();
         let others = of_runs.chain(Self::RANKING).chain(Self::COMPARISON).map(str::to_owned);
         std::iter::once(Self::DESIGNS.to_owned()).chain(measures).chain(others)
     }

@@ -12,6 +12,7 @@
 //! | [`DesignResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
+//! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
@@ -56,15 +57,18 @@ mod shell;
 mod tables;
 
 pub use columns::cell::Cell;
-pub use columns::{Column, RERUN_COLUMNS, failure_columns, failure_detail_columns};
+pub use columns::{
+    Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
+};
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
+pub use design::parameter_derivative::ParameterDerivative;
 pub use design::rerun_change::RerunChange;
-pub use design::row::{DesignRow, FailureRow, SolvedDesign};
+pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{SampleStatistics, Statistics};
 pub use digest::sha256;
 pub use folder::{

@@ -4,8 +4,8 @@ use skin::flexure::Flexure;
 use skin::puncture::Puncture;
 
 use crate::columns::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
-    PunctureEvent, SCALES, STEPS,
+    BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
+    FLEXURE_STEPS, PATH, PunctureEvent, SCALES, STEPS,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::{OutputError, RunFolder};
@@ -30,6 +30,13 @@ pub fn write_path_tables(
     match &solved.flexure {
         Some(flexure) => files.extend(write_flexure(folder, flexure)?),
         None => remove(folder, RunFolder::FLEXURE),
+    }
+    if solved.row.result.sensitivity.is_empty() {
+        remove(folder, [RunFolder::SENSITIVITY]);
+    } else {
+        let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
+        write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;
+        files.push(name);
     }
     folder.sync();
     Ok(files)
@@ -59,7 +66,7 @@ fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str;
     Ok(RunFolder::FLEXURE)
 }
 
-fn remove(folder: &RunFolder, files: [&str; 4]) {
+fn remove<const N: usize>(folder: &RunFolder, files: [&str; N]) {
     for file in files {
         folder.remove(file);
     }

@@ -44,6 +44,11 @@ impl Design {
         Row::new(Parallelogram::new(self.half_base(), self.slant_deg)?, self.gap)
     }
 
+    /// The undeformed row, whose slant may also be below zero: that of a design near an upright one.
+    pub(crate) fn leaning_row(&self) -> Result<Row, OutOfRange> {
+        Row::new(Parallelogram::leaning(self.half_base(), self.slant_deg)?, self.gap)
+    }
+
     /// The footprint of the bases on a substrate of this Poisson's ratio.
     ///
     /// # Errors

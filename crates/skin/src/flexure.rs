@@ -7,6 +7,7 @@ mod measures;
 mod mesh;
 mod point;
 mod problem;
+mod sensitivity;
 mod snapshot;
 mod strip;
 #[cfg(test)]
@@ -28,6 +29,7 @@ pub use first_touch::contact_curvature;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
+pub use sensitivity::{FlexureInput, differentiate};
 pub use snapshot::{StripSnapshot, snapshots};
 
 /// The part of a strip that is solved for.

@@ -21,6 +21,8 @@
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
 //! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | its path, events and measures |
+//! | [`puncture::differentiate`], [`flexure::differentiate`] | the same with the derivatives of all measures |
+//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Variation`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
 //! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
@@ -52,6 +54,7 @@ pub mod flexure;
 mod imperfection;
 pub mod puncture;
 mod record;
+mod sensitivity;
 mod status;
 
 pub use common::Common;
@@ -59,4 +62,6 @@ pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};
 pub use record::{ContactEvent, Iteration};
+pub use sensitivity::{Derivative, Variation};
+pub use solver::Neighbours;
 pub use status::Status;

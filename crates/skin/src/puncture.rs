@@ -6,6 +6,7 @@ mod fold;
 mod measures;
 mod number_list;
 mod point;
+mod sensitivity;
 mod snap;
 mod snapshot;
 mod stability;
@@ -27,13 +28,14 @@ use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{ContactEvent, Iteration, Record};
+use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use point::{PuncturePoint, ScaleState};
+pub use sensitivity::{PunctureInput, differentiate};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
@@ -178,6 +180,44 @@ impl PunctureParameters {
     }
 }
 
+/// A path that was followed to its end.
+struct Followed {
+    record: Record<Chain>,
+    needle: Needle,
+    folds: Vec<Fold>,
+    at_tilts: Vec<Option<TiltMeasures>>,
+    path: Path<Chain>,
+    status: Status,
+}
+
+impl Followed {
+    /// The result of the puncture.
+    fn puncture(self) -> Puncture {
+        let Self { record, needle, folds, at_tilts, mut path, status } = self;
+        let path = &mut path;
+        let mut measures = PunctureMeasures::new(&record, &folds, path);
+        let (instability, snaps) = needle.finish(path, &mut measures);
+        let measures = match status {
+            Status::Complete => measures,
+            _ => measures.without_final_values(),
+        };
+        let scales = scales(path.system(), &path.point().state);
+        let Record { path, events, history, .. } = record;
+        Puncture {
+            status,
+            measures,
+            at_tilts,
+            path,
+            instability,
+            events,
+            snaps,
+            folds,
+            scales,
+            history,
+        }
+    }
+}
+
 struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
@@ -196,6 +236,17 @@ impl<'a> Problem<'a> {
         parameters: &'a PunctureParameters,
     ) -> Result<Self, OutOfRange> {
         parameters.check()?;
+        Self::unchecked(rows, design, stiffness, common, parameters)
+    }
+
+    /// The problem with parameters that may lie a little beyond the ends of their ranges.
+    fn unchecked(
+        rows: Rows<'a>,
+        design: &'a Design,
+        stiffness: RowStiffness,
+        common: &Common,
+        parameters: &'a PunctureParameters,
+    ) -> Result<Self, OutOfRange> {
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
@@ -203,26 +254,41 @@ impl<'a> Problem<'a> {
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
-        match self.parameters.scales {
+        let (start, longest) = self.start()?;
+        Ok(self.follow(start, longest, &[])?.puncture())
+    }
+
+    /// The system with which the path begins, and the longest row that it may grow to.
+    fn start(&self) -> Result<(Chain, usize), OutOfRange> {
+        Ok(match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                self.follow(self.chain(Layout { left, right: scales - 1 - left })?, scales)
+                (self.chain(Layout { left, right: scales - 1 - left })?, scales)
             }
-            RowLength::Auto => self.grow(LONGEST_ROW),
-        }
+            RowLength::Auto => {
+                let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
+                (self.part(first)?, LONGEST_ROW)
+            }
+        })
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
+    #[cfg(test)]
     fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
         let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
-        self.follow(self.part(first)?, longest)
+        Ok(self.follow(self.part(first)?, longest, &[])?.puncture())
     }
 
     /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
-    fn follow(&self, chain: Chain, longest: usize) -> Result<Puncture, OutOfRange> {
+    fn follow(
+        &self,
+        chain: Chain,
+        longest: usize,
+        functions: &[PathFunction<Chain>],
+    ) -> Result<Followed, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let mut record = Record::new(&path);
+        let mut record = Record::new(&path, functions);
         let (mut needle, mut folds) = (Needle::default(), Vec::new());
         let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
@@ -250,8 +316,7 @@ impl<'a> Problem<'a> {
             Status::RowLimit
         };
         let at_tilts = tilts.finish();
-        let watched = (needle, folds);
-        Ok(Puncture { at_tilts, ..self.puncture(record, watched, &mut path, status) })
+        Ok(Followed { record, needle, folds, at_tilts, path, status })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
@@ -288,38 +353,8 @@ impl<'a> Problem<'a> {
         let tilt = parameters.critical_tilt_deg.to_radians();
         let length = self.design.length;
         let position = parameters.load_position;
-        let chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
+        let mut chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
+        chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
         Ok(chain.with_law(parameters.substrate_law))
-    }
-
-    fn puncture(
-        &self,
-        record: Record<Chain>,
-        (needle, folds): (Needle, Vec<Fold>),
-        path: &mut Path<Chain>,
-        status: Status,
-    ) -> Puncture {
-        let modulus = 1.0 / (1.0 - self.parameters.poisson_ratio.powi(2));
-        let mut measures = PunctureMeasures::new(&record, &folds, path, modulus);
-        let (instability, snaps) = needle.finish(path, &mut measures);
-        let measures = match status {
-            Status::Complete => measures,
-            _ => measures.without_final_values(),
-        };
-        let scales = scales(path.system(), &path.point().state);
-        let Record { path, events, history, .. } = record;
-        let at_tilts = Vec::new();
-        Puncture {
-            status,
-            measures,
-            at_tilts,
-            path,
-            instability,
-            events,
-            snaps,
-            folds,
-            scales,
-            history,
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! The record of a path, of a row that is punctured or of a strip that is bent.
 
 use contact::{CornerContact, CornerEdge};
-use solver::{Change, Path, Peak, System};
+use solver::{Change, Path, Peak, Summit, System};
 
 use crate::contacts::{ContactChange, Contacts, SkinPoint, SkinState};
 
@@ -56,6 +56,9 @@ pub(crate) trait Skin: System<Mode = Vec<CornerContact>> {
     fn interpenetrates(&self, state: &SkinState) -> bool;
 }
 
+/// A function of a skin, an equilibrium and the direction of the path there.
+pub(crate) type PathFunction<S> = fn(&S, &SkinState, &[f64]) -> f64;
+
 /// Points, events and iterations of a path, and its largest stiffness.
 pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
@@ -63,13 +66,17 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) history: Vec<Iteration>,
     initial_stiffness: f64,
     stiffness: Peak<Vec<CornerContact>>,
+    /// Further functions of which the largest value is searched.
+    followed: Vec<(PathFunction<S>, Peak<Vec<CornerContact>>)>,
+    /// The equilibrium at which the first contact closes.
+    touching: Option<SkinPoint>,
     /// The contacts of the last point.
     before: Vec<CornerContact>,
 }
 
 impl<S: Skin> Record<S> {
-    /// The record of a path that is at its beginning.
-    pub(crate) fn new(path: &Path<S>) -> Self {
+    /// The record of a path that is at its beginning, which follows the largest values of some functions besides.
+    pub(crate) fn new(path: &Path<S>, functions: &[PathFunction<S>]) -> Self {
         let (skin, start) = (path.system(), path.point());
         let mut record = Self {
             path: vec![skin.path_point(start)],
@@ -77,9 +84,11 @@ impl<S: Skin> Record<S> {
             history: Vec::new(),
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
+            followed: functions.iter().map(|&f| (f, Peak::default())).collect(),
+            touching: None,
             before: start.state.mode.clone(),
         };
-        record.stiffness.visit(path, S::stiffness);
+        record.visit_peaks(path);
         record
     }
 
@@ -94,11 +103,23 @@ impl<S: Skin> Record<S> {
         if let Some(solver::Event::Changed(changes)) = &point.event {
             let event = |&change: &Change| self.event(skin, &point.state, here, change);
             let events: Vec<_> = changes.iter().filter_map(event).collect();
+            if self.touching.is_none()
+                && events.iter().any(|event| event.change == ContactChange::Closed)
+            {
+                self.touching = Some(point.clone());
+            }
             self.events.extend(events);
         }
         self.path.push(here);
-        self.stiffness.visit(path, S::stiffness);
+        self.visit_peaks(path);
         self.before.clone_from(&point.state.mode);
+    }
+
+    fn visit_peaks(&mut self, path: &Path<S>) {
+        self.stiffness.visit(path, S::stiffness);
+        for (f, peak) in &mut self.followed {
+            peak.visit(path, *f);
+        }
     }
 
     /// Takes the points that are kept to those of a longer row, where the path goes on from `here`.
@@ -107,6 +128,10 @@ impl<S: Skin> Record<S> {
         new: impl Fn(&SkinPoint) -> SkinPoint,
         here: &SkinPoint,
     ) {
+        self.touching = self.touching.as_ref().map(&new);
+        for (_, peak) in &mut self.followed {
+            peak.replace_points(&new);
+        }
         self.stiffness.replace_points(new);
         self.before.clone_from(&here.state.mode);
     }
@@ -133,6 +158,22 @@ impl<S: Skin> Record<S> {
     pub(crate) fn first_contact(&self) -> Option<&S::PathPoint> {
         let closed = |event: &&ContactEvent<_>| event.change == ContactChange::Closed;
         self.events.iter().find(closed).map(|event| &event.point)
+    }
+
+    /// The equilibrium at which the first contact closes.
+    pub(crate) fn touching(&self) -> Option<&SkinPoint> {
+        self.touching.as_ref()
+    }
+
+    /// The largest stiffness and its place.
+    pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<Summit<S::Mode>> {
+        self.stiffness.summit(path, S::stiffness)
+    }
+
+    /// The largest value of a function that is followed, by its index, and its place.
+    pub(crate) fn summit(&self, path: &mut Path<S>, followed: usize) -> Option<Summit<S::Mode>> {
+        let (f, peak) = self.followed.get(followed)?;
+        peak.summit(path, *f)
     }
 
     /// The point of the largest stiffness of those that were recorded.

@@ -17,10 +17,11 @@
 //! | [`Path`], [`Point`] | an iterator over the equilibria; one of them, with its directions |
 //! | [`Event`], [`Change`] | constraints that change sides, extrema of the load, the target |
 //! | [`Settings`], [`Stop`] | steps and tolerances; why a path ended |
-//! | [`Peak`] | the largest value of a quantity along the path, between its points too |
+//! | [`Peak`], [`Summit`] | the largest value of a quantity along the path, between its points too |
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
+//! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
@@ -71,6 +72,7 @@ mod newton;
 mod path;
 mod peak;
 mod rate_problem;
+mod sensitivity;
 mod skyline;
 mod step;
 mod stop;
@@ -85,7 +87,8 @@ pub use event::{Change, Event, dip};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
-pub use peak::Peak;
+pub use peak::{Peak, Summit};
+pub use sensitivity::{Anchor, Linearisation, Moved, Neighbours, Place};
 pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;

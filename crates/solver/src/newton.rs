@@ -149,6 +149,11 @@ impl Newton {
         }
     }
 
+    /// Solves in place with the factors of the last tangent: `x` holds the right-hand side, then the solution.
+    pub(crate) fn solve_again(&mut self, x: &mut [f64]) {
+        self.solver.solve(x);
+    }
+
     /// The guards (N5), one for each constraint, which are zero where it changes sides: `z_c` if active, `r_c` if not.
     pub fn guards<S: System>(system: &S, state: &State<S::Mode>) -> Vec<f64> {
         let mut guards = Vec::with_capacity(state.active.len());
@@ -221,7 +226,7 @@ fn replace_active<S: System>(
 }
 
 /// How far a constraint is from changing sides.
-fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
+pub(crate) fn guard<S: System>(system: &S, state: &State<S::Mode>, constraint: usize) -> f64 {
     if state.active[constraint] {
         state.z[system.constraints()[constraint]]
     } else {

@@ -115,7 +115,25 @@ impl<M> Peak<M> {
     where
         S: System<Mode = M>,
     {
+        Some(self.summit(path, f)?.value)
+    }
+
+    /// The largest value as [`Peak::refined`] finds it, with its place.
+    pub fn summit<S>(
+        &self,
+        path: &mut Path<S>,
+        f: impl Fn(&S, &State<M>, &[f64]) -> f64,
+    ) -> Option<Summit<M>>
+    where
+        S: System<Mode = M>,
+    {
         let Best { value, before, point, after } = self.best.as_ref()?;
+        let visited = Summit {
+            value: *value,
+            point: Arc::clone(point),
+            before: before.clone(),
+            is_inside: false,
+        };
         let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
         let kinks = self.kinks.iter().filter(|segment| {
             // Those next to the best point are searched anyway.
@@ -124,8 +142,21 @@ impl<M> Peak<M> {
         let kinks = kinks.map(|segment| (&segment.from, &segment.to));
         let inside = segments.into_iter().flatten().chain(kinks);
         let maxima = inside.filter_map(|(from, to)| segment_maximum(path, from, to, &f));
-        Some(maxima.fold(*value, f64::max))
+        Some(maxima.fold(visited, |best, next| if next.value > best.value { next } else { best }))
     }
+}
+
+/// The largest value of a quantity along a path, and the point at which it is taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summit<M = ()> {
+    /// The largest value.
+    pub value: f64,
+    /// The point.
+    pub point: Arc<Point<M>>,
+    /// The point of the path before it, where it is itself one of its points. `None` at the beginning.
+    pub before: Option<Arc<Point<M>>>,
+    /// Whether the point lies between points of the path.
+    pub is_inside: bool,
 }
 
 /// A place on a segment of the path, as a part of the segment, and the value there.
@@ -141,7 +172,7 @@ fn segment_maximum<S: System>(
     from: &Point<S::Mode>,
     to: &Point<S::Mode>,
     f: &impl Fn(&S, &State<S::Mode>, &[f64]) -> f64,
-) -> Option<f64> {
+) -> Option<Summit<S::Mode>> {
     let start = Sample { place: 0.0, value: f(&path.system, &from.state, &from.leaving) };
     let end = Sample { place: 1.0, value: f(&path.system, &to.state, &to.arriving) };
     let mut nearest = from.clone();
@@ -160,7 +191,8 @@ fn segment_maximum<S: System>(
         let Some(place) = search.next_place() else { break };
         search.take(at(place)?);
     }
-    Some(search.x.value)
+    let value = search.x.value;
+    Some(Summit { value, point: Arc::new(nearest), before: None, is_inside: true })
 }
 
 /// A bracket of the maximum: where the function rises from the larger end, or, between kinks, anywhere inside.

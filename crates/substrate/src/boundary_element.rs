@@ -20,7 +20,13 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
 use faer::{ColRef, Mat, Par, Spec};
+
+mod moving;
+mod rates;
+
+pub use rates::{FootprintChange, row_reactions_and_rates};
 
 use crate::Footprint;
 use crate::half_space::{CornerLine, Influence};
@@ -112,9 +118,13 @@ pub fn row_reactions(
 
 impl RowReactions {
     fn is_finite(&self) -> bool {
-        let numbers = self.direct.iter().chain(self.neighbours.iter().flatten());
-        let cross = self.cross.iter().flat_map(|terms| [&terms.force, &terms.moment]);
-        numbers.chain(cross).all(|number| number.is_finite())
+        self.numbers().all(f64::is_finite)
+    }
+
+    /// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` of Eq. (1).
+    pub(crate) fn coefficients(&self) -> [f64; 6] {
+        let ([a, b, c], [d, e, f]) = (self.direct, self.neighbours[0]);
+        [a, b, c, -d, -e, -f]
     }
 }
 
@@ -141,20 +151,43 @@ impl Load {
     }
 }
 
+/// The tractions of the three problems; `rotation` has further columns for displaced neighbours.
+struct Tractions {
+    shear: Mat<f64>,
+    normal: Mat<f64>,
+    rotation: Mat<f64>,
+}
+
+impl Tractions {
+    fn map(self, mut f: impl FnMut(Mat<f64>) -> Mat<f64>) -> Self {
+        Self { shear: f(self.shear), normal: f(self.normal), rotation: f(self.rotation) }
+    }
+}
+
 impl Mesh {
     fn reactions(&self, footprint: &Footprint) -> RowReactions {
         let equations = Equations::assemble(self, footprint.poisson_ratio());
-        let count = self.neighbours.len();
+        let factors = equations.factorised();
+        self.sums(footprint, &factors.solve(self.displacements()))
+    }
+
+    /// Returns the displacements that the loads impose.
+    fn displacements(&self) -> Tractions {
         let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
-        let shear = solve_in_place(equations.shear, push.clone());
-        let normal = solve_in_place(equations.normal, push);
         // Besides the rotation, a neighbour and its mirror image displaced by 1 and −1: half of it is the
         // odd part of one displaced alone, and the even part leaves no moment on the middle rectangle.
         let turn = Load { middle: ARM, neighbour: None };
-        let opposed = (0..count).map(|k| Load { middle: ZERO, neighbour: Some(k) });
+        let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
-        let odd = solve_in_place(equations.rotation, self.imposed(&loads));
-        let (shear, normal, rotation) = (shear.col(0), normal.col(0), odd.col(0));
+        Tractions { shear: push.clone(), normal: push, rotation: self.imposed(&loads) }
+    }
+
+    /// Returns the reactions that tractions add up to.
+    fn sums(&self, footprint: &Footprint, tractions: &Tractions) -> RowReactions {
+        let count = self.neighbours.len();
+        let odd = &tractions.rotation;
+        let (shear, normal) = (tractions.shear.col(0), tractions.normal.col(0));
+        let rotation = odd.col(0);
         let neighbour = |k: usize| {
             let centre = (k + 1) as f64 * footprint.pitch_over_a();
             [
@@ -292,40 +325,75 @@ impl CellColumns {
     /// Appends, column by column, the influence of the cells between the `offsets`; negative where
     /// they descend.
     fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
-        let half = self.line.len() / 2;
         for (column, offset) in offsets.enumerate() {
             std::mem::swap(&mut self.last, &mut self.next);
             self.line.evaluate(offset, &mut self.next);
-            if column == 0 {
-                continue;
+            if column > 0 {
+                append_cells(&self.last, &self.next, into);
             }
-            let strip = |j: usize| self.next[j] - self.last[j];
-            into.extend((0..half).map(|k| {
-                let cell = strip(half + k + 1) - strip(half + k);
-                let image = strip(half - k) - strip(half - k - 1);
-                cell + image
-            }));
         }
     }
 }
 
-/// Solves a dense system by LU factors with partial pivoting, on the calling thread alone: the same bits every time.
-fn solve_in_place(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Mat<f64> {
-    let n = matrix.nrows();
-    let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
-    let scratch = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default())
-        .or(solve::solve_in_place_scratch::<usize, f64>(n, right.ncols(), Par::Seq));
-    let mut memory = MemBuffer::new(scratch);
-    let stack = MemStack::new(&mut memory);
-    let (_, order) = factor::lu_in_place(
-        matrix.as_mut(),
-        &mut order,
-        &mut inverse,
-        Par::Seq,
-        stack,
-        Spec::default(),
-    );
-    let factors = matrix.as_ref();
-    solve::solve_in_place(factors, factors, order, right.as_mut(), Par::Seq, stack);
-    right
+/// Appends the influence of the cells between two lines of corners, each together with its mirror image in `z`.
+fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
+    let half = last.len() / 2;
+    let strip = |j: usize| next[j] - last[j];
+    into.extend((0..half).map(|k| {
+        let cell = strip(half + k + 1) - strip(half + k);
+        let image = strip(half - k) - strip(half - k - 1);
+        cell + image
+    }));
+}
+
+impl Equations {
+    fn factorised(self) -> Factors {
+        Factors([self.shear, self.normal, self.rotation].map(DenseLu::new))
+    }
+}
+
+/// LU factors of the three matrices.
+struct Factors([DenseLu; 3]);
+
+impl Factors {
+    /// Solves the three problems for their right-hand sides.
+    fn solve(&self, right: Tractions) -> Tractions {
+        let mut factors = self.0.iter();
+        right.map(|right| factors.next().map_or(right.clone(), |lu| lu.solve(right)))
+    }
+}
+
+/// LU factors with partial pivoting, on the calling thread alone: the same bits every time.
+struct DenseLu {
+    factors: Mat<f64>,
+    order: Vec<usize>,
+    inverse: Vec<usize>,
+}
+
+impl DenseLu {
+    fn new(mut matrix: Mat<f64>) -> Self {
+        let n = matrix.nrows();
+        let (mut order, mut inverse) = (vec![0_usize; n], vec![0_usize; n]);
+        let scratch = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default());
+        factor::lu_in_place(
+            matrix.as_mut(),
+            &mut order,
+            &mut inverse,
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(scratch)),
+            Spec::default(),
+        );
+        Self { factors: matrix, order, inverse }
+    }
+
+    fn solve(&self, mut right: Mat<f64>) -> Mat<f64> {
+        let (n, columns) = (right.nrows(), right.ncols());
+        let scratch = solve::solve_in_place_scratch::<usize, f64>(n, columns, Par::Seq);
+        let order = PermRef::new_checked(&self.order, &self.inverse, n);
+        let factors = self.factors.as_ref();
+        let mut memory = MemBuffer::new(scratch);
+        let stack = MemStack::new(&mut memory);
+        solve::solve_in_place(factors, factors, order, right.as_mut(), Par::Seq, stack);
+        right
+    }
 }

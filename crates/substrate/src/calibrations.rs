@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::boundary_element::Unresolved;
 use crate::cache::BoundedCache;
-use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, calibrate};
+use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, StiffnessSlopes, calibrate};
 
 /// Calibrations shared by every design and thread that needs them.
 ///
@@ -16,6 +16,8 @@ use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, calibrate};
 pub struct Calibrations {
     springs: BoundedCache<Springs>,
     rows: BoundedCache<Arc<RowStiffness>>,
+    slopes: BoundedCache<Arc<StiffnessSlopes>>,
+    full_slopes: BoundedCache<Arc<StiffnessSlopes>>,
 }
 
 /// The default capacity, in footprints: some 10 MB, and more than any sweep needs at a time.
@@ -27,6 +29,8 @@ impl Calibrations {
         Self {
             springs: BoundedCache::with_capacity(capacity),
             rows: BoundedCache::with_capacity(capacity),
+            slopes: BoundedCache::with_capacity(capacity),
+            full_slopes: BoundedCache::with_capacity(capacity),
         }
     }
 
@@ -53,6 +57,22 @@ impl Calibrations {
                 RowStiffness::solve(footprint, NEIGHBOURS).map(Arc::new)
             }),
         }
+    }
+
+    /// Returns the stiffness of a row of that `footprint` and `coupling` with its derivatives, solved now if it is not known.
+    ///
+    /// # Errors
+    /// As [`RowStiffness::solve`]; the error is remembered like a result.
+    pub fn slopes(
+        &self,
+        footprint: &Footprint,
+        coupling: Coupling,
+    ) -> Result<Arc<StiffnessSlopes>, Unresolved> {
+        let cache = match coupling {
+            Coupling::Nearest => &self.slopes,
+            Coupling::Full => &self.full_slopes,
+        };
+        cache.get_or_solve(footprint, || StiffnessSlopes::of(footprint, coupling).map(Arc::new))
     }
 }
 

@@ -19,6 +19,7 @@
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs, 2 ms |
 //! | [`RowStiffness`], [`Coupling`] | the same with more neighbours and with force from rotation |
+//! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`Strip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
@@ -49,6 +50,7 @@ pub mod half_space;
 pub mod mesh;
 mod row_stiffness;
 mod springs;
+mod stiffness_slopes;
 mod strip;
 
 pub use boundary_element::Unresolved;
@@ -57,4 +59,5 @@ pub use far_field::FarField;
 pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
+pub use stiffness_slopes::{OneSided, StiffnessSlopes};
 pub use strip::{Strip, SubstrateLaw, neo_hookean};

@@ -1,5 +1,7 @@
 //! The stiffness of a whole row of bases on the substrate.
 
+use std::ops::{Add, Mul};
+
 use crate::boundary_element::{CrossTerms, RowReactions, Unresolved, row_reactions};
 use crate::springs::{CELLS, estimated_error, extrapolation};
 use crate::{Footprint, Springs, calibrate};
@@ -69,14 +71,19 @@ impl RowStiffness {
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
         let on = |n: usize| row_reactions(footprint, neighbours, n).map(|found| flat(&found));
         let [coarse, medium, fine] = CELLS;
-        let [c4, c6, c8] = [on(coarse)?, on(medium)?, on(fine)?];
+        Ok(Self::from_meshes([on(coarse)?, on(medium)?, on(fine)?]))
+    }
+
+    /// Extrapolates the numbers of [`flat`] on three meshes.
+    pub(crate) fn from_meshes([c4, c6, c8]: [Vec<f64>; 3]) -> Self {
+        let [coarse, medium, fine] = CELLS;
         let checks = extrapolation([coarse, medium], [&c4, &c6]);
         let best = extrapolation([medium, fine], [&c6, &c8]);
         let sizes = sizes(&best);
         let error = (0..best.len())
             .map(|i| estimated_error([checks[i], c8[i], best[i]]) / sizes[i])
             .fold(0.0, f64::max);
-        Ok(Self::from_numbers(&best, error))
+        Self::from_numbers(&best, error)
     }
 
     /// Solves the stiffness of a row with a coupling.
@@ -96,7 +103,7 @@ impl RowStiffness {
     }
 
     /// Creates the stiffness from the numbers of [`flat`].
-    fn from_numbers(numbers: &[f64], error: f64) -> Self {
+    pub(crate) fn from_numbers(numbers: &[f64], error: f64) -> Self {
         let direct = [numbers[0], numbers[1], numbers[2]];
         let turn = (direct[1] * direct[2]).sqrt();
         let mut defect = 0.0_f64;
@@ -117,7 +124,7 @@ impl RowStiffness {
 const PER_NEIGHBOUR: usize = 5;
 
 /// Returns all numbers of a row in a list, those of the middle rectangle first, for extrapolation.
-fn flat(found: &RowReactions) -> Vec<f64> {
+pub(crate) fn flat(found: &RowReactions) -> Vec<f64> {
     let of_neighbour = |(direct, cross): (&[f64; 3], &CrossTerms)| {
         let [x, y, turn] = *direct;
         [x, y, turn, cross.force, cross.moment]
@@ -147,5 +154,32 @@ impl From<&Springs> for RowStiffness {
 impl From<&Self> for RowStiffness {
     fn from(stiffness: &Self) -> Self {
         stiffness.clone()
+    }
+}
+
+impl Mul<f64> for RowStiffness {
+    type Output = Self;
+
+    fn mul(mut self, factor: f64) -> Self {
+        self.direct.iter_mut().for_each(|direct| *direct *= factor);
+        for neighbour in &mut self.neighbours {
+            neighbour.direct.iter_mut().for_each(|direct| *direct *= factor);
+            neighbour.cross *= factor;
+        }
+        self
+    }
+}
+
+impl Add for RowStiffness {
+    type Output = Self;
+
+    /// Adds the stiffness of as many neighbours, number by number; the estimates of the errors stay those of the first.
+    fn add(mut self, other: Self) -> Self {
+        self.direct.iter_mut().zip(other.direct).for_each(|(direct, more)| *direct += more);
+        for (neighbour, more) in self.neighbours.iter_mut().zip(other.neighbours) {
+            neighbour.direct.iter_mut().zip(more.direct).for_each(|(direct, more)| *direct += more);
+            neighbour.cross += more.cross;
+        }
+        self
     }
 }

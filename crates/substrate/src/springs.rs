@@ -35,16 +35,24 @@ pub struct Springs {
 /// a growing `error`.
 pub fn calibrate(footprint: &Footprint) -> Result<Springs, Unresolved> {
     let [coarse, medium, fine] = CELLS;
-    let [c4, c6, c8] = [on(footprint, coarse)?, on(footprint, medium)?, on(footprint, fine)?];
-    let check = extrapolate([coarse, medium], [&c4, &c6]);
-    let best = extrapolate([medium, fine], [&c6, &c8]);
-    let error = |i: usize| estimated_error([check[i], c8[i], best[i]]) / best[i % 3];
-    let [ax, ay, aphi, bx, by, bphi] = best;
-    Ok(Springs {
-        direct: [ax, ay, aphi],
-        coupling: [bx, by, bphi],
-        error: (0..best.len()).map(error).fold(0.0, f64::max),
-    })
+    let meshes = [on(footprint, coarse)?, on(footprint, medium)?, on(footprint, fine)?];
+    Ok(Springs::from_meshes(meshes))
+}
+
+impl Springs {
+    /// Extrapolates the coefficients of three meshes.
+    pub(crate) fn from_meshes([c4, c6, c8]: [[f64; 6]; 3]) -> Self {
+        let [coarse, medium, fine] = CELLS;
+        let check = extrapolate([coarse, medium], [&c4, &c6]);
+        let best = extrapolate([medium, fine], [&c6, &c8]);
+        let error = |i: usize| estimated_error([check[i], c8[i], best[i]]) / best[i % 3];
+        let [ax, ay, aphi, bx, by, bphi] = best;
+        Self {
+            direct: [ax, ay, aphi],
+            coupling: [bx, by, bphi],
+            error: (0..best.len()).map(error).fold(0.0, f64::max),
+        }
+    }
 }
 
 /// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes, the coarser first: what

@@ -68,6 +68,15 @@ impl Sweep {
         &self.measures
     }
 
+    /// The same sweep that measures sensitivities besides.
+    #[must_use]
+    pub fn with_sensitivity(mut self) -> Self {
+        if !self.measures.contains(&Measure::Sensitivity) {
+            self.measures.push(Measure::Sensitivity);
+        }
+        self
+    }
+
     /// The designs.
     pub fn grid(&self) -> &Grid {
         &self.grid

@@ -112,6 +112,9 @@ const NOT_GIVEN: &str = "not given";
 const ALTERNATIVES: [[&str; 2]; 2] =
     [["gaps", "membrane_length_over_t"], ["needle_friction", "critical_tilt_deg"]];
 
+/// The sections that describe the skin.
+const CONTINUOUS: [&str; 6] = ["designs", "scale", "substrate", "contact", "puncture", "flexure"];
+
 /// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WrongValue {
@@ -256,6 +259,39 @@ impl Parameter {
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
         }
+    }
+
+    /// Whether measures change continuously with this parameter, so that they have derivatives with respect to it: a number that
+    /// describes the skin, not how it is solved or how it scatters.
+    pub fn is_continuous(&self) -> bool {
+        let is_number =
+            matches!(self.kind, ParameterKind::Number { .. } | ParameterKind::SignedNumber { .. });
+        is_number && CONTINUOUS.contains(&self.section)
+    }
+
+    /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
+    /// number.
+    pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
+        let (ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. }) =
+            &self.kind
+        else {
+            return None;
+        };
+        let mut moved = *case;
+        *field(&mut moved) += by;
+        Some(moved)
+    }
+
+    /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
+    /// is smaller. `None` if the parameter is no number.
+    pub fn size(&self, case: &Case) -> Option<f64> {
+        let (ParameterKind::Number { range, .. } | ParameterKind::SignedNumber { size: range, .. }) =
+            &self.kind
+        else {
+            return None;
+        };
+        let value = self.get(case).number()?.abs();
+        Some(if matches!(range.low, Excluded(0.0)) { value } else { value.max(1.0) })
     }
 
     /// Whether it takes numbers, so that a range of it makes sense.

@@ -3,7 +3,8 @@
 use anyhow::ensure;
 use results::columns::design_columns;
 use results::{
-    Cell, Column, DesignRow, RunFolder, SolvedDesign, write_measures, write_path_tables,
+    Cell, Column, DesignRow, ParameterDerivative, RunFolder, SolvedDesign, write_measures,
+    write_path_tables,
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
@@ -18,7 +19,11 @@ use crate::print::{aligned, print, rounded};
 
 /// Solves one design, prints its measures and writes them down with its path.
 pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
-    let chosen = SolvedChoice::new(choose(arguments)?);
+    let mut design = choose(arguments)?;
+    if arguments.sensitivity {
+        design.sweep = design.sweep.with_sensitivity();
+    }
+    let chosen = SolvedChoice::new(design);
     let folder = RunFolder::new(chosen.folder(arguments));
     let mut files = write_path_tables(&folder, &chosen.solved)?;
     files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);
@@ -90,7 +95,8 @@ impl SolvedChoice {
             [column.name.to_string(), shown(&cell), unit(column.unit), column.meaning.to_owned()]
         });
         let rows: Vec<_> = rows.collect();
-        format!("{}\n{}\n{}", self.title(), self.changes(), aligned(&rows))
+        let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
+        format!("{}\n{}\n{}{sensitivity}", self.title(), self.changes(), aligned(&rows))
     }
 
     fn title(&self) -> String {
@@ -140,6 +146,23 @@ fn shown(cell: &Cell) -> String {
         Cell::Number(number) => rounded(*number),
         cell => Some(cell.to_string()).filter(|text| !text.is_empty()).unwrap_or("none".to_owned()),
     }
+}
+
+/// The elasticities of the measures: a line for each measure and parameter, kinks by their names.
+fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
+    if derivatives.is_empty() {
+        return String::new();
+    }
+    let line = |derivative: &ParameterDerivative| {
+        let change = match (&derivative.kink, derivative.elasticity()) {
+            (Some(kink), _) => format!("kink: {kink}"),
+            (None, Some(elasticity)) => format!("{elasticity:+.3} %"),
+            (None, None) => "none".to_owned(),
+        };
+        [derivative.measure.clone(), derivative.parameter.clone(), change]
+    };
+    let lines: Vec<_> = derivatives.iter().map(line).collect();
+    format!("\nChange for one per cent of a parameter\n{}", aligned(&lines))
 }
 
 fn unit(unit: &str) -> String {

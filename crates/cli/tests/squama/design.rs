@@ -64,6 +64,46 @@ fn writes_its_course() {
 }
 
 #[test]
+fn differentiates_its_measures() {
+    let place = Place::with(FEW);
+    let design = "design x.toml --gap 0.1 --length 1 --slant 45 --sensitivity";
+    let text = place.prints(design);
+    assert!(text.contains("Change for one per cent of a parameter"), "{text}");
+    let folder = "results/few/designs/0004";
+    assert!(place.list(folder).contains("sensitivity.csv"));
+    let table = place.read(&format!("{folder}/sensitivity.csv"));
+    let header = "design,measure,parameter,value,derivative,elasticity,left,right,kink";
+    assert_eq!(table.lines().next(), Some(header));
+    // A gap of 0.1 between bases of 1: the coverage is 0.9, and a wider gap takes away what it is wider by.
+    let coverage = table.lines().find(|line| line.starts_with("0004,coverage,gap_over_t"));
+    let cells: Vec<_> = coverage.expect("a line").split(',').collect();
+    let number = |cell: usize| cells[cell].parse::<f64>().expect("a number");
+    assert!((number(4) + 1.0).abs() < 1e-12 && (number(5) + 0.1 / 0.9).abs() < 1e-12);
+    for measure in ["critical_force", "first_contact_displacement", "compliance", "max_moment"] {
+        assert!(table.contains(&format!("0004,{measure},slant_deg,")), "{measure}");
+    }
+    place.squama(&design.replace(" --sensitivity", "")).assert().code(0);
+    assert_eq!(place.list(folder), COURSE);
+}
+
+#[test]
+fn a_sweep_may_measure_sensitivities() {
+    let place = Place::with(FEW);
+    let measures = "--set measures=['coverage','puncture','sensitivity']";
+    for (threads, out) in [(1, "one"), (2, "two")] {
+        place
+            .squama(&format!("run x.toml -q --threads {threads} --out {out} {measures}"))
+            .assert()
+            .code(0);
+    }
+    let table = place.read("one/sensitivity.csv");
+    assert_eq!(table, place.read("two/sensitivity.csv"));
+    assert!(table.lines().count() > 8 * 9 * 8, "{table}");
+    let alone = place.refused("check x.toml --set measures=['sensitivity']");
+    assert!(alone.contains("expected sensitivity together with a measure"), "{alone}");
+}
+
+#[test]
 fn may_be_none_of_the_sweep() {
     let place = Place::with(FEW);
     let text = place.prints("design x.toml --gap 0.15 --length 1 --slant 45");

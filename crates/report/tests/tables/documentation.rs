@@ -11,7 +11,9 @@ use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
     design_columns,
 };
-use results::{Column, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns};
+use results::{
+    Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
+};
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -70,6 +72,7 @@ fn the_guide_to_the_results_explains_every_column() {
             "`failures.csv`, after the columns that say which design it is",
             columns(&failure_detail_columns()),
         ),
+        ("`sensitivity.csv`", columns(DERIVATIVE_COLUMNS)),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
         ("`measures.csv`", columns(MEASURE_COLUMNS)),
         ("`path.csv`", columns(PATH)),

@@ -6,6 +6,7 @@ use skin::puncture::{self, Puncture, TiltMeasures};
 
 use super::failure::{Failure, finite};
 use super::outcome::Outcome;
+use super::parameter_derivative::ParameterDerivative;
 use super::sample_statistics::SampleStatistics;
 
 /// The character between the settings of a design.
@@ -34,6 +35,9 @@ pub struct DesignResult {
     /// The statistics of imperfect samples, if they were asked for.
     #[serde(skip_serializing_if = "SampleStatistics::is_none")]
     pub samples: SampleStatistics,
+    /// The derivatives of the measures, if they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<ParameterDerivative>,
     /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub settings: String,

@@ -8,6 +8,7 @@ use sweep::{Case, DesignNumber};
 
 use super::design_result::{DesignResult, SEPARATOR};
 use super::failure::Failure;
+use super::parameter_derivative::ParameterDerivative;
 use crate::shell::shell_word;
 
 /// A row of `designs.csv`: a design and its result.
@@ -27,6 +28,24 @@ impl DesignRow {
         let row = |failure: &Failure| FailureRow { design: self.clone(), failure: *failure };
         self.result.failures.iter().map(row)
     }
+
+    /// The rows of `sensitivity.csv` that the design has.
+    pub fn derivatives(&self) -> impl Iterator<Item = DerivativeRow> {
+        let row = |derivative: &ParameterDerivative| DerivativeRow {
+            design: self.number,
+            derivative: derivative.clone(),
+        };
+        self.result.sensitivity.iter().map(row)
+    }
+}
+
+/// A row of `sensitivity.csv`: a design and one of its derivatives.
+#[derive(Clone, Debug)]
+pub struct DerivativeRow {
+    /// The position of the design in the grid.
+    pub design: DesignNumber,
+    /// The derivative.
+    pub derivative: ParameterDerivative,
 }
 
 impl Borrow<DesignRow> for FailureRow {

@@ -3,17 +3,18 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
+use geometry::OutOfRange;
 use results::{
-    DesignResult, DesignRow, Failure, FlexureResult, Outcome, PathEnd, PunctureResult,
-    SampleStatistics, SolvedDesign, finite,
+    DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
+    PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture};
-use substrate::{Calibrations, RowStiffness};
+use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure};
 
-use super::samples;
 use super::work::{DesignWork, WorkMeter};
+use super::{samples, sensitivity};
 
 /// The most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
 const LONGEST_CHAIN: usize = 100_000;
@@ -52,16 +53,29 @@ impl Evaluator {
     ) -> SolvedDesign {
         let work = DesignWork::new(meter, case, &self.measures);
         let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
-        let punctured = self.measures(Measure::Puncture).then(|| self.puncture(case));
+        let mut sensitivity = Vec::new();
+        if self.differentiates() && self.measures(Measure::Coverage) {
+            sensitivity.extend(guarded(|| sensitivity::coverage(case)).unwrap_or_default());
+        }
+        let punctured =
+            self.measures(Measure::Puncture).then(|| self.puncture(case, &mut sensitivity));
         let (puncture, puncture_path) = taken_apart(punctured, PunctureResult::without_path);
-        let bent = self.measures(Measure::Flexure).then(|| flexure(case));
+        let bent = self.measures(Measure::Flexure).then(|| self.flexure(case, &mut sensitivity));
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
         let at_tilts = puncture_path.as_ref().map(|path| path.at_tilts.clone());
         let at_tilts = at_tilts.unwrap_or_default();
-        let result =
-            DesignResult { coverage, puncture, at_tilts, flexure, samples, settings, failures };
+        let result = DesignResult {
+            coverage,
+            puncture,
+            at_tilts,
+            flexure,
+            samples,
+            sensitivity,
+            settings,
+            failures,
+        };
         let row = DesignRow { number, case: *case, result };
         let mut solved = SolvedDesign { row, puncture: puncture_path, flexure: flexure_path };
         let failures = self.measures.iter().filter_map(|measure| failure(*measure, &solved));
@@ -69,13 +83,46 @@ impl Evaluator {
         solved
     }
 
-    fn puncture(&self, case: &Case) -> Result<(PunctureResult, Puncture), Outcome> {
+    fn differentiates(&self) -> bool {
+        self.measures(Measure::Sensitivity)
+    }
+
+    /// Punctures the design of `case`; its derivatives, if they are asked for, are added to `sensitivity`.
+    fn puncture(
+        &self,
+        case: &Case,
+        sensitivity: &mut Vec<ParameterDerivative>,
+    ) -> Result<(PunctureResult, Puncture), Outcome> {
+        if self.differentiates() {
+            let slopes = guarded(|| self.slopes(case)).flatten()?;
+            let error = slopes.stiffness.estimated_error();
+            let (puncture, derivatives) = solved(|| sensitivity::puncture(case, &slopes))?;
+            sensitivity.extend(derivatives);
+            return Ok((PunctureResult::new(&puncture, error), puncture));
+        }
         let substrate = guarded(|| self.substrate(case)).flatten()?;
-        let puncture =
-            guarded(|| puncture::solve(&case.design, &*substrate, &case.common, &case.puncture))?;
-        // Validation lets no case without mechanical meaning come here.
-        let puncture = puncture.map_err(|_| Outcome::Internal)?;
+        let Case { design, common, puncture: parameters, .. } = case;
+        let puncture = solved(|| puncture::solve(design, &*substrate, common, parameters))?;
         Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
+    }
+
+    /// Bends the design of `case`; its derivatives, if they are asked for, are added to `sensitivity`.
+    fn flexure(
+        &self,
+        case: &Case,
+        sensitivity: &mut Vec<ParameterDerivative>,
+    ) -> Result<(FlexureResult, Flexure), Outcome> {
+        if case.flexure.method == Method::Chain {
+            chain_fits(case)?;
+        }
+        let flexure = if self.differentiates() {
+            let (flexure, derivatives) = solved(|| sensitivity::flexure(case))?;
+            sensitivity.extend(derivatives);
+            flexure
+        } else {
+            solved(|| flexure::solve(&case.design, &case.common, &case.flexure))?
+        };
+        Ok((FlexureResult::new(&flexure), flexure))
     }
 
     /// Solves the imperfect samples of `case`. If they cannot be solved at all, every sample failed.
@@ -104,6 +151,11 @@ impl Evaluator {
         statistics
     }
 
+    fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
+        let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
+        self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
+    }
+
     fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
@@ -113,16 +165,6 @@ impl Evaluator {
 fn coverage(case: &Case) -> Option<f64> {
     let coverage = guarded(|| case.design.row().ok().map(|row| row.coverage()));
     coverage.ok().flatten().and_then(finite)
-}
-
-fn flexure(case: &Case) -> Result<(FlexureResult, Flexure), Outcome> {
-    if case.flexure.method == Method::Chain {
-        chain_fits(case)?;
-    }
-    let flexure = guarded(|| flexure::solve(&case.design, &case.common, &case.flexure))?;
-    // Validation lets no case without mechanical meaning come here.
-    let flexure = flexure.map_err(|_| Outcome::Internal)?;
-    Ok((FlexureResult::new(&flexure), flexure))
 }
 
 fn chain_fits(case: &Case) -> Result<(), Outcome> {
@@ -150,6 +192,8 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         Measure::Coverage if result.coverage.is_some() => return None,
         // A formula fails only if the program does.
         Measure::Coverage => (Outcome::Internal, None),
+        // Derivatives exist where the measures do.
+        Measure::Sensitivity => return None,
         Measure::Puncture => {
             (result.puncture?.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture))
         }
@@ -159,6 +203,11 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
     };
     let failure = Failure { measure, outcome, end: end.unwrap_or_default() };
     (outcome != Outcome::Complete).then_some(failure)
+}
+
+/// The solution of a case. Validation lets no case without mechanical meaning come here.
+fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
+    guarded(f)?.map_err(|_| Outcome::Internal)
 }
 
 /// The value of `f`, or [`Outcome::Internal`] if it panics.

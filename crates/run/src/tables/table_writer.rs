@@ -4,7 +4,11 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use results::columns::tables;
-use results::{Contents, CsvFile, CsvFormat, RunFolder, failure_columns};
+use results::{
+    Contents, CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, OutputError,
+    RunFolder, failure_columns,
+};
+use sweep::Measure;
 
 use super::changes;
 use super::run_info::RunInfo;
@@ -82,11 +86,13 @@ impl<'a> TableWriter<'a> {
         }
         let columns = failure_columns(archive.sweep());
         let mut failures = CsvFile::create(folder, RunFolder::FAILURES, format, &columns)?;
+        let mut derivatives = Derivatives::create(archive, folder, format)?;
         let mut summary = Summary::default();
         for entry in archive.entries()?.in_order() {
             let row = archive.row(entry?);
             designs.iter_mut().try_for_each(|table| table.write(&row))?;
             row.failures().try_for_each(|failure| failures.write(&failure))?;
+            derivatives.write(&row)?;
             summary.add(&row);
         }
         let mut files = Vec::new();
@@ -94,7 +100,36 @@ impl<'a> TableWriter<'a> {
             files.push((layout.file.clone(), table.finish()?));
         }
         files.push((RunFolder::FAILURES.to_owned(), failures.finish()?));
+        files.extend(derivatives.finish()?);
         files.extend(changes::write(archive, folder, format)?);
         Ok((summary, files))
+    }
+}
+
+/// The table of derivatives, if the sweep asks for one.
+struct Derivatives(Option<CsvFile<'static, DerivativeRow>>);
+
+impl Derivatives {
+    fn create(
+        archive: &Archive,
+        folder: &RunFolder,
+        format: CsvFormat,
+    ) -> Result<Self, OutputError> {
+        if !archive.sweep().measures().contains(&Measure::Sensitivity) {
+            return Ok(Self(None));
+        }
+        let table = CsvFile::create(folder, RunFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS)?;
+        Ok(Self(Some(table)))
+    }
+
+    fn write(&mut self, row: &DesignRow) -> Result<(), OutputError> {
+        let Some(table) = &mut self.0 else { return Ok(()) };
+        row.derivatives().try_for_each(|derivative| table.write(&derivative))
+    }
+
+    /// Puts the table in its place and returns its name and what vouches for it, if there is one.
+    fn finish(self) -> Result<Option<(String, String)>, OutputError> {
+        let Some(table) = self.0 else { return Ok(None) };
+        Ok(Some((RunFolder::SENSITIVITY.to_owned(), table.finish()?)))
     }
 }

@@ -4,3 +4,4 @@ mod fuzz;
 mod journals;
 mod reference;
 mod rows;
+mod sensitivity;

@@ -1,26 +1,44 @@
 //! The problem of bending a strip, and its solution with a resolution that suffices.
 
 use contact::ContactLaw;
-use geometry::OutOfRange;
+use geometry::{OutOfRange, Row};
 use membrane::{Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
 use super::first_touch::contact_curvature;
+use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Extent, Strip};
 use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinState};
-use crate::record::Record;
+use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
 const TOLERANCE: f64 = 1e-4;
 
+/// A strip that was bent to the end of its path.
+pub(crate) struct Bent {
+    pub(crate) record: Record<Strip>,
+    pub(crate) path: Path<Strip>,
+    pub(crate) status: Status,
+    /// The largest change of any measure with a finer resolution; `None` where there is none.
+    error: Option<f64>,
+    steps: Vec<Vec<Step>>,
+}
+
+impl Bent {
+    /// The error of a path that came to its end; the measures of another have none.
+    fn final_error(&self) -> Option<f64> {
+        self.error.filter(|_| self.status == Status::Complete)
+    }
+}
+
 /// A strip to be bent.
 pub(crate) struct FlexureProblem<'a> {
-    common: &'a Common,
+    pub(crate) common: &'a Common,
     parameters: &'a FlexureParameters,
     pub(crate) row: Arrangement,
     half_base: f64,
@@ -41,7 +59,16 @@ impl<'a> FlexureProblem<'a> {
         common: &'a Common,
         parameters: &'a FlexureParameters,
     ) -> Result<Self, OutOfRange> {
-        let row = design.row()?;
+        Self::of_row(design.row()?, design, common, parameters)
+    }
+
+    /// The strip of a design with this row.
+    pub(crate) fn of_row(
+        row: Row,
+        design: &Design,
+        common: &'a Common,
+        parameters: &'a FlexureParameters,
+    ) -> Result<Self, OutOfRange> {
         let (gaps, solved) = match parameters.method {
             Method::UnitCell => (gaps(&row, parameters), 1),
             Method::Chain => {
@@ -110,33 +137,41 @@ impl<'a> FlexureProblem<'a> {
 
     /// Bends the strip, with finer and finer resolution until it suffices.
     pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
-        Ok(self.resolved()?.0)
+        Ok(self.flexure(self.resolved(&[])?.0))
     }
 
     /// The strip with the resolution that suffices.
     pub(crate) fn resolved_strip(&self) -> Result<Strip, OutOfRange> {
-        self.strip(self.resolved()?.1)
+        self.strip(self.resolved(&[])?.1)
     }
 
-    fn resolved(&self) -> Result<(Flexure, Resolution), OutOfRange> {
+    /// The strip bent with the resolution that suffices, the largest values of some functions followed.
+    pub(crate) fn resolved(
+        &self,
+        functions: &[PathFunction<Strip>],
+    ) -> Result<(Bent, Resolution), OutOfRange> {
         let mut resolution = self.parameters.elements_per_gap.coarsest();
         loop {
-            let flexure = self.bend(resolution)?;
-            let suffices = flexure.measures.error.is_none_or(|error| error <= TOLERANCE);
+            let bent = self.bend(resolution, functions)?;
+            let suffices = bent.final_error().is_none_or(|error| error <= TOLERANCE);
             match resolution.finer() {
                 Some(finer) if !suffices && finer.is_usual() => resolution = finer,
-                _ => return Ok((flexure, resolution)),
+                _ => return Ok((bent, resolution)),
             }
         }
     }
 
-    fn bend(&self, resolution: Resolution) -> Result<Flexure, OutOfRange> {
+    fn bend(
+        &self,
+        resolution: Resolution,
+        functions: &[PathFunction<Strip>],
+    ) -> Result<Bent, OutOfRange> {
         let strip = self.strip(resolution)?;
         let rest = SkinState::at_rest(&strip);
         let alike = matches!(self.row, Arrangement::Even(_));
         let mut steps = vec![strip.steps(&rest.z)];
         let mut path = Path::new(strip, rest, self.common.solver);
-        let mut record = Record::new(&path);
+        let mut record = Record::new(&path, functions);
         let mut flush = false;
         while let Some(point) = path.next() {
             // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
@@ -151,6 +186,12 @@ impl<'a> FlexureProblem<'a> {
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
         let error = self.error(resolution, &path, &record)?;
+        Ok(Bent { record, path, status, error, steps })
+    }
+
+    /// The result of a strip that was bent.
+    pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
+        let Bent { record, mut path, status, error, steps } = bent;
         let measures =
             FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
         let measures =
@@ -161,7 +202,7 @@ impl<'a> FlexureProblem<'a> {
         };
         let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
         let Record { path, events, history, .. } = record;
-        Ok(Flexure { status, measures, path, events, history, gaps, steps, row })
+        Flexure { status, measures, path, events, history, gaps, steps, row }
     }
 
     /// The largest change of any measure with a finer resolution; `None` where there is none.

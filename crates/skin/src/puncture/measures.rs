@@ -66,17 +66,11 @@ pub struct PunctureMeasures {
 }
 
 impl PunctureMeasures {
-    /// The measures of a path that came to its end. `modulus` is `E*/E_s`: stiffness is measured in `E_s t`, the force in
-    /// `E* t²`.
-    pub(crate) fn new(
-        record: &Record<Chain>,
-        folds: &[Fold],
-        path: &mut Path<Chain>,
-        modulus: f64,
-    ) -> Self {
+    /// The measures of a path that came to its end. Stiffness is measured in `E_s t`, the force in `E* t²`.
+    pub(crate) fn new(record: &Record<Chain>, folds: &[Fold], path: &mut Path<Chain>) -> Self {
         let max_stiffness = record.largest_stiffness(path);
         let (chain, state) = (path.system(), &path.point().state);
-        let end = chain.path_point(path.point());
+        let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);
         let peak = peak(&record.path);
         let scales = 0..chain.layout.scales();
         let fold = folds.first().map(|fold| fold.point);

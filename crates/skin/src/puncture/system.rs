@@ -98,6 +98,8 @@ pub(crate) struct Chain {
     pub(crate) contacts: Contacts,
     /// `L/t`.
     pub(crate) length: f64,
+    /// `E*/E_s`, in which stiffness is measured.
+    pub(crate) plane_modulus: f64,
     pub(super) half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     pub(super) direct: [f64; 3],
@@ -144,6 +146,7 @@ impl Chain {
             layout,
             contacts: Contacts::new(arrangement, law, scales, forces),
             length,
+            plane_modulus: 1.0,
             half_base: a,
             direct,
             neighbours: neighbours.collect(),

@@ -17,11 +17,16 @@ pub enum Measure {
     Puncture,
     /// The bending of a strip of membrane that carries the scales.
     Flexure,
+    /// The derivatives of the other measures with respect to every continuous parameter.
+    Sensitivity,
 }
 
 impl Measure {
     /// All measures, in the order of the tables.
-    pub const ALL: [Self; 3] = [Self::Coverage, Self::Puncture, Self::Flexure];
+    pub const ALL: [Self; 4] = [Self::Coverage, Self::Puncture, Self::Flexure, Self::Sensitivity];
+
+    /// The measures of a sweep that names none.
+    pub const USUAL: [Self; 3] = [Self::Coverage, Self::Puncture, Self::Flexure];
 
     /// The name of the measure in a definition.
     pub fn key(self) -> &'static str {
@@ -29,6 +34,7 @@ impl Measure {
             Self::Coverage => "coverage",
             Self::Puncture => "puncture",
             Self::Flexure => "flexure",
+            Self::Sensitivity => "sensitivity",
         }
     }
 
@@ -50,6 +56,10 @@ impl Measure {
                 return Err(Problem::Twice { value: item.to_string() });
             }
             measures.push(measure);
+        }
+        if measures == [Self::Sensitivity] {
+            let expected = "sensitivity together with a measure that has derivatives".to_owned();
+            return Err(not_accepted(value, expected).into());
         }
         measures.sort();
         Ok(measures)

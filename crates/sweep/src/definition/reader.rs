@@ -105,7 +105,7 @@ impl Reader {
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
         InvalidDefinition::of(self.refused)?;
-        let measures = self.measures.unwrap_or_else(|| Measure::ALL.to_vec());
+        let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let axes = axes::ordered(self.axes.into_iter().map(|written| written.axis).collect());
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid })

@@ -1,0 +1,58 @@
+//! The derivative of a measure with respect to a parameter, as it is kept and written.
+
+use serde::{Deserialize, Serialize};
+use skin::Derivative;
+
+use super::failure::finite;
+
+/// The derivative of a measure of a design with respect to a parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterDerivative {
+    /// Name of the measure, as its column.
+    pub measure: String,
+    /// Key of the parameter.
+    pub parameter: String,
+    /// Value of the parameter.
+    pub at: f64,
+    /// Value of the measure.
+    pub value: f64,
+    /// Derivative where the parameter decreases.
+    pub left: Option<f64>,
+    /// Derivative where the parameter increases.
+    pub right: Option<f64>,
+    /// The change at a kink; `None` where both derivatives are the same.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kink: Option<String>,
+}
+
+impl ParameterDerivative {
+    /// The derivative with respect to the parameter `key` where it has the value `at`.
+    pub fn new(key: &str, at: f64, derivative: Derivative) -> Self {
+        let Derivative { measure, value, left, right, kink, .. } = derivative;
+        Self {
+            measure: measure.to_owned(),
+            parameter: key.to_owned(),
+            at,
+            value,
+            left: left.and_then(finite),
+            right: right.and_then(finite),
+            kink,
+        }
+    }
+
+    /// The derivative; `None` at a kink.
+    pub fn derivative(&self) -> Option<f64> {
+        if self.kink.is_none() { self.left } else { None }
+    }
+
+    /// The elasticity `d ln m / d ln q`; `None` at a kink, and where the measure is zero.
+    pub fn elasticity(&self) -> Option<f64> {
+        finite(self.derivative()? * self.at / self.value)
+    }
+
+    /// A one-sided derivative, at a kink.
+    pub(crate) fn at_kink(&self, side: Option<f64>) -> Option<f64> {
+        side.filter(|_| self.kink.is_some())
+    }
+}

@@ -1,0 +1,164 @@
+//! Derivatives of all measures of a design with respect to all continuous parameters.
+
+use geometry::{OutOfRange, RowChange};
+use results::ParameterDerivative;
+use skin::flexure::{self, Flexure, FlexureInput};
+use skin::puncture::{self, Puncture, PunctureInput};
+use skin::{Derivative, Neighbours, Variation};
+use substrate::{OneSided, RowStiffness, StiffnessSlopes};
+use sweep::{Case, PARAMETERS, Parameter};
+
+/// Step of the differences of explicit functions, as a part of the parameter.
+const STEP: f64 = 2e-6;
+
+/// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
+const MESH: &str = "the mesh of the substrate is graded by another length";
+
+/// A parameter with the sections of the definition that a measure depends on.
+fn parameters(sections: &[&str]) -> Vec<&'static Parameter> {
+    let belongs = |p: &&Parameter| p.is_continuous() && sections.contains(&p.section);
+    PARAMETERS.iter().filter(belongs).collect()
+}
+
+/// Punctures the design of `case`, and differentiates its measures.
+pub(super) fn puncture(
+    case: &Case,
+    slopes: &StiffnessSlopes,
+) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
+    let parameters = parameters(&["designs", "scale", "substrate", "contact", "puncture"]);
+    let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
+    let variations: Vec<_> =
+        parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
+    let input = punctured(case, slopes.stiffness.clone());
+    let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
+    Ok((puncture, named(case, &parameters, derivatives)))
+}
+
+/// Bends the design of `case`, and differentiates its measures.
+pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
+    let mut parameters = parameters(&["designs", "scale", "contact", "flexure"]);
+    // The length of a strip does not count where its gaps do.
+    parameters.retain(|p| p.key != "membrane_length_over_t" || case.flexure.gaps.is_none());
+    let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: None };
+    let variations: Vec<_> =
+        parameters.iter().filter_map(|p| varied(p).variation(Varied::bent)).collect();
+    let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
+    Ok((flexure, named(case, &parameters, derivatives)))
+}
+
+/// The derivatives of the coverage of `case`.
+pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
+    let Ok(row) = case.design.row() else { return Vec::new() };
+    let parameters = parameters(&["designs"]);
+    let half_base = case.design.half_base() / case.design.length;
+    let shift = row.scale().slant().cos().powi(-2) * 1.0_f64.to_radians();
+    let derivative = |(parameter, key): (usize, &str)| {
+        let change = match key {
+            "gap_over_t" => RowChange { gap: 1.0, ..RowChange::default() },
+            "length_over_t" => RowChange { half_base, ..RowChange::default() },
+            _ => RowChange { shift, ..RowChange::default() },
+        };
+        let RowChange { gap, half_base, shift } = change;
+        let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
+        let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
+        Derivative {
+            measure: "coverage",
+            parameter,
+            value: row.coverage(),
+            left: Some(left),
+            right: Some(right),
+            kink: ((left - right).abs() > 1e-9).then(|| "another scale under the line".to_owned()),
+        }
+    };
+    let keys = parameters.iter().map(|parameter| parameter.key).enumerate();
+    named(case, &parameters, keys.map(derivative).collect())
+}
+
+/// Derivatives with the names and values of the parameters.
+fn named(
+    case: &Case,
+    parameters: &[&'static Parameter],
+    derivatives: Vec<Derivative>,
+) -> Vec<ParameterDerivative> {
+    let named = |derivative: Derivative| {
+        let parameter = parameters[derivative.parameter];
+        let value = parameter.get(case).number()?;
+        Some(ParameterDerivative::new(parameter.key, value, derivative))
+    };
+    derivatives.into_iter().filter_map(named).collect()
+}
+
+fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
+    let Case { design, common, puncture: parameters, .. } = *case;
+    PunctureInput { design, stiffness, common, parameters }
+}
+
+fn bent(case: &Case) -> FlexureInput {
+    let Case { design, common, flexure: parameters, .. } = *case;
+    FlexureInput { design, common, parameters }
+}
+
+/// A case whose parameter varies.
+struct Varied<'a> {
+    case: &'a Case,
+    parameter: &'static Parameter,
+    slopes: Option<&'a StiffnessSlopes>,
+}
+
+/// A side of a parameter.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Left,
+    Right,
+}
+
+impl Varied<'_> {
+    /// The variation of what a function makes of the case for a larger value of the parameter, seen from one side.
+    fn variation<P>(&self, of: fn(&Self, f64, Side) -> Option<P>) -> Option<Variation<P>> {
+        let step = STEP * self.parameter.size(self.case)?;
+        let on = |side| {
+            let [below, above] = [-step, step].map(|by| of(self, by, side));
+            Some(Neighbours { below: below?, above: above?, step })
+        };
+        let right = self.has_kink().then(|| on(Side::Right)).flatten();
+        Some(Variation { neighbours: on(Side::Left)?, right: right.map(|right| (right, MESH)) })
+    }
+
+    /// Whether the stiffness of the substrate has other derivatives on the right than on the left.
+    fn has_kink(&self) -> bool {
+        self.stiffness_rate(Side::Left) != self.stiffness_rate(Side::Right)
+    }
+
+    fn punctured(&self, by: f64, side: Side) -> Option<PunctureInput> {
+        let stiffness = self.slopes?.stiffness.clone();
+        let stiffness = match self.stiffness_rate(side) {
+            Some(rate) => stiffness + rate * by,
+            None => stiffness,
+        };
+        Some(punctured(&self.parameter.moved(self.case, by)?, stiffness))
+    }
+
+    fn bent(&self, by: f64, _side: Side) -> Option<FlexureInput> {
+        Some(bent(&self.parameter.moved(self.case, by)?))
+    }
+
+    /// The derivative of the stiffness with respect to the parameter; `None` if there is none.
+    fn stiffness_rate(&self, side: Side) -> Option<RowStiffness> {
+        let design = &self.case.design;
+        let slopes = self.slopes?;
+        let a = design.half_base();
+        let on = |slope: &OneSided, side| match side {
+            Side::Left => slope.left.clone(),
+            Side::Right => slope.right.clone(),
+        };
+        // A longer scale has a footprint of smaller ratios.
+        let opposite = if side == Side::Left { Side::Right } else { Side::Left };
+        match self.parameter.key {
+            "gap_over_t" => Some(on(&slopes.by_gap, side) * a.recip()),
+            "width_over_t" => Some(on(&slopes.by_width, side) * a.recip()),
+            "length_over_t" => Some(on(&slopes.by_size, opposite) * -design.length.recip()),
+            "poisson_ratio" => Some(slopes.by_poisson_ratio.clone()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Derivatives of all measures against differences of whole solutions.
+
+mod branches;
+mod designs;
+mod differences;
+mod kinks;
+
+use results::ParameterDerivative;
+use run::Evaluator;
+use sweep::{Case, Measure, Parameter};
+
+use designs::random_case;
+use differences::Differences;
+
+/// Relative error that a derivative may have against differences.
+const TOLERANCE: f64 = 1e-6;
+
+fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
+    let solved = Evaluator::new(&Measure::ALL).solve(designs::number(), case);
+    solved.row.result.sensitivity
+}
+
+/// Compares the derivatives of `case` with differences, component by component and, of each measure, along its gradient. Returns
+/// how many were compared.
+fn compare(case: &Case) -> usize {
+    let (derivatives, differences) = (derivatives(case), Differences::of(case));
+    let mut compared = 0;
+    for derivative in &derivatives {
+        let Some(ours) = derivative.derivative() else { continue };
+        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let size = parameter.size(case).unwrap();
+        let along = [(parameter, size)];
+        let Some(off) = differences.off(&derivative.measure, &along, ours * size) else { continue };
+        let ParameterDerivative { measure, parameter, .. } = derivative;
+        assert!(off <= TOLERANCE, "{measure} by {parameter}: {ours:e} is off by {off:e}, {case:?}");
+        compared += 1;
+    }
+    compared + compare_along_gradients(case, &derivatives, &differences)
+}
+
+/// Compares the derivative of each measure along its own gradient, where no error averages out.
+fn compare_along_gradients(
+    case: &Case,
+    derivatives: &[ParameterDerivative],
+    differences: &Differences,
+) -> usize {
+    let mut measures: Vec<_> = derivatives.iter().map(|d| d.measure.as_str()).collect();
+    measures.dedup();
+    let mut compared = 0;
+    for measure in measures {
+        let mut gradient = Vec::new();
+        for derivative in derivatives.iter().filter(|d| d.measure == measure) {
+            let parameter = Parameter::named(&derivative.parameter).unwrap();
+            let size = parameter.size(case).unwrap();
+            gradient.extend(derivative.derivative().map(|slope| (parameter, size, slope * size)));
+        }
+        let length = gradient.iter().map(|(.., slope)| slope * slope).sum::<f64>().sqrt();
+        if length == 0.0 {
+            continue;
+        }
+        let along = gradient.iter().map(|(p, size, slope)| (*p, size * slope / length));
+        let along: Vec<_> = along.collect();
+        let Some(off) = differences.off(measure, &along, length) else { continue };
+        assert!(off <= TOLERANCE, "{measure} along its gradient is off by {off:e}, {case:?}");
+        compared += 1;
+    }
+    compared
+}
+
+fn compare_designs(count: u64) {
+    let compared: usize = (0..count).map(|number| compare(&random_case(number))).sum();
+    assert!(compared as u64 > 100 * count, "{compared}");
+}
+
+#[test]
+fn derivatives_are_those_of_whole_solutions() {
+    compare_designs(12);
+}
+
+/// 300 designs.
+#[test]
+#[ignore = "takes minutes"]
+fn derivatives_of_many_designs_are_those_of_whole_solutions() {
+    compare_designs(300);
+}

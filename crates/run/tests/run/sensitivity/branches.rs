@@ -1,0 +1,69 @@
+//! The branches of the contact that the designs of these tests end in.
+
+use std::collections::{BTreeSet, HashMap};
+
+use run::Evaluator;
+use skin::ContactChange;
+use sweep::{Case, Measure};
+
+use super::compare;
+use super::designs::{self, random_case};
+
+/// The branches in which the contacts of a puncture and a bent strip end: a corner on an edge, corners together, a tip on the
+/// neighbour's end, and sides that lie flush.
+fn branches(case: &Case) -> BTreeSet<&'static str> {
+    let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
+    let punctured = solved.puncture.iter().flat_map(|p| &p.events);
+    let punctured = punctured.map(|e| (e.left_scale, e.corner_edge.name(), e.change));
+    let bent = solved.flexure.iter().flat_map(|f| &f.events);
+    let bent = bent.map(|e| (e.left_scale, e.corner_edge.name(), e.change));
+    let mut branches = ends(punctured);
+    branches.extend(ends(bent));
+    branches
+}
+
+fn ends(
+    events: impl Iterator<Item = (Option<i64>, &'static str, ContactChange)>,
+) -> BTreeSet<&'static str> {
+    let mut ends = HashMap::new();
+    for (pair, edge, change) in events {
+        let is_upper = edge.starts_with('T');
+        let on_edge = if edge.ends_with("edge") { "edge" } else { "tip" };
+        let before = ends.get(&(pair, is_upper)).copied();
+        let after = match change {
+            ContactChange::Closed if before.is_some() => Some("flush"),
+            ContactChange::Closed | ContactChange::LeftCorner | ContactChange::HandedOver => {
+                Some(on_edge)
+            }
+            ContactChange::ReachedCorner => Some("corner"),
+            ContactChange::Opened if before == Some("flush") => Some(on_edge),
+            ContactChange::Opened => None,
+        };
+        match after {
+            Some(branch) => ends.insert((pair, is_upper), branch),
+            None => ends.remove(&(pair, is_upper)),
+        };
+    }
+    ends.into_values().collect()
+}
+
+/// Steep designs at large tilts, of which a few end in the rarer branches.
+fn steep_case(number: u64) -> Case {
+    let mut case = random_case(number);
+    case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;
+    case.design.slant_deg = 55.0 + 28.0 * (number % 11) as f64 / 11.0;
+    case.design.gap *= 0.5;
+    case
+}
+
+/// Derivatives of designs that end in every branch of the contact are those of whole solutions.
+#[test]
+fn every_branch_of_the_contact_is_exercised() {
+    let mut exercised = BTreeSet::new();
+    for number in [43, 76, 97, 118] {
+        let case = steep_case(number);
+        exercised.extend(branches(&case));
+        assert!(compare(&case) > 100);
+    }
+    assert_eq!(exercised, BTreeSet::from(["corner", "edge", "flush", "tip"]));
+}

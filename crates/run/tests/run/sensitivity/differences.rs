@@ -1,0 +1,130 @@
+//! Differences of whole solutions.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use results::DesignResult;
+use run::Evaluator;
+use sweep::{Case, Measure, Parameter};
+
+/// A direction in which parameters change together.
+pub type Direction = [(&'static Parameter, f64)];
+
+/// Differences of the solutions of designs near one.
+pub struct Differences<'a> {
+    case: &'a Case,
+    /// Results by direction and step.
+    solved: RefCell<HashMap<(String, i32), DesignResult>>,
+}
+
+/// The smallest step; others are its multiples.
+const STEP: f64 = 5e-5;
+
+/// Steps, as multiples: a short one for designs near a kink, longer ones for derivatives that drown in round-off.
+const STEPS: [i32; 3] = [32, 8, 2];
+
+/// Differences with neighbouring steps that agree to this part are those of a smooth measure.
+const AGREE: f64 = 1e-4;
+
+/// Elasticity below which a derivative is round-off, of the solver and of what is differenced.
+const NOISE: f64 = 1e-7;
+
+/// Part of a largest stiffness to which its search is exact, with some allowance: it ends where three values agree to 1e-10.
+const SEARCHED: f64 = 2e-10;
+
+impl<'a> Differences<'a> {
+    pub fn of(case: &'a Case) -> Self {
+        Self { case, solved: RefCell::default() }
+    }
+
+    /// How far a derivative along a direction is from the centred difference that is nearest to it, relative to it. `None` if the
+    /// measure does not exist nearby, or has a kink nearby.
+    pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
+        let at = |steps: i32| self.value(measure, along, steps);
+        let estimates = STEPS.map(|steps| {
+            let difference = |steps: i32| -> Option<f64> {
+                Some((at(steps)? - at(-steps)?) / (2.0 * f64::from(steps) * STEP))
+            };
+            let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
+            Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
+        });
+        let estimates: Vec<_> = estimates.into_iter().flatten().collect();
+        let distance = |&(estimate, step)| self.distance(measure, estimate, ours, step);
+        // Where no two of them agree there is a kink between.
+        let agree = |pair: &[(f64, f64)]| {
+            let [a, b] = [pair[0].0, pair[1].0];
+            (a - b).abs() <= AGREE * a.abs().max(b.abs())
+        };
+        let any = estimates.windows(2).any(agree);
+        let nearest = estimates.iter().filter_map(distance).reduce(f64::min)?;
+        (any || nearest == 0.0).then_some(nearest)
+    }
+
+    /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.
+    pub fn off_one_sided(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
+        let at = |steps: i32| self.value(measure, along, steps);
+        let offs = STEPS.iter().filter_map(|&steps| {
+            let difference = |h: i32| -> Option<f64> {
+                let rise = -3.0 * at(0)? + 4.0 * at(h)? - at(2 * h)?;
+                Some(rise / (2.0 * f64::from(h) * STEP))
+            };
+            let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
+            self.distance(measure, fine + (fine - rough) / 3.0, ours, f64::from(steps) * STEP)
+        });
+        offs.reduce(f64::min)
+    }
+
+    fn distance(&self, measure: &str, difference: f64, ours: f64, step: f64) -> Option<f64> {
+        let is_searched = ["max_stiffness", "compliance"].contains(&measure);
+        let part = NOISE + if is_searched { SEARCHED / step } else { 0.0 };
+        let noise = part * self.value(measure, &[], 0)?.abs();
+        Some(((ours - difference).abs() - noise).max(0.0) / ours.abs().max(1e-300))
+    }
+
+    fn value(&self, measure: &str, along: &Direction, steps: i32) -> Option<f64> {
+        let along = if steps == 0 { &[] } else { along };
+        let key = along.iter().map(|(parameter, rate)| format!("{} {rate:e} ", parameter.key));
+        let mut solved = self.solved.borrow_mut();
+        let result = solved.entry((key.collect(), steps)).or_insert_with(|| {
+            let moved = along.iter().try_fold(*self.case, |case, (parameter, rate)| {
+                parameter.moved(&case, f64::from(steps) * STEP * rate)
+            });
+            solve(&moved.unwrap())
+        });
+        value(result, measure)
+    }
+}
+
+fn solve(case: &Case) -> DesignResult {
+    Evaluator::new(&Measure::USUAL).solve(super::designs::number(), case).row.result
+}
+
+/// The measure of that name.
+pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
+    let puncture = result.puncture.map(|puncture| puncture.measures)?;
+    let flexure = result.flexure.map(|flexure| flexure.measures)?;
+    match name {
+        "coverage" => result.coverage,
+        "critical_force" => puncture.critical_force,
+        "peak_force" => puncture.peak_force,
+        "critical_displacement" => puncture.critical_displacement,
+        "penetration" => puncture.penetration,
+        "sink" => puncture.sink,
+        "first_contact_displacement" => puncture.first_contact_displacement,
+        "initial_stiffness" => puncture.initial_stiffness,
+        "max_stiffness" => puncture.max_stiffness,
+        "secant_stiffness" => puncture.secant_stiffness,
+        "gap_stretch_min" => puncture.gap_stretch_min,
+        "gap_stretch_max" => puncture.gap_stretch_max,
+        "sound_force" => puncture.sound_force,
+        "peak_displacement" => puncture.peak_displacement,
+        "peak_tilt_deg" => puncture.peak_tilt_deg,
+        "compliance" => flexure.compliance,
+        "initial_compliance" => flexure.initial_compliance,
+        "first_contact_curvature" => flexure.first_contact_curvature,
+        "max_moment" => flexure.max_moment,
+        "axial_energy_share" => flexure.axial_energy_share,
+        "membrane_strain_max" => flexure.membrane_strain_max,
+        other => panic!("{other}"),
+    }
+}

@@ -1,0 +1,126 @@
+//! Designs at a kink: both one-sided derivatives against differences of whole solutions on that side.
+
+use results::ParameterDerivative;
+use run::Evaluator;
+use sweep::{Case, Measure, Parameter};
+
+use super::designs::{self, random_case};
+use super::differences::Differences;
+use super::{TOLERANCE, derivatives};
+
+/// Compares both one-sided derivatives of every measure that has a kink. Returns them.
+fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
+    let differences = Differences::of(case);
+    let mut kinks = derivatives(case);
+    kinks.retain(|derivative| derivative.kink.is_some());
+    for derivative in &kinks {
+        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let size = parameter.size(case).unwrap();
+        for (side, ours) in [(-size, derivative.left), (size, derivative.right)] {
+            let jumps = ["max_stiffness", "compliance"].contains(&derivative.measure.as_str());
+            let Some(ours) = ours else {
+                assert!(jumps, "no derivative: {derivative:?}");
+                continue;
+            };
+            let along = [(parameter, side)];
+            let off = differences.off_one_sided(&derivative.measure, &along, ours * side);
+            assert!(off.unwrap() <= TOLERANCE, "{off:?} {side} {derivative:?} {case:?}");
+        }
+    }
+    kinks
+}
+
+/// The critical tilt is that of a change of a contact.
+#[test]
+fn where_a_contact_changes_at_the_end_both_sides_are_right() {
+    let mut changes = std::collections::BTreeSet::new();
+    for number in 0..6 {
+        let mut case = random_case(number);
+        let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), &case);
+        for event in solved.puncture.iter().flat_map(|puncture| &puncture.events).skip(1).take(2) {
+            case.puncture.critical_tilt_deg = event.point.tilt_deg;
+            let kinks = compare_sides(&case);
+            assert!(kinks.iter().any(|k| k.measure == "critical_force"), "{event:?} {case:?}");
+            changes.insert(event.change.name());
+        }
+    }
+    assert!(changes.contains("closed"), "{changes:?}");
+}
+
+/// The gap at which two scales are equally deep.
+#[test]
+fn where_two_scales_are_equally_deep_both_sides_are_right() {
+    let deepest = |case: &Case| {
+        let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), case);
+        let scales = solved.puncture.unwrap().scales;
+        let a = case.design.half_base();
+        let depth = |s: &skin::puncture::ScaleState| {
+            a * s.rotation_deg.to_radians().sin().abs() - s.displacement[1]
+        };
+        scales.iter().max_by(|s, t| depth(s).total_cmp(&depth(t))).unwrap().scale
+    };
+    let mut found = 0;
+    for number in 0..12 {
+        let mut case = random_case(number);
+        let (mut low, mut high) = (0.05, 1.0);
+        let at = |gap: f64| Case { design: skin::Design { gap, ..case.design }, ..case };
+        if deepest(&at(low)) == deepest(&at(high)) {
+            continue;
+        }
+        let of_low = deepest(&at(low));
+        while high - low > 1e-13 {
+            let middle = f64::midpoint(low, high);
+            *(if deepest(&at(middle)) == of_low { &mut low } else { &mut high }) = middle;
+        }
+        case.design.gap = low;
+        let kinks = compare_sides(&case);
+        assert!(kinks.iter().any(|k| k.measure == "penetration"), "{case:?}");
+        found += 1;
+    }
+    assert!(found > 0);
+}
+
+/// `d = t tan 45°` minus the base, and a line that ends at the corner of a base.
+#[test]
+fn where_the_row_of_coverage_changes_both_sides_are_right() {
+    let mut case = random_case(0);
+    (case.design.gap, case.design.length, case.design.slant_deg) = (0.75, 0.25, 45.0);
+    let kinks = compare_sides(&case);
+    assert!(kinks.iter().any(|kink| kink.measure == "coverage"), "{kinks:?}");
+}
+
+/// `b = 2 a`: the mesh of the substrate has a kink as small as its error.
+#[test]
+fn where_the_mesh_is_graded_anew_both_sides_are_right() {
+    let mut case = random_case(0);
+    (case.design.width, case.design.length) = (0.4, 0.4);
+    let kinks = compare_sides(&case);
+    let named = kinks.iter().filter(|k| k.kink.as_deref().unwrap().contains("mesh"));
+    assert!(named.count() > 5, "{kinks:?}");
+}
+
+/// Parameters at the end of their range, from which they can go one way only.
+#[test]
+fn at_the_end_of_a_range_derivatives_are_those_of_the_side_that_exists() {
+    let mut case = random_case(1);
+    (case.design.slant_deg, case.puncture.poisson_ratio) = (0.0, 0.5);
+    case.puncture.load_position = 1.0;
+    let differences = Differences::of(&case);
+    let mut compared = 0;
+    for derivative in derivatives(&case) {
+        let side = match derivative.parameter.as_str() {
+            "slant_deg" => 1.0,
+            "poisson_ratio" | "load_position" => -1.0,
+            _ => continue,
+        };
+        let Some(ours) = derivative.derivative() else { continue };
+        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let along = [(parameter, side)];
+        let Some(off) = differences.off_one_sided(&derivative.measure, &along, ours * side) else {
+            continue;
+        };
+        assert!(off <= TOLERANCE, "{off} {derivative:?}");
+        compared += usize::from(ours != 0.0);
+    }
+    assert!(compared > 10, "{compared}");
+}

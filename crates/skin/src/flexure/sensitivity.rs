@@ -1,0 +1,125 @@
+//! Derivatives of the measures of bending.
+
+use geometry::OutOfRange;
+use solver::Path;
+
+use super::mesh::Resolution;
+use super::problem::{Bent, FlexureProblem};
+use super::strip::Strip;
+use super::{Flexure, FlexureParameters};
+use crate::contacts::SkinState;
+use crate::record::{PathFunction, Record, Skin};
+use crate::sensitivity::{
+    self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
+};
+use crate::{Common, Design, Status};
+
+/// Everything that bending depends on.
+#[derive(Clone, Debug)]
+pub struct FlexureInput {
+    /// The design.
+    pub design: Design,
+    /// Contact law and solver settings.
+    pub common: Common,
+    /// The other parameters.
+    pub parameters: FlexureParameters,
+}
+
+/// Functions whose largest values are measures besides the stiffness.
+pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
+    |strip, state, _| strip.normalised_moment(&state.z),
+    |strip, state, _| strip.largest_strain(state),
+];
+const MOMENT: usize = 0;
+const STRAIN: usize = 1;
+
+/// Bends a strip as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter of
+/// each variation as well. There are none where the path did not come to its end.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn differentiate(
+    input: &FlexureInput,
+    variations: &[Variation<FlexureInput>],
+) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    let problem = FlexureProblem::even(design, common, parameters)?;
+    let (mut bent, resolution) = problem.resolved(&FOLLOWED)?;
+    let derivatives = match bent.status {
+        Status::Complete => problem.derivatives(&mut bent, resolution, variations)?,
+        _ => Vec::new(),
+    };
+    Ok((problem.flexure(bent), derivatives))
+}
+
+impl FlexureProblem<'_> {
+    fn derivatives(
+        &self,
+        bent: &mut Bent,
+        resolution: Resolution,
+        variations: &[Variation<FlexureInput>],
+    ) -> Result<Vec<Derivative>, OutOfRange> {
+        let spots = self.spots(&bent.record, &mut bent.path);
+        let strip = |input: &FlexureInput| {
+            let FlexureInput { design, common, parameters } = input;
+            let row = design.leaning_row()?;
+            FlexureProblem::of_row(row, design, common, parameters)?.strip(resolution)
+        };
+        let variations: Result<Vec<_>, _> =
+            variations.iter().map(|variation| variation.map(strip)).collect();
+        Ok(derivatives(bent.path.system(), spots, &variations?, &self.common.solver))
+    }
+
+    /// The places of the path at which measures are taken.
+    fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<Spot<Strip>> {
+        let settings = &self.common.solver;
+        let touching = record.touching().and_then(|point| first_contact(path.system(), point));
+        let stiffest = match touching {
+            Some(_) => record
+                .stiffness_summit(path)
+                .and_then(|summit| sensitivity::summit(path, &summit, Strip::stiffness, settings)),
+            // Without contact a strip is as stiff everywhere as at rest.
+            None => Some(rest(path.system())),
+        };
+        let [moment, strain] = [MOMENT, STRAIN].map(|k| {
+            let summit = record.summit(path, k)?;
+            sensitivity::summit(path, &summit, FOLLOWED[k], settings)
+        });
+        let strip = path.system();
+        let spot = |place, quantity| Spot { place, quantities: vec![quantity] };
+        vec![
+            spot(stiffest, compliance("compliance")),
+            spot(Some(rest(strip)), compliance("initial_compliance")),
+            spot(
+                touching,
+                quantity("first_contact_curvature", |s, state, _, _| s.curvature(&state.z)),
+            ),
+            spot(moment, quantity("max_moment", |s, state, _, _| s.normalised_moment(&state.z))),
+            spot(
+                Some(end(path)),
+                quantity("axial_energy_share", |s, state, _, _| axial_share(s, state)),
+            ),
+            spot(strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
+        ]
+    }
+}
+
+fn quantity(
+    measure: &'static str,
+    value: fn(&Strip, &SkinState, &[f64], usize) -> f64,
+) -> Quantity<Strip> {
+    Quantity { measure, value, largest: None, turns: false }
+}
+
+fn compliance(measure: &'static str) -> Quantity<Strip> {
+    let value = |strip: &Strip, state: &SkinState, direction: &[f64], _| {
+        strip.normalised_stiffness(strip.stiffness(state, direction)).recip()
+    };
+    Quantity { turns: true, ..quantity(measure, value) }
+}
+
+/// Part of the axial energy in the elastic energy.
+fn axial_share(strip: &Strip, state: &SkinState) -> f64 {
+    let membrane = strip.membrane_energy(state);
+    membrane.axial / (membrane.bending + membrane.axial + strip.contacts.energy(state))
+}

@@ -1,0 +1,204 @@
+//! Derivatives of the measures of a puncture.
+
+use geometry::OutOfRange;
+use solver::{Anchor, Path};
+use substrate::RowStiffness;
+
+use super::system::{Chain, Layout};
+use super::{Followed, Problem, Puncture, PunctureParameters, RowLength, Rows};
+use crate::contacts::SkinState;
+use crate::record::{PathFunction, Record, Skin};
+use crate::sensitivity::{
+    self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
+};
+use crate::{Common, Design, Status};
+
+/// Everything that a puncture depends on.
+#[derive(Clone, Debug)]
+pub struct PunctureInput {
+    /// The design.
+    pub design: Design,
+    /// The stiffness of the substrate under its row.
+    pub stiffness: RowStiffness,
+    /// Contact law and solver settings.
+    pub common: Common,
+    /// The other parameters.
+    pub parameters: PunctureParameters,
+}
+
+/// Functions whose largest values are measures besides the stiffness.
+const FOLLOWED: [PathFunction<Chain>; 1] = [|chain, state, _| chain.force(state)];
+const LOAD: usize = 0;
+
+/// Follows a puncture as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter
+/// of each variation as well. There are none where the path did not come to its end.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn differentiate(
+    input: &PunctureInput,
+    variations: &[Variation<PunctureInput>],
+) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
+    let PunctureInput { design, stiffness, common, parameters } = input;
+    let rows = Rows::Even(design.row()?);
+    let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
+    let (start, longest) = problem.start()?;
+    let mut followed = problem.follow(start, longest, &FOLLOWED)?;
+    let derivatives = match followed.status {
+        Status::Complete => problem.derivatives(&mut followed, variations)?,
+        _ => Vec::new(),
+    };
+    Ok((followed.puncture(), derivatives))
+}
+
+impl Problem<'_> {
+    fn derivatives(
+        &self,
+        followed: &mut Followed,
+        variations: &[Variation<PunctureInput>],
+    ) -> Result<Vec<Derivative>, OutOfRange> {
+        let Followed { record, folds, path, .. } = followed;
+        let spots = self.spots(record, path, !folds.is_empty());
+        let system = path.system();
+        let chain = |input: &PunctureInput| input.chain(system.layout);
+        let variations: Result<Vec<_>, _> =
+            variations.iter().map(|variation| variation.map(chain)).collect();
+        Ok(derivatives(system, spots, &variations?, &self.settings))
+    }
+
+    /// The places of the path at which measures are taken.
+    fn spots(
+        &self,
+        record: &Record<Chain>,
+        path: &mut Path<Chain>,
+        folds: bool,
+    ) -> Vec<Spot<Chain>> {
+        let settings = &self.settings;
+        let stiffest = record.stiffness_summit(path);
+        let stiffest = stiffest
+            .and_then(|summit| sensitivity::summit(path, &summit, Chain::stiffness, settings));
+        let highest = record.summit(path, LOAD);
+        let highest =
+            highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
+        // The place of a smooth maximum moves along the path, and what is not the largest there with it.
+        let moves = highest.as_ref().is_none_or(|place| place.anchor == Anchor::Still);
+        let at_peak = at_peak(!moves);
+        let chain = path.system();
+        let touching = record.touching().and_then(|point| first_contact(chain, point));
+        let spot = |place, quantities| Spot { place, quantities };
+        vec![
+            spot(Some(end(path)), at_end(folds)),
+            spot(highest, at_peak),
+            spot(touching, vec![depth("first_contact_displacement")]),
+            spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
+            spot(stiffest, vec![stiffness("max_stiffness")]),
+        ]
+    }
+}
+
+impl PunctureInput {
+    /// The system of a row of so many scales.
+    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
+        let Self { design, stiffness, common, parameters } = self;
+        let rows = Rows::Even(design.leaning_row()?);
+        let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
+        match parameters.scales {
+            RowLength::Auto => problem.part(layout),
+            RowLength::Scales(_) => problem.chain(layout),
+        }
+    }
+}
+
+/// The quantities at the largest force, those besides it only where its place is known to first order.
+fn at_peak(with_place: bool) -> Vec<Quantity<Chain>> {
+    let mut quantities = vec![force("peak_force")];
+    if with_place {
+        let tilt = |chain: &Chain, state: &SkinState, _: &[f64], _| chain.angle_deg(state);
+        quantities.extend([depth("peak_displacement"), quantity("peak_tilt_deg", tilt)]);
+    }
+    quantities
+}
+
+/// The quantities at the critical tilt. The force there is one that the model can answer for unless the surface folds.
+fn at_end(folds: bool) -> Vec<Quantity<Chain>> {
+    let sound = (!folds).then(|| force("sound_force"));
+    let mut quantities = critical();
+    quantities.extend(sound);
+    quantities
+}
+
+fn critical() -> Vec<Quantity<Chain>> {
+    vec![
+        force("critical_force"),
+        depth("critical_displacement"),
+        Quantity {
+            largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
+            ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
+        },
+        Quantity {
+            largest: Some(|chain, state| largest(chain, |i| sink(chain, state, i))),
+            ..quantity("sink", |chain, state, _, i| sink(chain, state, i))
+        },
+        quantity("secant_stiffness", |chain, state, _, _| {
+            chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
+        }),
+        Quantity {
+            largest: Some(|chain, state| extreme(chain, state, -1.0)),
+            ..quantity("gap_stretch_min", |chain, state, _, pair| stretch(chain, state, pair, -1.0))
+        },
+        Quantity {
+            largest: Some(|chain, state| extreme(chain, state, 1.0)),
+            ..quantity("gap_stretch_max", |chain, state, _, pair| stretch(chain, state, pair, 1.0))
+        },
+    ]
+}
+
+/// The pair whose gap is stretched most, or least with the `sign` −1. Beyond the last pair there are those that are not solved for.
+fn extreme(chain: &Chain, state: &SkinState, sign: f64) -> usize {
+    let pairs = chain.layout.scales() - 1;
+    let signed = |pair: usize| sign * chain.gap_stretch(state, pair);
+    let within = (0..pairs).max_by(|&i, &j| signed(i).total_cmp(&signed(j)));
+    let beyond = sign * stretch(chain, state, pairs, sign);
+    within.filter(|&pair| signed(pair) >= beyond).unwrap_or(pairs)
+}
+
+/// The stretch of the gap of a pair, or the largest or least of all for a pair that is not solved for.
+fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
+    if pair < chain.layout.scales() - 1 {
+        return chain.gap_stretch(state, pair);
+    }
+    let all = chain.gap_stretches(state);
+    all.map_or(f64::NAN, |all| if sign > 0.0 { all.max } else { all.min })
+}
+
+fn force(measure: &'static str) -> Quantity<Chain> {
+    quantity(measure, |chain, state, _, _| chain.force(state))
+}
+
+fn quantity(
+    measure: &'static str,
+    value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
+) -> Quantity<Chain> {
+    Quantity { measure, value, largest: None, turns: false }
+}
+
+fn depth(measure: &'static str) -> Quantity<Chain> {
+    quantity(measure, |chain, state, _, _| chain.depth(&state.z))
+}
+
+fn stiffness(measure: &'static str) -> Quantity<Chain> {
+    let value = |chain: &Chain, state: &SkinState, direction: &[f64], _| {
+        chain.plane_modulus * chain.stiffness(state, direction)
+    };
+    Quantity { turns: true, ..quantity(measure, value) }
+}
+
+fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {
+    -chain.displacement(&state.z, scale)[1]
+}
+
+/// The scale for which a number is the largest.
+fn largest(chain: &Chain, f: impl Fn(usize) -> f64) -> usize {
+    let scales = 0..chain.layout.scales();
+    scales.max_by(|&i, &j| f(i).total_cmp(&f(j))).unwrap_or_default()
+}

@@ -1,0 +1,254 @@
+//! Derivatives of the measures of a path with respect to parameters.
+//!
+//! A measure is a function of the equilibrium at one place of the path: its end, the first contact, the place of a maximum. The
+//! place moves with a parameter by (D2), the active set held, and the measure with it; explicit functions alone are differenced.
+//! Where a contact changes, or another scale takes over, within the step of these differences, the measure has a kink: both sides
+//! are solved for, each with its active set.
+
+mod places;
+
+use solver::{Change, Linearisation, Moved, Neighbours, Place, Settings};
+
+use crate::ContactChange;
+use crate::contacts::{Contacts, SkinState};
+use crate::record::Skin;
+
+pub(crate) use places::{end, first_contact, rest, summit};
+
+/// A problem for values of a parameter near its own.
+#[derive(Clone, Debug)]
+pub struct Variation<P> {
+    /// The problem for the neighbouring values, or for those on the left if `right` has others.
+    pub neighbours: Neighbours<P>,
+    /// The problem as it is seen from the right, and the name of the kink in it.
+    pub right: Option<(Neighbours<P>, &'static str)>,
+}
+
+/// The derivative of a measure with respect to a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derivative {
+    /// Name of the measure, as in the tables.
+    pub measure: &'static str,
+    /// Index of the parameter among the variations.
+    pub parameter: usize,
+    /// Value of the measure.
+    pub value: f64,
+    /// Derivative where the parameter decreases; `None` if there is none.
+    pub left: Option<f64>,
+    /// Derivative where the parameter increases; the other one but at a kink.
+    pub right: Option<f64>,
+    /// The change at a kink; `None` where the measure is smooth.
+    pub kink: Option<String>,
+}
+
+/// A quantity of an equilibrium, which may be the largest of one for each scale.
+pub(crate) struct Quantity<S: Skin> {
+    pub(crate) measure: &'static str,
+    /// The value by system, state, direction of the path, and scale.
+    pub(crate) value: fn(&S, &SkinState, &[f64], usize) -> f64,
+    /// The scale for which the value is the largest.
+    pub(crate) largest: Option<fn(&S, &SkinState) -> usize>,
+    /// Whether the direction of the path enters.
+    pub(crate) turns: bool,
+}
+
+/// Quantities that are taken at one place of a path.
+pub(crate) struct Spot<S: Skin> {
+    /// The place; `None` where it is not known.
+    pub(crate) place: Option<Place<S::Mode>>,
+    pub(crate) quantities: Vec<Quantity<S>>,
+}
+
+/// One-sided derivatives that differ by less than this part belong to a smooth measure.
+const SMOOTH: f64 = 1e-9;
+
+/// Contacts that change within the step of a difference, one after the other, are at most so many.
+const MOST_CHANGES: usize = 8;
+
+/// The derivatives of the quantities of all `spots` with respect to the parameter of each variation. `settings` are those with
+/// which the path was followed. A quantity whose place is not known has none.
+pub(crate) fn derivatives<S: Skin>(
+    system: &S,
+    spots: Vec<Spot<S>>,
+    variations: &[Variation<S>],
+    settings: &Settings,
+) -> Vec<Derivative> {
+    let mut derivatives = Vec::new();
+    for Spot { place, quantities } in merged(spots) {
+        let here = place.and_then(|place| Linearisation::new(system, place).ok());
+        let Some(here) = here else { continue };
+        let turns = quantities.iter().any(|quantity| quantity.turns);
+        let mut linearised = Linearised { system, settings, here, turns };
+        for (parameter, variation) in variations.iter().enumerate() {
+            let sides = linearised.sides(variation);
+            let of = |quantity| linearised.derivative(quantity, parameter, variation, &sides);
+            derivatives.extend(quantities.iter().map(of));
+        }
+    }
+    derivatives
+}
+
+/// The spots, those at one place together.
+fn merged<S: Skin>(spots: Vec<Spot<S>>) -> Vec<Spot<S>> {
+    let mut merged: Vec<Spot<S>> = Vec::new();
+    for spot in spots {
+        let is_there = |other: &&mut Spot<S>| match (&other.place, &spot.place) {
+            (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
+            _ => false,
+        };
+        match merged.iter_mut().find(is_there) {
+            Some(there) => there.quantities.extend(spot.quantities),
+            None => merged.push(spot),
+        }
+    }
+    merged
+}
+
+/// A place whose tangent is factorised.
+struct Linearised<'a, S: Skin> {
+    system: &'a S,
+    settings: &'a Settings,
+    here: Linearisation<S::Mode>,
+    turns: bool,
+}
+
+/// How a place moves on one side of a parameter.
+struct SideMotion<M> {
+    /// The place below and above; `None` if there is no equilibrium on this side.
+    moved: Option<[Moved<M>; 2]>,
+    /// The contact that changes on this side.
+    change: Option<String>,
+}
+
+impl<S: Skin> Linearised<'_, S> {
+    /// How the place moves on both sides of a parameter. The right side is `None` where it moves as on the left.
+    fn sides(
+        &mut self,
+        variation: &Variation<S>,
+    ) -> (SideMotion<S::Mode>, Option<SideMotion<S::Mode>>) {
+        let neighbours = &variation.neighbours;
+        let moved = self.here.moved(self.system, neighbours, self.turns);
+        let [left, right] = [&neighbours.below, &neighbours.above]
+            .into_iter()
+            .zip(&moved)
+            .map(|(system, moved)| self.here.violated(system, moved))
+            .collect::<Vec<_>>()
+            .try_into()
+            .unwrap_or([None; 2]);
+        if let Some((neighbours, _)) = &variation.right {
+            let beyond = self.here.moved(self.system, neighbours, self.turns);
+            let right = self.here.violated(&neighbours.above, &beyond[1]);
+            let right = self.side(neighbours, 1, beyond, right);
+            return (self.side(&variation.neighbours, 0, moved, left), Some(right));
+        }
+        if (left, right) == (None, None) {
+            return (SideMotion { moved: Some(moved), change: None }, None);
+        }
+        let right = self.side(neighbours, 1, moved.clone(), right);
+        (self.side(neighbours, 0, moved, left), Some(right))
+    }
+
+    /// How the place moves on one side, where `violated` is the first contact that has to change.
+    fn side(
+        &self,
+        neighbours: &Neighbours<S>,
+        side: usize,
+        mut moved: [Moved<S::Mode>; 2],
+        mut violated: Option<Change>,
+    ) -> SideMotion<S::Mode> {
+        let (mut here, mut name) = (self.here.clone(), None);
+        let at_side = [&neighbours.below, &neighbours.above][side];
+        for _ in 0..MOST_CHANGES {
+            let Some(change) = violated else {
+                return SideMotion { moved: Some(moved), change: name };
+            };
+            let next = here.beyond(self.system, change, self.settings);
+            let after = next.as_ref().map_or(&here.place().state, |next| &next.place().state);
+            name.get_or_insert_with(|| self.name(&here.place().state, after, change));
+            let Some(next) = next else { break };
+            here = next;
+            moved = here.moved(self.system, neighbours, self.turns);
+            violated = here.violated(at_side, &moved[side]);
+        }
+        SideMotion { moved: None, change: name }
+    }
+
+    /// The change of a contact in words.
+    fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
+        let edge = |state: &SkinState| Contacts::corner_edge(&state.mode, change.constraint);
+        let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
+        let scale = self.system.number(Contacts::left_of(change.constraint));
+        let scale = scale.map_or(String::new(), |scale| format!(" right of scale {scale}"));
+        format!("{edge}{scale} {}", ContactChange::of(after, change).name())
+    }
+
+    fn derivative(
+        &self,
+        quantity: &Quantity<S>,
+        parameter: usize,
+        variation: &Variation<S>,
+        (left, right): &(SideMotion<S::Mode>, Option<SideMotion<S::Mode>>),
+    ) -> Derivative {
+        let place = self.here.place();
+        let largest = |state: &SkinState| quantity.largest.map_or(0, |f| f(self.system, state));
+        let scale = largest(&place.state);
+        let value = (quantity.value)(self.system, &place.state, &place.direction, scale);
+        let beyond = variation.right.as_ref();
+        let of_right = beyond.map_or(&variation.neighbours, |(neighbours, _)| neighbours);
+        let left_rate = quantity.rate(&variation.neighbours, left, 0);
+        let right_rate = quantity.rate(of_right, right.as_ref().unwrap_or(left), 1);
+        let named = right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
+        let kink = || match (named, beyond) {
+            (Some(change), _) => change.clone(),
+            (None, Some((_, name))) => (*name).to_owned(),
+            (None, None) => "another scale takes over".to_owned(),
+        };
+        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
+        let jumps = quantity.turns && named.is_some();
+        let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
+        let [left, right] = [left_rate, right_rate].map(known);
+        let smooth = left.zip(right).is_some_and(|(left, right)| {
+            (left - right).abs() <= SMOOTH * left.abs().max(right.abs())
+        });
+        let kink = (!smooth).then(kink);
+        let right = if smooth { left } else { right };
+        Derivative { measure: quantity.measure, parameter, value, left, right, kink }
+    }
+}
+
+impl<S: Skin> Quantity<S> {
+    /// The derivative on one side. The scale is the one that is the largest there.
+    fn rate(
+        &self,
+        neighbours: &Neighbours<S>,
+        motion: &SideMotion<S::Mode>,
+        side: usize,
+    ) -> Option<f64> {
+        let moved = motion.moved.as_ref()?;
+        let systems = [&neighbours.below, &neighbours.above];
+        let scale = self.largest.map_or(0, |f| f(systems[side], &moved[side].state));
+        let value = |side: usize| {
+            let Moved { state, direction } = &moved[side];
+            (self.value)(systems[side], state, direction, scale)
+        };
+        Some((value(1) - value(0)) / (2.0 * neighbours.step))
+    }
+}
+
+impl<P> Variation<P> {
+    /// The variation of what a function makes of the problem.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub(crate) fn map<Q, E>(&self, f: impl Fn(&P) -> Result<Q, E>) -> Result<Variation<Q>, E> {
+        let map = |neighbours: &Neighbours<P>| -> Result<Neighbours<Q>, E> {
+            let Neighbours { below, above, step } = neighbours;
+            Ok(Neighbours { below: f(below)?, above: f(above)?, step: *step })
+        };
+        let right = match &self.right {
+            Some((right, kink)) => Some((map(right)?, *kink)),
+            None => None,
+        };
+        Ok(Variation { neighbours: map(&self.neighbours)?, right })
+    }
+}

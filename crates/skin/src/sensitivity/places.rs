@@ -1,0 +1,82 @@
+//! The places of a path at which measures are taken.
+
+use contact::FORCES;
+use solver::{Anchor, Change, Event, Newton, Path, Place, Point, Settings, State, Summit, System};
+
+use crate::contacts::{SkinPoint, SkinState};
+use crate::record::{PathFunction, Skin};
+
+/// A guard (N5) that is smaller than this at an event belongs to it.
+const VANISHED: f64 = 1e-8;
+
+/// The beginning of a path.
+pub(crate) fn rest<S: System>(system: &S) -> Place<S::Mode> {
+    let control = system.controls()[0];
+    let mut direction = vec![0.0; system.size()];
+    direction[control.index] = control.scale;
+    Place { state: State::at_rest(system), direction, anchor: Anchor::Still }
+}
+
+/// The end of a path that has reached its target.
+pub(crate) fn end<S: System>(path: &Path<S>) -> Place<S::Mode> {
+    let Point { state, leaving, .. } = path.point().clone();
+    Place { state, direction: leaving, anchor: Anchor::Target }
+}
+
+/// The first contact: the end of the part of the path on which all contacts are open.
+pub(crate) fn first_contact<S: Skin>(system: &S, point: &SkinPoint) -> Option<Place<S::Mode>> {
+    let Some(Event::Changed(changes)) = &point.event else { return None };
+    let constraint = changes.iter().find(|change| change.activated)?.constraint;
+    let mut state = SkinState::at_rest(system);
+    state.z.clone_from(&point.state.z);
+    for &force in system.constraints() {
+        state.z[force] = 0.0;
+    }
+    let direction = point.arriving.clone();
+    Some(Place { state, direction, anchor: Anchor::Guard(constraint) })
+}
+
+/// The place at which a function is the largest on a path.
+pub(crate) fn summit<S: Skin>(
+    path: &mut Path<S>,
+    summit: &Summit<S::Mode>,
+    f: PathFunction<S>,
+    settings: &Settings,
+) -> Option<Place<S::Mode>> {
+    let Point { state, arriving, leaving, event } = &*summit.point;
+    let control = path.system().controls()[0];
+    let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
+    let at = |direction: &Vec<f64>, anchor| {
+        Some(Place { state: state.clone(), direction: direction.clone(), anchor })
+    };
+    match (event, &summit.before) {
+        _ if summit.is_inside => {
+            at(arriving, Anchor::Still)?.stationary(path.system(), &f, settings)
+        }
+        (_, None) => at(leaving, Anchor::Still),
+        _ if is_target => at(arriving, Anchor::Target),
+        (Some(Event::Changed(changes)), Some(before)) => {
+            let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
+            if leaves >= arrives {
+                let guard = vanished(path.system(), state, changes)?;
+                return at(leaving, Anchor::Guard(guard));
+            }
+            let Point { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
+            let anchor = Anchor::Guard(vanished(path.system(), &state, changes)?);
+            Some(Place { state, direction: arriving, anchor })
+        }
+        _ => at(arriving, Anchor::Still)?.stationary(path.system(), &f, settings),
+    }
+}
+
+/// The constraint whose guard vanishes at an event, of those of the contacts that change.
+fn vanished<S: Skin>(system: &S, state: &SkinState, changes: &[Change]) -> Option<usize> {
+    let guards = Newton::guards(system, state);
+    let changed = |constraint: &usize| {
+        let contact = constraint / FORCES;
+        changes.iter().any(|change| change.constraint / FORCES == contact)
+    };
+    let candidates = (0..guards.len()).filter(changed).map(|c| (c, guards[c].abs()));
+    let (constraint, guard) = candidates.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (guard < VANISHED).then_some(constraint)
+}
