@@ -4,12 +4,13 @@
 pub type Template = (&'static str, &'static str);
 
 /// All of them.
-const TEMPLATES: [Template; 5] = [
+const TEMPLATES: [Template; 6] = [
     ("paper", include_str!("../../../sweeps/paper.toml")),
     ("smoke", include_str!("../../../sweeps/smoke.toml")),
     ("gaps", include_str!("../../../sweeps/gaps.toml")),
     ("imperfection", include_str!("../../../sweeps/imperfection.toml")),
     ("paper-as-written", include_str!("../../../sweeps/paper-as-written.toml")),
+    ("paper-neo-hookean", include_str!("../../../sweeps/paper-neo-hookean.toml")),
 ];
 
 /// The names of all templates.

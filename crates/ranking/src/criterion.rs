@@ -63,7 +63,7 @@ const PLAIN: [(&str, Goal); 17] = [
     ("engaged_scales", Goal::Maximize),
     ("first_contact_curvature", Goal::Maximize),
     ("flexural_rigidity", Goal::Minimize),
-    ("gap_stretch", Goal::Minimize),
+    ("fold_force", Goal::Maximize),
     ("initial_compliance", Goal::Maximize),
     ("initial_flexural_rigidity", Goal::Minimize),
     ("membrane_strain_max", Goal::Minimize),

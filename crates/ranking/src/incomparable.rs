@@ -20,6 +20,7 @@ const PUNCTURE: &[&str] = &[
     "sink",
     "secant_stiffness",
     "peak_force",
+    "sound_force",
 ];
 const BENDING: &[&str] = &["compliance", "max_moment", "flexural_rigidity", "axial_energy_share"];
 

@@ -20,7 +20,7 @@ const HEIGHT: f64 = 430.0;
 /// Where the first line of the legend stands, px.
 const LEGEND: f64 = 56.0;
 /// Least distance between crosses, px.
-const CROSS: f64 = 5.0;
+const CROSS: f64 = 9.0;
 /// Width and height of a panel of energies, px.
 const ENERGY_PANEL: [f64; 2] = [330.0, 300.0];
 

@@ -7,6 +7,9 @@ use results::columns::parameter_of;
 
 use crate::palette::SlantPalette;
 
+/// Parameters, as their columns, and their values.
+pub(crate) type AxisValues<'a> = Vec<(&'a str, &'a str)>;
+
 /// The designs of a sweep as `designs.csv` has them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Designs {
@@ -74,12 +77,12 @@ impl Designs {
 
     /// Returns the designs apart by their further axes, each part with those axes and their values; one part without
     /// any if there are none.
-    pub(crate) fn parts(&self) -> Vec<(Vec<(&str, &str)>, Self)> {
+    pub(crate) fn parts(&self) -> Vec<(AxisValues<'_>, Self)> {
         let axes = self.further_axes();
         let values = |row| axes.iter().map(|axis| (*axis, self.text(axis, row))).collect();
-        let mut parts: Vec<(Vec<(&str, &str)>, Vec<usize>)> = Vec::new();
+        let mut parts: Vec<(AxisValues<'_>, Vec<usize>)> = Vec::new();
         for row in 0..self.count {
-            let own: Vec<_> = values(row);
+            let own: AxisValues<'_> = values(row);
             match parts.iter_mut().find(|(other, _)| *other == own) {
                 Some((_, rows)) => rows.push(row),
                 None => parts.push((own, vec![row])),

@@ -118,7 +118,7 @@ fn write(
     workbook.set_tempdir(folder.path()).map_err(failed)?;
     let mut guide = Guide::new(&mut workbook).map_err(failed)?;
     let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
-    for file in RunFolder::tables().filter(|file| results.holds(file)) {
+    for file in results.tables() {
         let table = file.trim_end_matches(".csv").to_owned();
         let path = results.path().join(&file);
         let (profiles, values) = look_over((&path, results.file(&file)?))?;

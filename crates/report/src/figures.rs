@@ -8,7 +8,7 @@ mod stiffness;
 
 use ranking::Ranking;
 
-use crate::designs::Designs;
+use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, plain};
 use crate::palette::INK;
 use crate::svg::{Element, document};
@@ -52,7 +52,7 @@ const PARTS: usize = 24;
 /// and its title say which.
 pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> Vec<Figure> {
     let parts = designs.parts();
-    let part = |(values, part): &(Vec<(&str, &str)>, Designs)| {
+    let part = |(values, part): &(AxisValues<'_>, Designs)| {
         let all = of_part(&title(name, values), part).into_iter();
         all.map(|(file, svg)| Figure { name: file_name(file, values), svg }).collect::<Vec<_>>()
     };
@@ -68,14 +68,14 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
 
 /// Returns the title of the figures of a part.
 fn title(name: &str, values: &[(&str, &str)]) -> String {
-    let words = values.iter().map(|(axis, value)| format!(", {} {value}", in_words(axis)));
-    name.to_owned() + &words.collect::<String>()
+    let words = values.iter().map(|(axis, value)| format!("{} {value}", in_words(axis)));
+    std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
 /// Returns the name of a figure of a part.
 fn file_name(file: &str, values: &[(&str, &str)]) -> String {
-    let part = values.iter().map(|(axis, value)| format!("-{}-{value}", axis.replace('_', "-")));
-    file.to_owned() + &part.collect::<String>()
+    let part = values.iter().map(|(axis, value)| format!("{}-{value}", axis.replace('_', "-")));
+    std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
 }
 
 /// Returns the column of a parameter in words.

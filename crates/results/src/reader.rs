@@ -1,7 +1,9 @@
 //! The folder of a run read back: one row per design, as text.
 
+mod thinning;
+
 use std::fs::File;
-use std::io::Read as _;
+use std::io::{self, BufRead as _, BufReader, Seek as _};
 use std::path::Path;
 
 use crate::columns::parameter_of;
@@ -10,6 +12,7 @@ use sweep::{Parameter, Sweep, nearest, number, reason};
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;
 use crate::tables::csv_format::CsvFormat;
+use thinning::Thinning;
 
 /// The first column of that table.
 const NUMBER: &str = "design";
@@ -21,6 +24,8 @@ pub struct Results {
     format: CsvFormat,
     header: Vec<String>,
     rows: Vec<csv::StringRecord>,
+    /// The number of rows of the table, of which some may have been left out.
+    in_table: usize,
     parameters: Vec<(&'static Parameter, usize)>,
     definition: Option<Sweep>,
 }
@@ -86,11 +91,20 @@ impl Results {
     /// # Errors
     /// If there is no table of designs, it is not as it was written, or it cannot be read.
     pub fn read_from(folder: &VerifiedFolder) -> Result<Self, InvalidResults> {
+        Self::thinned(folder, usize::MAX)
+    }
+
+    /// The results in `folder`, of a table that is much longer than `most` rows only about as many: rows at equal
+    /// distances, and the best by coverage, critical force, penetration and compliance.
+    ///
+    /// # Errors
+    /// As [`Results::read_from`].
+    pub fn thinned(folder: &VerifiedFolder, most: usize) -> Result<Self, InvalidResults> {
         let path = folder.path().join(RunFolder::DESIGNS);
-        let table = read_table(folder.file(RunFolder::DESIGNS).map_err(InvalidResults::Folder)?);
-        let (format, header, rows) = table.map_err(|error| InvalidResults::Unreadable {
-            file: path.display().to_string(),
-            reason: words(error),
+        let table =
+            read_table(folder.file(RunFolder::DESIGNS).map_err(InvalidResults::Folder)?, most);
+        let Table { format, header, rows, length } = table.map_err(|error| {
+            InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
         })?;
         match header.first() {
             Some(first) if first == NUMBER => {}
@@ -108,6 +122,7 @@ impl Results {
             parameters: parameters.collect(),
             header,
             rows,
+            in_table: length,
             // A table without the record of its run is still a table.
             definition: definition(folder).map_err(InvalidResults::Folder)?,
         })
@@ -149,6 +164,11 @@ impl Results {
     #[expect(clippy::len_without_is_empty, reason = "a grid is never empty")]
     pub fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// The number of designs in the table, of which [`Results::thinned`] leaves some out.
+    pub fn in_table(&self) -> usize {
+        self.in_table
     }
 
     /// Names of the columns.
@@ -213,8 +233,13 @@ impl Results {
     }
 }
 
-/// A table: how it is written, its header, its rows.
-type Table = (CsvFormat, Vec<String>, Vec<csv::StringRecord>);
+/// A table: how it is written, its header, its rows or some of them, and how many it has.
+struct Table {
+    format: CsvFormat,
+    header: Vec<String>,
+    rows: Vec<csv::StringRecord>,
+    length: usize,
+}
 
 /// The sweep, if there is a record of the run.
 fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
@@ -225,18 +250,40 @@ fn definition(folder: &VerifiedFolder) -> Result<Option<Sweep>, InvalidFolder> {
     Ok(Sweep::parse(&text, RunFolder::RUN_INFO, &[]).ok())
 }
 
-fn read_table(mut file: File) -> Result<Table, csv::Error> {
-    let mut bytes = Vec::new();
-    file.read_to_end(&mut bytes)?;
-    let (format, start) = CsvFormat::of(&bytes);
-    let mut table = format.reader(&bytes[start..]);
-    let header = table.headers()?.iter().map(str::to_owned).collect();
-    let plain = |row: csv::StringRecord| match format {
-        CsvFormat::Plain => row,
-        CsvFormat::ExcelEu => row.iter().map(|cell| plain(format, cell)).collect(),
-    };
-    let rows = table.records().map(|row| row.map(plain));
-    Ok((format, header, rows.collect::<Result<_, _>>()?))
+fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
+    let in_table = if most == usize::MAX { 0 } else { count_rows(&file)? };
+    file.rewind()?;
+    let mut file = BufReader::new(file);
+    let (format, start) = CsvFormat::of(file.fill_buf()?);
+    file.consume(start);
+    let mut table = format.reader(file);
+    let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
+    let mut kept = Thinning::new(&header, in_table, most);
+    let mut count = 0;
+    for row in table.records() {
+        let row = match format {
+            CsvFormat::Plain => row?,
+            CsvFormat::ExcelEu => row?.iter().map(|cell| plain(format, cell)).collect(),
+        };
+        kept.visit(count, row);
+        count += 1;
+    }
+    Ok(Table { format, header, rows: kept.finish(), length: count })
+}
+
+/// The number of rows of a table, whose cells have no line ends in them.
+fn count_rows(file: &File) -> io::Result<usize> {
+    let mut lines = 0;
+    let mut file = BufReader::new(file);
+    loop {
+        let bytes = file.fill_buf()?;
+        let length = bytes.len();
+        lines += bytes.split(|byte| *byte == b'\n').count() - 1;
+        if length == 0 {
+            return Ok(lines.saturating_sub(1));
+        }
+        file.consume(length);
+    }
 }
 
 /// The text of a cell in the plain format.

@@ -23,6 +23,9 @@ const SMALLER: f64 = 10.0;
 /// Values that vanish but for round-off have no digits to compare.
 const NOTHING: f64 = 1e-9;
 
+/// The larger part of the golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// Gaps of the longest chain that an audit solves.
 const LONGEST_CHAIN: usize = 1000;
 
@@ -182,10 +185,9 @@ fn whole(mut case: Case) -> Option<[Case; 2]> {
     (gaps <= LONGEST_CHAIN).then(|| [by(Method::UnitCell), by(Method::Chain)])
 }
 
-/// Every so many of `designs` that they are the `share` of all, spread evenly.
+/// A `share` of `designs`, spread evenly over them and over any period in them, as the multiples of the golden section are.
 fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item = u64> {
-    let dealt = move |count: usize| (count as f64 * share).floor();
-    let chosen = move |(place, _): &(usize, u64)| dealt(place + 1) > dealt(*place);
+    let chosen = move |(place, _): &(usize, u64)| (*place as f64 * GOLDEN).fract() < share;
     designs.enumerate().filter(chosen).map(|(_, design)| design)
 }
 
@@ -207,10 +209,14 @@ mod tests {
 
     #[test]
     fn a_share_is_spread_evenly() {
-        let chosen = |share| every(share, 0..10).collect::<Vec<_>>();
-        assert_eq!(chosen(0.2), [4, 9]);
-        assert_eq!(chosen(0.0), [0; 0]);
-        assert_eq!(chosen(1.0).len(), 10);
+        let chosen = |share| every(share, 0..720).collect::<Vec<_>>();
+        let tenth = chosen(0.1);
+        assert_eq!((tenth.len(), chosen(1.0).len(), chosen(0.0).len()), (72, 720, 0));
+        // Every slant of a grid of six is among them, each about as often.
+        for slant in 0..6 {
+            let count = tenth.iter().filter(|index| **index % 6 == slant).count();
+            assert!((10..=14).contains(&count), "{count} of slant {slant}");
+        }
     }
 
     #[test]

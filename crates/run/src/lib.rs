@@ -20,6 +20,7 @@
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
 //! | [`RunStatus`] | how far a run is |
 //! | [`merge()`] | puts shards together |
+//! | [`Estimate`] | time and room that a sweep takes, about |
 //! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
 //!
@@ -52,6 +53,7 @@
 //! ```
 
 mod audit;
+mod estimate;
 mod filter;
 mod journal;
 mod merge;
@@ -64,6 +66,7 @@ mod status;
 mod tables;
 
 pub use audit::{Audit, LargestDifference, SecondWay};
+pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use journal::{
     Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,

@@ -17,11 +17,11 @@ Designs are the same if their parameters are, whatever their numbers. With --out
 compare.csv (column by column) and differences.csv (cell by cell).
 Exit code: 0 done, 1 the runs differ (with --exit-code), 2 bad input or disk.")]
 pub struct CompareArguments {
-    /// Folder of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub first: PathBuf,
 
-    /// Folder of another run
+    /// Folder of another run, or its definition
     #[arg(value_name = "OTHER")]
     pub second: PathBuf,
 

@@ -16,7 +16,7 @@ A sheet for each table of the folder, and one that explains the columns. The sam
 same bytes. A sheet takes 1,048,575 rows.
 Exit code: 0 done, 2 bad input or disk.")]
 pub struct ExportArguments {
-    /// Folder of the results of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 

@@ -21,7 +21,7 @@ pub struct PlotArguments {
     #[command(subcommand)]
     pub what: Option<PlotWhat>,
 
-    /// Folder of the results of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
 

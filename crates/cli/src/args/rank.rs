@@ -29,7 +29,7 @@ design for all weights). Where no design meets the requirements: the one that co
 requirement stands in the way.
 Exit code: 0 done, 1 no design meets the requirements, 2 bad input or disk.")]
 pub struct RankArguments {
-    /// Folder of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 

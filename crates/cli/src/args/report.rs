@@ -15,7 +15,7 @@ Examples:
 
 The page needs no network and no server: open it in a browser.")]
 pub struct ReportArguments {
-    /// Folder of the results of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 

@@ -22,7 +22,7 @@ Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 13
 SIGINT, SIGTERM or SIGHUP.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
 pub struct RerunArguments {
-    /// Folder of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 

@@ -77,7 +77,7 @@ pub struct RunArguments {
     /// Solve this share of the designs again by another way, and say how far the two are apart
     ///
     /// Once more with steps a tenth as large, and strips as a chain of all gaps, e.g. 0.1. A relative difference above
-    /// 1e-3, or a status that is another, makes the exit code 1.
+    /// 1e-6, or a status that is another, makes the exit code 1.
     #[arg(long, value_name = "SHARE")]
     pub audit: Option<Share>,
 

@@ -15,7 +15,7 @@ The run may be going on meanwhile. Checks every table against what the run state
 what was made from tables that are no longer there.
 Exit code: 0 done, 1 some designs failed or are missing, or a table is not as it was written, 2 bad input.")]
 pub struct StatusArguments {
-    /// Folder of a run
+    /// Folder of a run, or the definition of its sweep
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 

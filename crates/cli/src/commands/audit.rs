@@ -10,7 +10,7 @@ use crate::print::{aligned, counted, digits};
 const LISTED: usize = 8;
 
 /// Largest relative difference between two ways to solve a design that is none.
-const AGREES: f64 = 1e-3;
+const AGREES: f64 = 1e-6;
 
 /// Whether the two ways agree.
 pub fn agrees(audit: &Audit) -> bool {

@@ -1,7 +1,10 @@
 //! `squama check`.
 
 use std::path::Path;
+use std::thread::available_parallelism;
+use std::time::Duration;
 
+use run::Estimate;
 use serde_json::{Map, Value, json};
 use sweep::{Axis, Measure, Sweep};
 
@@ -9,7 +12,10 @@ use super::DONE;
 use super::source::{folder_of, read};
 use crate::args;
 use crate::json;
-use crate::print::{aligned, counted, digits, print};
+use crate::print::{aligned, counted, digits, print, time};
+
+/// Designs from which on a sweep is large: a few are solved to tell what all take.
+const LARGE: u64 = 10_000;
 
 /// Values that an axis lists before it is cut short.
 const LISTED: u64 = 12;
@@ -39,6 +45,7 @@ fn report(sweep: &Sweep, path: &Path) -> String {
     if let Some(moduli) = contact_moduli(sweep) {
         rows.push(row("contact modulus", &moduli));
     }
+    rows.extend(estimate(sweep));
     rows.push(row("output", &folder_of(sweep, None).display().to_string()));
     let axes: Vec<_> = grid.axes().iter().map(axis_row).collect();
     format!(
@@ -84,6 +91,35 @@ fn contact_moduli(sweep: &Sweep) -> Option<String> {
 
 fn row(what: &str, value: &str) -> [String; 2] {
     [what, value].map(str::to_owned)
+}
+
+/// Time and room of a large sweep.
+fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
+    if sweep.grid().len() < LARGE {
+        return Vec::new();
+    }
+    let estimate = Estimate::of(sweep);
+    let threads = available_parallelism().map_or(1, usize::from);
+    let estimated = Duration::try_from_secs_f64(estimate.seconds / threads as f64);
+    let duration = estimated.map_or_else(
+        |_| "longer than anybody waits".to_owned(),
+        |seconds| format!("about {}", time(seconds)),
+    );
+    let judged = counted(estimate.solved, "design");
+    let threads = counted(threads as u64, "thread");
+    vec![
+        row("time", &format!("{duration} on {threads}, judged by {judged}")),
+        row("size", &format!("about {} of journal and tables", bytes(estimate.bytes))),
+    ]
+}
+
+/// A number of bytes, to two digits.
+fn bytes(bytes: f64) -> String {
+    let units = ["B", "kB", "MB", "GB", "TB", "PB"];
+    let power = (bytes.max(1.0).log10() / 3.0).floor().min(units.len() as f64 - 1.0);
+    let value = bytes / 1000_f64.powf(power);
+    let value = if value < 10.0 { format!("{value:.1}") } else { format!("{value:.0}") };
+    format!("{value} {}", units[power as usize])
 }
 
 fn axis_row(axis: &Axis) -> [String; 3] {

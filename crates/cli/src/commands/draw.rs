@@ -157,7 +157,11 @@ impl Drawing<'_> {
             let file = self.file("flexure-animation");
             return write_html(self.folder, &file, &drawing.animation()?, files);
         }
-        let place = places(&self.arguments.at, "end-rotation", "0-to-180-deg");
+        let place = places(
+            &self.arguments.at,
+            "end-rotation",
+            if last > 0.0 { "0-to-180-deg" } else { "0-to-minus-180-deg" },
+        );
         let file = self.file(&format!("flexure-at-{place}"));
         write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
     }

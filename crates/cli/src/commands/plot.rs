@@ -34,8 +34,10 @@ pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
-    let results =
-        ResultsFolder::read(&verified_folder(results, arguments.partial.completeness())?)?;
+    let results = ResultsFolder::read(
+        &verified_folder(results, arguments.partial.completeness())?,
+        usize::MAX,
+    )?;
     let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
     results::make_folder(&folder)?;
     let mut files = Written::default();

@@ -18,6 +18,9 @@ use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
+/// Designs that a page shows, about, at most: a browser takes no more.
+const SHOWN: usize = 10_000;
+
 /// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
 const DRAWN: usize = 24;
 /// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
@@ -27,10 +30,8 @@ const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
-    let results = ResultsFolder::read(&verified_folder(
-        &arguments.results,
-        arguments.partial.completeness(),
-    )?)?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = ResultsFolder::read(&verified, SHOWN)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     require_folder_of("--out", &out)?;
     let page = page(&results)?;

@@ -30,18 +30,25 @@ impl ResultsFolder {
     pub fn title(&self) -> String {
         let name = self.sweep.name();
         let held = self.verified().shortfall();
-        held.map_or_else(|| name.to_owned(), |held| format!("{name} ({held})"))
+        let (shown, all) = (self.results.len(), self.results.in_table());
+        let shown = (shown < all).then(|| format!("shown: {shown} of {all} designs, at equal distances, and the best by each criterion"));
+        let remarks: Vec<_> = held.into_iter().chain(shown).collect();
+        if remarks.is_empty() {
+            name.to_owned()
+        } else {
+            format!("{name} ({})", remarks.join("; "))
+        }
     }
 }
 
 impl ResultsFolder {
-    /// Reads `run.toml` and `designs.csv`.
-    pub fn read(verified: &VerifiedFolder) -> anyhow::Result<Self> {
+    /// Reads `run.toml` and `designs.csv`, of a long table about `most` designs.
+    pub fn read(verified: &VerifiedFolder, most: usize) -> anyhow::Result<Self> {
         let folder = verified.path();
         let run = verified.text(RunFolder::RUN_INFO)?;
         let record = folder.join(RunFolder::RUN_INFO).display().to_string();
         let sweep = Sweep::parse(&run, &record, &[])?;
-        let results = Results::read_from(verified)?;
+        let results = Results::thinned(verified, most)?;
         let designs = Designs::of(&results);
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }

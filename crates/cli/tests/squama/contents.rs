@@ -95,6 +95,13 @@ fn a_changed_digit_is_noticed_and_mended() {
     // A table that one command alone reads.
     change(&place, "r/penetration.csv", "0001", "0002");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: is not as it was written, expected no change; squama merge r --out r writes it again");
+    // One that is gone is no table that was never there.
+    std::fs::remove_file(place.path("r/penetration.csv")).expect("a table");
+    let message = place.refused("export r --xlsx x.xlsx");
+    assert!(
+        message.starts_with("error: r/penetration.csv: cannot be read (No such file"),
+        "{message}"
+    );
     // The record of the run is a definition too.
     place.squama("merge -q r --out r").assert().code(0);
     change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");

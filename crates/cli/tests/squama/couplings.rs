@@ -33,6 +33,25 @@ fn the_coupling_is_an_axis_and_moves_the_puncture_alone() {
 }
 
 #[test]
+fn the_law_of_the_substrate_is_an_axis_and_moves_the_puncture_alone() {
+    let place = Place::with(
+        &BOTH.replace("coupling = ['nearest', 'full']", "law = ['linear', 'neo-hookean']"),
+    );
+    let check = place.prints("check x.toml");
+    assert!(check.contains("calibrations  1\n"), "{check}");
+    place.squama("run x.toml -q --out both").assert().code(0);
+    let table = place.read("both/designs.csv");
+    assert_eq!(cells(&table, "law"), ["linear", "linear", "neo-hookean", "neo-hookean"]);
+    for column in ["coverage", "compliance", "initial_stiffness", "calibration_error"] {
+        let cells = cells(&table, column);
+        assert_eq!(cells[..2], cells[2..], "{column}");
+    }
+    let force = cells(&table, "critical_force");
+    assert!(force[0] != force[2] && force[1] != force[3]);
+    place.squama("run x.toml -q --out c --set designs.law=rubber").assert().code(2);
+}
+
+#[test]
 fn a_rerun_may_change_the_coupling() {
     let place = Place::with(BOTH);
     place.squama("run x.toml -q --out full --set designs.coupling=full").assert().code(0);

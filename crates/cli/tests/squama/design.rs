@@ -56,7 +56,7 @@ fn writes_its_course() {
     flexure_scales.csv: scale,displacement_x,displacement_y,rotation_deg
     flexure_steps.csv: step,iteration,residual,end_rotation_deg
     measures.csv: measure,value,unit,meaning
-    path.csv: displacement,force,tilt_deg,contacts,unstable_under_load,unstable_under_depth,unstable_under_tilt
+    path.csv: displacement,force,tilt_deg,contacts,unstable_under_load,unstable_under_depth,unstable_under_tilt,gap_stretch_min,gap_stretch_max
     scales.csv: scale,displacement_x,displacement_y,rotation_deg,reaction
     steps.csv: step,iteration,residual,tilt_deg
     ");

@@ -37,6 +37,29 @@ fn the_best_designs_are_printed() {
     insta::assert_snapshot!(place.read("a/winners.csv"));
 }
 
+/// Designs of which the strongest has folded over long before.
+const FOLDED: &str =
+    "design,gap_over_t,length_over_t,slant_deg,coverage,critical_force,penetration,compliance,fold_force,sound_force
+0001,0.1,0.1,75,0.5,20,0.5,0.1,5,5
+0002,0.1,0.2,75,0.5,9,0.4,0.2,,9
+0003,0.1,0.3,75,0.5,1,0.1,0.3,,1
+";
+
+#[test]
+fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
+    let place = Place::new();
+    put(&place, "a", FOLDED);
+    let printed = place.prints("rank a --weights 0,1,0,0");
+    let (_, others) = printed.split_once("folds over under the best design").expect("a fold");
+    assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
+    let sound = place.prints("rank a --weights 0,1,0,0 --sound");
+    assert!(!sound.contains("folds over"), "{sound}");
+    let table = place.read("a/ranking.csv");
+    assert_eq!(crate::table::cells(&table, "design"), ["0002", "0001", "0003"]);
+    assert_eq!(crate::table::cells(&table, "sound_force"), ["9", "5", "1"]);
+    place.squama("rank a --sound --maximize coverage").assert().code(2);
+}
+
 #[test]
 fn the_tables_may_go_elsewhere() {
     let place = place();

@@ -143,7 +143,8 @@ impl RowSheet {
         let bottom = AIR + self.view.scale + SUBSTRATE;
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
-        inside.extend(scale_bar(&self.view, self.thickness_mm, [WIDTH - MARGIN, 14.0]));
+        let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
+        inside.extend(scale_bar(&self.view, self.thickness_mm, within_substrate));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)

@@ -17,8 +17,10 @@ use crate::svg::{Element, Spot, arrow, polygon, polyline};
 
 /// Width of the part that shows one gap enlarged, px.
 const ENLARGED: f64 = 290.0;
-/// Height of the enlarged part, px.
-const HEIGHT: f64 = 250.0;
+/// Height of the enlarged part, px: at least and at most.
+const HEIGHT: [f64; 2] = [160.0, 250.0];
+/// Room for the arrows around an enlarged gap, px, across and down.
+const ARROWS: Spot = [100.0, 104.0];
 /// Height of the part that shows the whole strip, at most, px.
 const TALLEST: f64 = 430.0;
 
@@ -65,7 +67,8 @@ impl FlexureDrawing<'_> {
         };
         let [width, height] = extent.size();
         let scale = (area[0] / width).min(area[1] / height);
-        let tall = (scale * height + 24.0).max(HEIGHT + 12.0);
+        let enlarged = Enlarged::of(row, state);
+        let tall = (scale * height + 24.0).max(enlarged.height + 12.0);
         let middle = [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k]));
         let view = View {
             scale,
@@ -76,59 +79,79 @@ impl FlexureDrawing<'_> {
             shape.scales(&view, outline(row, scale).clamp(0.08, 0.4)),
             contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
         ]);
-        let cell = self.cell(row, state, tall);
+        let cell = self.cell(row, &enlarged, tall);
         let bar = scale_bar(&view, self.thickness_mm, [MARGIN + area[0], 14.0]);
         let inside = [whole, cell].into_iter().chain(bar).collect();
         DrawingPanel { height: tall + 8.0, caption: caption(state), inside }
     }
 
-    /// Draws the gap in the middle of the strip, enlarged, with the forces and the overlap.
-    fn cell(&self, row: &Row, state: &StripSnapshot, tall: f64) -> Element {
-        let left = (state.scales.len() - 1) / 2;
-        let shape = Shape::of_gap(row, state, left);
-        let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - HEIGHT)];
-        let Some(extent) = Extent::around(shape.bodies.iter().flatten().copied()) else {
-            return Element::group("gap");
-        };
-        let [width, height] = extent.size();
-        let scale = ((ENLARGED - 136.0) / width).min((HEIGHT - 96.0) / height);
-        let middle = [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k]));
+    /// Draws an enlarged gap with the forces and the overlap.
+    fn cell(&self, row: &Row, enlarged: &Enlarged, tall: f64) -> Element {
+        let Enlarged { shape, scale, middle, height, .. } = enlarged;
+        let frame = [WIDTH - MARGIN - ENLARGED, 0.5 * (tall - height)];
         let view = View {
-            scale,
+            scale: *scale,
             origin: [
                 frame[0] + 0.5 * ENLARGED - scale * middle[0],
-                frame[1] + 0.46 * HEIGHT + scale * middle[1],
+                frame[1] + 0.46 * height + scale * middle[1],
             ],
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
-        let [border, name] = enlargement(frame);
+        let [border, name] = enlargement(frame, *height);
         let bar =
             scale_bar(&view, self.thickness_mm, [frame[0] + ENLARGED - 12.0, frame[1] + 22.0]);
         let parts = [
             border,
             shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
-            shape.scales(&view, outline(row, scale).clamp(0.4, 0.9)),
+            shape.scales(&view, outline(row, *scale).clamp(0.4, 0.9)),
             contacts::overlaps(&view, &shape.overlaps),
             contacts::halos(&view, &shape.contacts, 8.0),
             contacts::forces(&view, &shape.contacts, unit),
-            moments(&view, &shape),
+            moments(&view, shape, enlarged.bends_inward),
             name,
         ];
         Element::group("gap").containing(parts.into_iter().chain(bar))
     }
 }
 
+/// The gap in the middle of a strip, to be drawn enlarged.
+struct Enlarged {
+    shape: Shape,
+    /// Size of `t`, px.
+    scale: f64,
+    /// The middle of its two scales.
+    middle: [f64; 2],
+    /// Height of the part that shows it, px.
+    height: f64,
+    /// Whether the moment bends the strip with its scales inside.
+    bends_inward: bool,
+}
+
+impl Enlarged {
+    /// Returns the gap in the middle of the strip, as large as its part has room for.
+    fn of(row: &Row, state: &StripSnapshot) -> Self {
+        let shape = Shape::of_gap(row, state, (state.scales.len() - 1) / 2);
+        let extent = Extent::around(shape.bodies.iter().flatten().copied());
+        let ([width, height], middle) = extent.map_or(([1.0, 1.0], [0.0, 0.0]), |extent| {
+            (extent.size(), [0, 1].map(|k| 0.5 * (extent.low[k] + extent.high[k])))
+        });
+        let scale = ((ENLARGED - ARROWS[0]) / width).min((HEIGHT[1] - ARROWS[1]) / height);
+        let height = (scale * height + ARROWS[1]).clamp(HEIGHT[0], HEIGHT[1]);
+        Self { shape, scale, middle, height, bends_inward: state.moment >= 0.0 }
+    }
+}
+
 /// Returns the border and the name of an enlarged gap whose upper left corner is `frame`.
-fn enlargement(frame: Spot) -> [Element; 2] {
+fn enlargement(frame: Spot, height: f64) -> [Element; 2] {
     let border = Element::new("rect")
         .at("x", frame[0])
         .at("y", frame[1])
         .at("width", ENLARGED)
-        .at("height", HEIGHT)
+        .at("height", height)
         .at("rx", 4.0)
         .with("fill", "#fbfbfb")
         .with("stroke", "#bdbdbd");
-    let spot = [frame[0] + 0.5 * ENLARGED, frame[1] + HEIGHT - 9.0];
+    let spot = [frame[0] + 0.5 * ENLARGED, frame[1] + height - 9.0];
     let name = label("one gap, enlarged", spot, 11.0, Anchor::Middle).with("fill", FAINT);
     [border, name]
 }
@@ -140,10 +163,10 @@ fn outline(row: &Row, scale: f64) -> f64 {
 
 fn caption(state: &StripSnapshot) -> String {
     format!(
-        "$κ^*$ = {},  $M^*$ = {},  each end turned by {:.2}°,  {}",
+        "$κ^*$ = {},  $M^*$ = {},  each end turned by {}°,  {}",
         short(state.curvature),
         short(state.moment),
-        state.end_rotation_deg + 0.0,
+        format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(state.contacts.len())
     )
 }
@@ -231,7 +254,7 @@ fn poses(state: &StripSnapshot) -> Vec<Pose> {
 }
 
 /// Returns the moments that bend the gap, as arrows round its two ends.
-fn moments(view: &View, shape: &Shape) -> Element {
+fn moments(view: &View, shape: &Shape, inward: bool) -> Element {
     let Some(([left, ..], [_, right, ..])) = shape.bodies.first().zip(shape.bodies.last()) else {
         return Element::group("moments");
     };
@@ -250,9 +273,14 @@ fn moments(view: &View, shape: &Shape) -> Element {
     };
     // From below the base outwards, so that scales that lean over stay free.
     let turn = 2.0;
+    let [of_left, of_right] = if inward {
+        [around(left, 5.3, -turn), around(right, -2.16, turn)]
+    } else {
+        [around(left, 5.3 - turn, turn), around(right, turn - 2.16, -turn)]
+    };
     Element::group("moments").containing([
-        around(left, 5.3, -turn),
-        around(right, -2.16, turn),
+        of_left,
+        of_right,
         label("$M$", shifted(left, [-30.0, 26.0]), 13.0, Anchor::Middle),
         label("$M$", shifted(right, [30.0, 26.0]), 13.0, Anchor::Middle),
     ])

@@ -1,9 +1,7 @@
 //! The chart of a measure: its values over an axis of the grid, as spreadsheets draw it.
 
 use csv::StringRecord;
-use rust_xlsxwriter::{
-    Chart, ChartFormat, ChartLine, ChartMarker, ColNum, RowNum, Worksheet, XlsxError,
-};
+use rust_xlsxwriter::{Chart, ChartMarker, ChartMarkerType, ColNum, RowNum, Worksheet, XlsxError};
 
 use results::{CsvFormat, MEASURE_TABLES};
 
@@ -88,7 +86,6 @@ impl MeasureChart {
             series.set_categories((table, first, place, last, place));
             series.set_values((table, first, self.value, last, self.value));
             series.set_name(name.as_str()).set_marker(&marker());
-            series.set_format(ChartFormat::new().set_line(ChartLine::new().set_hidden(true)));
         }
         chart.title().set_name(table.replace('_', " ").as_str());
         chart.x_axis().set_name(axis.name);
@@ -117,5 +114,5 @@ impl MeasureChart {
 }
 
 fn marker() -> ChartMarker {
-    ChartMarker::new().set_size(4).clone()
+    ChartMarker::new().set_type(ChartMarkerType::Circle).set_size(4).clone()
 }

@@ -187,16 +187,17 @@ fn badge(text: &str, [x, y]: Spot) -> Element {
 /// Returns a design of the list: its letter, parameters, share, and row at rest.
 fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: Spot) -> Element {
     let value = |column| designs.text(column, region.row);
-    let more = designs.further_axes().into_iter();
-    let more: String = more.map(|axis| format!(",  {} {}", in_words(axis), value(axis))).collect();
     let text = format!(
-        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°{more}",
+        "{}:  $d/t$ = {},  $L/t$ = {},  $α$ = {}°",
         value("design"),
         value("gap_over_t"),
         value("length_over_t"),
         value("slant_deg")
     );
+    let further = designs.further_axes().into_iter();
+    let further = further.map(|axis| format!("{} {}", in_words(axis), value(axis)));
     let share = format!("best for {:.1} % of the weights", 100.0 * region.share);
+    let share = further.chain([share]).collect::<Vec<_>>().join(",  ");
     let swatch = Element::new("rect")
         .at("x", x + 14.0)
         .at("y", y - 9.0)

@@ -1,5 +1,6 @@
 //! A results folder whose contents are checked: what every command reads is read through it.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
@@ -156,6 +157,17 @@ impl VerifiedFolder {
     /// Whether it holds the file `name`.
     pub fn holds(&self, name: &str) -> bool {
         self.folder.holds(name)
+    }
+
+    /// The names of the tables that are there, and of those that should be, in the order in which people read them.
+    pub fn tables(&self) -> Vec<String> {
+        let stated = self.contents.iter().flat_map(|contents| contents.files.keys());
+        let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
+        // A ranking that was removed as a whole is not missed.
+        let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
+        let ranked = ranking.iter().flat_map(|made| made.files.keys());
+        let expected: BTreeSet<_> = stated.chain(ranked).collect();
+        RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name)).collect()
     }
 
     /// The tables as one SHA-256, if the run states it.

@@ -2,9 +2,14 @@
 
 use sweep::{Setting, Sweep};
 
-fn refused(text: &str, settings: &[&str]) -> String {
+/// The message, a line for each error.
+fn errors(text: &str, settings: &[&str]) -> String {
     let settings: Vec<_> = settings.iter().map(|s| Setting::parse(s).expect("valid")).collect();
-    let message = Sweep::parse(text, "x.toml", &settings).expect_err("refused").to_string();
+    Sweep::parse(text, "x.toml", &settings).expect_err("refused").to_string()
+}
+
+fn refused(text: &str, settings: &[&str]) -> String {
+    let message = errors(text, settings);
     assert_eq!(message.lines().count(), 1, "{message}");
     message
 }
@@ -129,7 +134,7 @@ fn files_that_are_no_toml() {
 fn all_errors_are_told_at_once() {
     let text = "names = 'x'\n[designs]\ngap = 0.1\nslant_deg = [0, 90]\nc1 = 1\n\
                 [contact]\nc1 = 2\nc2 = 0\n[puncture]\nscales = 'many'";
-    insta::assert_snapshot!(refused(text, &["solver.max_step=0"]), @r#"
+    insta::assert_snapshot!(errors(text, &["solver.max_step=0"]), @r#"
     x.toml:1: names: unknown key (its value is "x"), did you mean name?
     x.toml:3: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?
     x.toml:4: designs.slant_deg: 90 is out of range, expected an angle of at least 0 and below 90
@@ -140,7 +145,7 @@ fn all_errors_are_told_at_once() {
     x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
     "#);
     let text = "name = x\n[designs]\nslant_deg 30\ngap_over_t = 0.1";
-    insta::assert_snapshot!(refused(text, &[]), @r#"
+    insta::assert_snapshot!(errors(text, &[]), @r#"
     x.toml:1: name = x: not valid TOML (string values must be quoted, expected literal string), expected key = value or [section]
     x.toml:3: slant_deg 30: not valid TOML (key with no value, expected `=`), expected key = value or [section]
     "#);
@@ -202,9 +207,9 @@ fn long_lists_and_many_keys_are_read_or_refused_at_once() {
     let text = format!("name = 'x'\n[designs]\ngap_over_t = [\n{}\n]", values.join(",\n"));
     let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
     assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
-    let twice = text.replace("\n]", ",\n0.1\n]");
+    let twice = text.replace("\n]", ",\n0.25\n]");
     let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
-    assert!(error.contains("0.1 stands in the list twice"), "{error}");
+    assert!(error.contains("0.25 stands in the list twice"), "{error}");
     let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
     let keys = keys.join("\n");
     let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();

@@ -6,7 +6,7 @@ use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, Weights};
 use results::Results;
 use results::columns::parameter_of;
 
-use crate::print::{aligned, counted, digits};
+use crate::print::{aligned, counted, digits, shortfall};
 
 /// Designs that are listed before a list is cut short.
 const LISTED: usize = 10;
@@ -43,6 +43,7 @@ impl RankReport<'_> {
         let (ranked, all) = (self.ranking.len(), self.results.len());
         let folder = self.results.folder().display();
         let mut text = format!("{folder}: {ranked} of {} ranked\n", designs(all));
+        text.push_str(&shortfall(self.results.verified_folder()));
         let left_out = self.ranking.left_out().iter();
         let rows: Vec<_> =
             left_out.map(|(why, count)| [format!("{count} left out"), why.clone()]).collect();

@@ -1,0 +1,87 @@
+//! A long table thinned out: every so many rows, and those that are best by one value.
+
+/// Values by which the best row is kept, and whether the largest is the best.
+const BEST: [(&str, bool); 4] =
+    [("coverage", true), ("critical_force", true), ("penetration", false), ("compliance", true)];
+
+/// Rows of a table that are kept, with their places.
+#[derive(Debug)]
+pub(super) struct Thinning {
+    every: usize,
+    rows: Vec<(usize, csv::StringRecord)>,
+    best: Vec<BestRow>,
+}
+
+/// The best row by one column.
+#[derive(Debug)]
+struct BestRow {
+    column: usize,
+    is_largest: bool,
+    row: Option<(f64, usize, csv::StringRecord)>,
+}
+
+impl Thinning {
+    /// Of a table with these columns and so many rows, about `most`.
+    pub fn new(header: &[String], rows: usize, most: usize) -> Self {
+        let best = BEST.iter().filter_map(|(name, is_largest)| {
+            let column = header.iter().position(|column| column == name)?;
+            Some(BestRow { column, is_largest: *is_largest, row: None })
+        });
+        let best = if rows > most { best.collect() } else { Vec::new() };
+        Self { every: rows.div_ceil(most.max(1)).max(1), rows: Vec::new(), best }
+    }
+
+    /// Takes the row at `place` into account.
+    pub fn visit(&mut self, place: usize, row: csv::StringRecord) {
+        for best in &mut self.best {
+            best.visit(place, &row);
+        }
+        if place.is_multiple_of(self.every) {
+            self.rows.push((place, row));
+        }
+    }
+
+    /// The rows that are kept, in their order.
+    pub fn finish(mut self) -> Vec<csv::StringRecord> {
+        self.rows.extend(
+            self.best.into_iter().filter_map(|best| best.row).map(|(_, place, row)| (place, row)),
+        );
+        self.rows.sort_by_key(|(place, _)| *place);
+        self.rows.dedup_by_key(|(place, _)| *place);
+        self.rows.into_iter().map(|(_, row)| row).collect()
+    }
+}
+
+impl BestRow {
+    fn visit(&mut self, place: usize, row: &csv::StringRecord) {
+        let cell = row.get(self.column).and_then(|cell| cell.parse::<f64>().ok());
+        let Some(value) = cell.map(|cell| if self.is_largest { cell } else { -cell }) else {
+            return;
+        };
+        if self.row.as_ref().is_none_or(|(best, ..)| value > *best) {
+            self.row = Some((value, place, row.clone()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn thinned(rows: usize, most: usize) -> Vec<String> {
+        let header = ["design", "penetration"].map(str::to_owned);
+        let mut thinning = Thinning::new(&header, rows, most);
+        for place in 0..rows {
+            let penetration = (place as f64 - 7.0).abs();
+            let row = [place.to_string(), penetration.to_string()];
+            thinning.visit(place, csv::StringRecord::from(row.to_vec()));
+        }
+        thinning.finish().iter().map(|row| row[0].to_owned()).collect()
+    }
+
+    #[test]
+    fn a_short_table_is_kept_and_a_long_one_keeps_its_best() {
+        assert_eq!(thinned(3, 5), ["0", "1", "2"]);
+        assert_eq!(thinned(20, 4), ["0", "5", "7", "10", "15"]);
+    }
+}
