@@ -55,7 +55,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       await page.keyboard.press("ArrowDown");
       await page.keyboard.press("Enter");
       assert.equal(number(await detail()), from + 1);
-      assert.equal(await page.locator("#table tr.chosen td").first().textContent(), String(from + 1).padStart(4, "0"));
+      assert.equal((await texts("#table tr.chosen td"))[0], String(from + 1).padStart(4, "0"));
       await detailIsWhole();
     },
 

@@ -17,7 +17,8 @@ const results = folder("results");
 const { open, run, stop, problems, requests } = await start({ place, squama, chromium });
 
 const page = await open(results);
-const texts = (selector) => page.locator(selector).allTextContents();
+/** Texts of elements, without the sign of a folded design. */
+const texts = async (selector) => (await page.locator(selector).allTextContents()).map((own) => own.replace("⚠", ""));
 const text = (selector) => page.locator(selector).textContent();
 const detail = () => text("#detail-title");
 const forget = () => page.evaluate(() => { document.getElementById("detail-title").textContent = ""; });

@@ -16,9 +16,16 @@ const write = (name, headers, lines, definition = (text) => text) => {
 const force = (row) => Number(row[column("critical_force")]);
 const more = (row, k) => {
   const folded = k % 7 === 3;
-  return [folded ? -1.5 : 0.5, folded ? force(row) / 3 : "", folded ? force(row) / 3 : force(row), 0.3 * force(row), row[column("penetration")], 5 + k, 0.5 + 0.01 * k];
+  return {
+    gap_stretch_min: folded ? -1.5 : 0.5, fold_force: folded ? force(row) / 3 : "", sound_force: folded ? force(row) / 3 : force(row),
+    critical_force_N: 0.3 * force(row), penetration_mm: row[column("penetration")], bend_radius_mm: 5 + k, areal_mass_kg_m2: 0.5 + 0.01 * k,
+  };
 };
-write("folded", [...header, "gap_stretch_min", "fold_force", "sound_force", "critical_force_N", "penetration_mm", "bend_radius_mm", "areal_mass_kg_m2"], rows.map((row, k) => [...row, ...more(row, k)]));
+const added = Object.keys(more(rows[0], 0)), headers = [...new Set([...header, ...added])];
+write("folded", headers, rows.map((row, k) => {
+  const own = { ...Object.fromEntries(header.map((name, place) => [name, row[place]])), ...more(row, k) };
+  return headers.map((name) => own[name]);
+}));
 
 // The designs again and again, at other widths, with other values.
 const COPIES = Math.ceil(20000 / rows.length), at = column("slant_deg");

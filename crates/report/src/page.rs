@@ -53,7 +53,7 @@ pub struct Page {
     pub name: String,
     /// The version of the program.
     pub version: String,
-    /// The folder of the results as a word of a shell, for commands to copy.
+    /// The folder of the results, as commands name it.
     pub folder: String,
     /// The designs of the table.
     pub designs: Designs,

@@ -13,6 +13,7 @@
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`] | the statements of the paper, and their verdicts |
+//! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
@@ -28,6 +29,7 @@
 mod benchmarks;
 mod claims;
 mod error;
+mod gap_counts;
 mod page;
 mod search;
 mod sensitivity;
@@ -39,6 +41,7 @@ use sweep::Sweep;
 pub use benchmarks::{Benchmark, benchmarks};
 pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims};
 pub use error::ValidationError;
+pub use gap_counts::GapCount;
 pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{CouplingEffect, Headlines, Sensitivity};
 pub use soundness::Soundness;
@@ -59,6 +62,8 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// Where the model holds, and the claims on a substrate that cannot fold.
     pub soundness: Soundness,
+    /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
+    pub gap_counts: Vec<GapCount>,
     /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
     /// The effect on the measures of the paper's simplified coupling through the substrate.
@@ -83,8 +88,8 @@ impl Validation {
     /// If a benchmark has no result or the temporary folder cannot be written.
     pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, two sweeps on two substrates, claims, and a part for each setting.
-        let parts = 2 + 2 * SWEEPS.len() + settings.len();
+        // Benchmarks, two sweeps on two substrates, claims, strips of equal gaps, and a part for each setting.
+        let parts = 3 + 2 * SWEEPS.len() + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
             progress(PartProgress { done, parts, part });
@@ -102,9 +107,11 @@ impl Validation {
         let (linear, neo_hookean) = ([&paper, &as_written], [&other_paper, &other_as_written]);
         let (claims, others) = (claims::check(linear)?, claims::check(neo_hookean)?);
         let soundness = Soundness::of(linear, neo_hookean, [&claims, &others]);
+        begin("strips of equal gaps");
+        let gap_counts = GapCount::all()?;
         let (sensitivity, coupling) =
             sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
-        Ok(Self { benchmarks, claims, soundness, sensitivity, coupling })
+        Ok(Self { benchmarks, claims, soundness, gap_counts, sensitivity, coupling })
     }
 
     /// Returns whether every benchmark lies within its band.

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::{
-    Benchmark, CheckedClaim, CheckedStatement, Claim, CouplingEffect, Headlines, Sensitivity,
-    Validation, Verdict,
+    Benchmark, CheckedClaim, CheckedStatement, Claim, CouplingEffect, GapCount, Headlines,
+    Sensitivity, Validation, Verdict,
 };
 
 /// The rules by which claims are judged, as the page states them.
@@ -35,6 +35,7 @@ impl Validation {
             self.benchmark_section(),
             self.claim_section(),
             self.soundness.section(),
+            GapCount::section(&self.gap_counts),
             self.sensitivity_section(),
             self.coupling_section(),
         ];

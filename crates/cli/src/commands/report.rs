@@ -6,7 +6,6 @@ use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Page, SolvedDesign, drawings};
 use results::columns::design_columns;
-use results::shell_word;
 use skin::{flexure, puncture};
 use sweep::Case;
 
@@ -62,7 +61,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     Ok(Page {
         name: results.title(),
         version: PROGRAM.version.to_owned(),
-        folder: shell_word(&results.folder.display().to_string()),
+        folder: results.folder.display().to_string(),
         axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),

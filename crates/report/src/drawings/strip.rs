@@ -18,9 +18,9 @@ use crate::svg::{Element, Spot, arrow, polygon, polyline};
 /// Width of the part that shows one gap enlarged, px.
 const ENLARGED: f64 = 290.0;
 /// Height of the enlarged part, px: at least and at most.
-const HEIGHT: [f64; 2] = [160.0, 250.0];
+const HEIGHT: [f64; 2] = [190.0, 300.0];
 /// Room for the arrows around an enlarged gap, px, across and down.
-const ARROWS: Spot = [100.0, 104.0];
+const ARROWS: Spot = [100.0, 150.0];
 /// Height of the part that shows the whole strip, at most, px.
 const TALLEST: f64 = 430.0;
 

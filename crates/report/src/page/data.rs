@@ -1,5 +1,6 @@
 //! The data of a page, as its scripts read them.
 
+use results::shell_word;
 use serde_json::{Map, Value, json};
 use sweep::visible;
 
@@ -22,7 +23,7 @@ pub(super) fn of(page: &Page) -> Value {
     let shade = |k: u32| map_color((f64::from(k) + 0.5) / f64::from(SHADES));
     json!({
         "name": visible(&page.name),
-        "folder": page.folder,
+        "folder": shell_word(&page.folder),
         "opening": page.opening,
         "axes": page.axes,
         "axesOf": axes_of(page),

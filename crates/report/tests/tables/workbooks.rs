@@ -162,8 +162,8 @@ fn the_first_sheet_tells_what_the_run_is() {
     let results = results::Results::read(place.path()).expect("results");
     let preferences = "requirements = ['coverage >= 0.5']\nweights = [1, 3, 0, 0]";
     let preferences = ranking::Preferences::parse(preferences, "x").expect("preferences");
-    let ranking =
-        ranking::Ranking::by(&results, preferences, Default::default()).expect("a ranking");
+    let ranking = ranking::Ranking::by(&results, preferences, ranking::TetrahedralGrid::default())
+        .expect("a ranking");
     ranking::write_ranking(place.path(), &ranking).expect("writable");
     let cells = sheet(&exported(place.path()), "summary");
     let line = |row: &Vec<Data>| {

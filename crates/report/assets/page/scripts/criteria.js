@@ -84,7 +84,7 @@
 
   const body = squama.at("best").tBodies[0], head = squama.at("best").tHead.rows[0];
   const titled = ["gap_over_t", "length_over_t", "slant_deg", ...squama.varied].filter((name, k, all) => squama.has(name) && all.indexOf(name) === k);
-  const shown = () => [...titled, ...state.criteria.map(({ column }) => column).filter((name) => !titled.includes(name))];
+  const shown = () => [...new Set([...titled, ...state.criteria.map(({ column }) => column), ...state.requirements.map(({ column }) => column)])];
 
   const showHead = () => {
     const column = (name) => squama.element("th", { scope: "col" }, squama.label(name));

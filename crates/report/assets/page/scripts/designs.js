@@ -75,10 +75,15 @@ squama.short = (value) => {
 };
 
 // Units that end the name of a column, the longest first.
-const UNITS = { N_mm2: "N mm²", kg_m2: "kg/m²", N_per_mm: "N/mm", N_mm: "N mm", MPa: "MPa", mm: "mm", N: "N", deg: "°" };
+const UNITS = { N_mm2: "N mm²", kg_m2: "kg/m²", N_mm: "N mm", MPa: "MPa", mm: "mm", N: "N", deg: "°" };
 
-/** Unit at the end of a name, as [key, text]; null without one. */
-squama.unitOf = (name) => Object.entries(UNITS).find(([key]) => name.endsWith(`_${key}`)) ?? null;
+/** Unit at the end of a name, as [key, text]; null without one. Where the table says what the unit is, as there. */
+squama.unitOf = (name) => {
+  const found = Object.entries(UNITS).find(([key]) => name.endsWith(`_${key}`));
+  if (!found) return null;
+  const said = squama.columns[squama.place.get(name)]?.unit ?? "-";
+  return [found[0], said === "-" || said === "deg" ? found[1] : said.replaceAll("^2", "²")];
+};
 
 /** Whether a column has a physical unit; angles have none. */
 squama.physical = (name) => (squama.unitOf(name)?.[0] ?? "deg") !== "deg";

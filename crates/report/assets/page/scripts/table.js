@@ -55,15 +55,25 @@
     for (const part of [above, below]) part.replaceChildren(squama.element("tr", {}, squama.element("td", { colspan: columns.length, class: "spacer" })));
   };
 
-  /** Order of two rows; cells that do not exist come last either way. */
-  const order = () => {
-    const { name, down } = sorting(), cells = squama.cells(name);
-    return (p, q) => {
-      const [a, b] = [cells[p] ?? null, cells[q] ?? null];
-      if (a === null || b === null) return (a === null) - (b === null) || p - q;
-      const before = typeof a === "number" && typeof b === "number" ? a - b : String(a) < String(b) ? -1 : String(a) > String(b) ? 1 : 0;
-      return (down ? -before : before) || p - q;
-    };
+  /** Order of two rows by numbers; those that do not exist come last either way. */
+  const byNumbers = (numbers, sign) => (p, q) => {
+    const [a, b] = [numbers[p], numbers[q]];
+    if (a !== a || b !== b) return (a !== a) - (b !== b) || p - q;
+    return sign * (a - b) || p - q;
+  };
+
+  /** Order of two rows by texts, in the same way. */
+  const byTexts = (cells, sign) => (p, q) => {
+    const [a, b] = [cells[p] ?? null, cells[q] ?? null];
+    if (a === null || b === null) return (a === null) - (b === null) || p - q;
+    return a === b ? p - q : sign * (String(a) < String(b) ? -1 : 1);
+  };
+
+  /** The rows that meet the requirements, in the order of the table. */
+  const sorted = () => {
+    const { name, down } = sorting(), sign = down ? -1 : 1;
+    const isNumeric = squama.numeric.includes(name) && name !== "design";
+    return [...squama.meeting].sort(isNumeric ? byNumbers(squama.numbers(name), sign) : byTexts(squama.cells(name), sign));
   };
 
   const rowElement = (row, place) => squama.element("tr", { "data-row": row, "aria-rowindex": place + 3, tabindex: -1, class: [row === state.design ? "chosen" : "", row === state.pinned ? "pinned" : "", squama.folded(row) ? "folded" : ""].join(" ") },
@@ -114,7 +124,7 @@
 
   const show = () => {
     if (columns.join() !== chosenColumns().join()) showHead();
-    rows = [...squama.meeting].sort(order());
+    rows = sorted();
     table.setAttribute("aria-rowcount", rows.length + 2);
     fill(true);
     showHeaders();
