@@ -211,7 +211,8 @@ mod tests {
     fn a_share_is_spread_evenly() {
         let chosen = |share| every(share, 0..720).collect::<Vec<_>>();
         let tenth = chosen(0.1);
-        assert_eq!((tenth.len(), chosen(1.0).len(), chosen(0.0).len()), (72, 720, 0));
+        assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
+        assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
         // Every slant of a grid of six is among them, each about as often.
         for slant in 0..6 {
             let count = tenth.iter().filter(|index| **index % 6 == slant).count();

@@ -19,10 +19,24 @@ pub struct Running {
     child: Child,
 }
 
+/// The command, with the signals listened to that whoever runs the tests may have it ignore, as a shell does in the background.
+fn squama() -> Command {
+    let program = assert_cmd::cargo::cargo_bin!("squama");
+    let listening = "--default-signal=HUP,INT,TERM";
+    let can = Command::new("env").args([listening, "true"]).stderr(Stdio::null()).status();
+    if can.is_ok_and(|status| status.success()) {
+        let mut command = Command::new("env");
+        command.arg(listening).arg(program);
+        command
+    } else {
+        Command::new(program)
+    }
+}
+
 impl Running {
     /// Starts `squama` in `folder` with `arguments` separated by spaces.
     pub fn spawn(folder: &Path, arguments: &str) -> Self {
-        let child = Command::new(assert_cmd::cargo::cargo_bin!("squama"))
+        let child = squama()
             .args(arguments.split_whitespace())
             .current_dir(folder)
             .stdout(Stdio::null())

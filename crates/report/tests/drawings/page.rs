@@ -84,7 +84,7 @@ fn what_was_not_measured_has_no_figure() {
 
 #[test]
 fn every_value_of_a_further_axis_has_figures_of_its_own() {
-    let mut lines = table().lines().map(|line| line.to_owned()).collect::<Vec<_>>();
+    let mut lines = table().lines().map(str::to_owned).collect::<Vec<_>>();
     for (k, line) in lines.iter_mut().enumerate() {
         line.push_str(if k == 0 { ",width_over_t" } else { [",0.5", ",2"][k % 2] });
     }
