@@ -22,8 +22,9 @@ const NEAR: f64 = 0.05;
 const CLOSER: usize = 4;
 
 /// A segment that begins or ends at a kink is searched if an end of it has at least this part of the largest value: a force
-/// that has just begun to act may hide a maximum between two points that are both lower than the highest one.
-const PROMISING: f64 = 0.7;
+/// that has just begun to act may hide a maximum between two points that are both lower than the highest one. Those that were
+/// seen rise by less than a hundredth above their ends.
+const PROMISING: f64 = 0.95;
 
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
@@ -234,7 +235,12 @@ fn hidden_bracket(
     at: &mut impl FnMut(f64) -> Option<Sample>,
     [start, end]: [Sample; 2],
 ) -> Option<Brent> {
-    let samples = [start, at(NEAR)?, at(0.5)?, at(1.0 - NEAR)?, end];
+    // Near the larger end the search has begun already, and has found that the function falls from there.
+    let samples = if start.value <= end.value {
+        [start, at(NEAR)?, at(0.5)?, end]
+    } else {
+        [start, at(0.5)?, at(1.0 - NEAR)?, end]
+    };
     let higher =
         |beside: &&[Sample]| beside[1].value > beside[0].value && beside[1].value > beside[2].value;
     let tops = samples.windows(3).filter(higher);
