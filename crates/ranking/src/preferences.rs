@@ -1,4 +1,4 @@
-//! What a ranking goes by: requirements, criteria, their weights and their scale.
+//! The preferences that a ranking goes by: requirements, criteria, their weights and their scale.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::requirement::Requirement;
 use crate::scale::Scale;
 use crate::weights::{InvalidWeights, MOST_CRITERIA, Weights};
 
-/// What a ranking goes by. The file `ranking.toml` beside the tables holds it.
+/// The preferences that a ranking goes by. The file `ranking.toml` beside the tables holds it.
 ///
 /// ```
 /// use ranking::Preferences;
@@ -71,7 +71,7 @@ pub enum InvalidPreferences {
         place: Place,
         /// The key.
         key: String,
-        /// What is wrong, and what would be right.
+        /// The fault, and what would be right.
         problem: String,
     },
 }

@@ -143,7 +143,7 @@ impl<'r> Ranking<'r> {
         Ok(Self { results, preferences, grid, candidates, winners, left_out })
     }
 
-    /// What the ranking goes by.
+    /// The preferences that the ranking goes by.
     pub fn preferences(&self) -> &Preferences {
         &self.preferences
     }

@@ -48,7 +48,7 @@ impl Scale {
         (value > 0.0 && criterion.is_finite()).then_some(criterion)
     }
 
-    /// What a rescaled criterion adds to the score of a design, once for each unit of weight.
+    /// The part that a rescaled criterion adds to the score of a design, once for each unit of weight.
     pub(crate) fn term(self, rescaled: f64) -> f64 {
         if self == Self::Paper { rescaled.ln() } else { rescaled }
     }

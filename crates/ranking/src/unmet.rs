@@ -24,7 +24,7 @@ pub struct UnmetRequirement {
     pub met: usize,
     /// The number of designs that meet all the others.
     pub met_without: usize,
-    /// What the nearest design has in its column.
+    /// The value of the nearest design in its column.
     pub nearest: Option<f64>,
     /// How much of the limit the nearest design lacks.
     pub shortfall: f64,
@@ -38,7 +38,7 @@ impl UnmetRequirement {
 }
 
 impl Unmet {
-    /// What stands in the way of the requirements, none of which a design meets together.
+    /// The obstacle to the requirements, none of which a design meets together.
     pub(crate) fn of(
         results: &Results,
         requirements: &[Requirement],
@@ -73,7 +73,7 @@ fn meets_others(shortfalls: &[f64], one: usize) -> bool {
     shortfalls.iter().enumerate().all(|(k, shortfall)| k == one || *shortfall == 0.0)
 }
 
-/// What shortfalls are relative to: the limit, or the largest value of the column if the limit is 0.
+/// The size that shortfalls are relative to: the limit, or the largest value of the column if the limit is 0.
 fn size(values: &[Vec<Option<f64>>], k: usize, requirement: &Requirement) -> f64 {
     let found = values.iter().filter_map(|row| row[k]);
     let largest = || found.fold(0.0, |largest: f64, value| largest.max(value.abs()));

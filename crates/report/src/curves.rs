@@ -146,7 +146,7 @@ fn flexure_energies(solved: &DesignCurves) -> Option<Energies> {
     ])
 }
 
-/// What a curve shows of a design.
+/// The values that a curve shows of a design.
 struct CurveValues {
     points: Vec<[f64; 2]>,
     crosses: Vec<[f64; 2]>,

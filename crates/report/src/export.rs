@@ -150,7 +150,7 @@ fn properties() -> Result<DocProperties, XlsxError> {
     Ok(DocProperties::new().set_author("squama").set_creation_datetime(&epoch))
 }
 
-/// What a table, in a file with its path, holds: its profiles by column, and its best values.
+/// The content of a table in a file with its path: its profiles by column, and its best values.
 fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
     let (format, mut csv) = open(file).map_err(|error| unreadable(reason(&error)))?;
@@ -165,7 +165,7 @@ fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), 
     Ok((TableProfile { format, header, columns }, best))
 }
 
-/// What is known of a table before it is written as a sheet.
+/// The facts about a table before it is written as a sheet.
 struct TableProfile {
     format: CsvFormat,
     header: csv::StringRecord,

@@ -24,20 +24,20 @@ pub struct Figure {
 
 /// A criterion as figures name it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quantity {
+pub(crate) struct FigureQuantity {
     pub(crate) column: &'static str,
     pub(crate) label: &'static str,
 }
 
-pub(crate) const COVERAGE: Quantity =
-    Quantity { column: "coverage", label: "coverage $λ$, dimensionless" };
-pub(crate) const FORCE: Quantity = Quantity {
+pub(crate) const COVERAGE: FigureQuantity =
+    FigureQuantity { column: "coverage", label: "coverage $λ$, dimensionless" };
+pub(crate) const FORCE: FigureQuantity = FigureQuantity {
     column: "critical_force",
     label: "critical force $F_c^*$ = $F_c$(1 − $ν$^2)/($E_s L t$), dimensionless",
 };
-pub(crate) const PENETRATION: Quantity =
-    Quantity { column: "penetration", label: "penetration $u_{max}/t$, dimensionless" };
-pub(crate) const COMPLIANCE: Quantity = Quantity {
+pub(crate) const PENETRATION: FigureQuantity =
+    FigureQuantity { column: "penetration", label: "penetration $u_{max}/t$, dimensionless" };
+pub(crate) const COMPLIANCE: FigureQuantity = FigureQuantity {
     column: "compliance",
     label: "flexural compliance $C_f^*$ = $C_f E_m I_m/t$, dimensionless",
 };

@@ -9,7 +9,7 @@
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | figures of a sweep, from its table |
 //! | [`Designs`] | the table of a sweep, column by column |
-//! | [`Page`], [`SolvedDesign`] | figures, ranking, table and drawings on one HTML page |
+//! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!
@@ -55,7 +55,7 @@ pub use designs::Designs;
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
 pub use figures::{Figure, figures};
-pub use page::{Fact, Page, SolvedDesign};
+pub use page::{Fact, Page, PageDesign};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};

@@ -66,14 +66,14 @@ pub struct Page {
     /// The key, the value and the meaning of each parameter that all designs share.
     pub shared: Vec<[String; 3]>,
     /// Designs that were solved again for the page.
-    pub solved: Vec<SolvedDesign>,
+    pub solved: Vec<PageDesign>,
     /// The state that the page opens with, as its address would have it: `require=coverage >= 0.6&weights=40,30,20,10`.
     pub opening: String,
 }
 
 /// A design that was solved again: its drawing and its curves.
 #[derive(Clone, Debug, Default)]
-pub struct SolvedDesign {
+pub struct PageDesign {
     /// The number of the design.
     pub number: String,
     /// The drawing, as SVG.

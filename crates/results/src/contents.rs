@@ -20,7 +20,7 @@ use crate::folder::{OutputError, RunFolder};
 /// The line that seals the text before it.
 const SEAL: &str = "sha256_of_the_above = ";
 
-/// What a results folder holds.
+/// The content of a results folder.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contents {

@@ -49,7 +49,7 @@ impl RunFolder {
     /// The tables of a ranking: by fitness, the Pareto front, the winners, the winner at every weight.
     pub const RANKING: [&'static str; 4] =
         ["ranking.csv", "pareto.csv", "winners.csv", "quaternary.csv"];
-    /// What a ranking goes by: requirements, criteria, weights, scale.
+    /// The preferences that a ranking goes by: requirements, criteria, weights, scale.
     pub const PREFERENCES: &'static str = "ranking.toml";
     /// The tables of a comparison: by column and by cell.
     pub const COMPARISON: [&'static str; 2] = ["compare.csv", "differences.csv"];

@@ -53,14 +53,14 @@ pub struct LargestDifference {
     pub values: [f64; 2],
 }
 
-/// What an audit found.
+/// The findings of an audit.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
     /// The number of designs that were solved again.
     pub designs: u64,
     /// The largest difference of each column and way, the largest first.
     pub differences: Vec<LargestDifference>,
-    /// What two ways say differently in words, or what only one of them has: column, design and both texts.
+    /// Cells that two ways fill differently in words, or what only one of them has: column, design and both texts.
     pub contradictions: Vec<(String, DesignNumber, [String; 2])>,
 }
 

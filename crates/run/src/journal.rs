@@ -66,7 +66,7 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     synced: Instant,
-    /// What was cut off or lost.
+    /// Lines that were cut off or lost.
     notes: Vec<String>,
 }
 
@@ -136,7 +136,7 @@ impl Journal {
         Ok(Self { archive, path, file, synced: Instant::now(), notes })
     }
 
-    /// What was cut off or lost, for people.
+    /// Lines that were cut off or lost, for people.
     pub(crate) fn notes(&self) -> &[String] {
         &self.notes
     }

@@ -44,7 +44,7 @@ pub struct Finished {
     pub duration: Duration,
     /// Names of the tables.
     pub tables: Vec<String>,
-    /// What a person should know besides: what was cut off, lost or removed.
+    /// News for the person besides: what was cut off, lost or removed.
     pub notes: Vec<String>,
 }
 

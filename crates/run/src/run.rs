@@ -60,7 +60,7 @@ pub fn run(
     Ok(finished)
 }
 
-/// What is to be said of files that were made from earlier results.
+/// The message about files that were made from earlier results.
 fn removal(files: &[String]) -> Option<String> {
     let files = files.join(" ");
     (!files.is_empty()).then(|| format!("removed, because made from the earlier results: {files}"))

@@ -27,9 +27,9 @@ pub struct RunStatus {
     pub slowest: Vec<(f64, DesignNumber)>,
     /// Designs that were solved again.
     pub solved_again: u64,
-    /// What is wrong with the tables or the journal, each in one line.
+    /// The faults of the tables or the journal, each in one line.
     pub problems: Vec<String>,
-    /// What was made from the tables and is out of date.
+    /// The products of the tables that are out of date.
     pub outdated: Vec<Derivation>,
 }
 

@@ -7,7 +7,7 @@
 
 mod places;
 
-use solver::{Change, Linearisation, Moved, Neighbours, Place, Settings};
+use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
 
 use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
@@ -42,7 +42,7 @@ pub struct Derivative {
 }
 
 /// A quantity of an equilibrium, which may be the largest of one for each scale.
-pub(crate) struct Quantity<S: Skin> {
+pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
     /// The value by system, state, direction of the path, and scale.
     pub(crate) value: fn(&S, &SkinState, &[f64], usize) -> f64,
@@ -53,10 +53,10 @@ pub(crate) struct Quantity<S: Skin> {
 }
 
 /// Quantities that are taken at one place of a path.
-pub(crate) struct Spot<S: Skin> {
+pub(crate) struct MeasuredPoint<S: Skin> {
     /// The place; `None` where it is not known.
-    pub(crate) place: Option<Place<S::Mode>>,
-    pub(crate) quantities: Vec<Quantity<S>>,
+    pub(crate) place: Option<AnchoredPoint<S::Mode>>,
+    pub(crate) quantities: Vec<MeasuredQuantity<S>>,
 }
 
 /// One-sided derivatives that differ by less than this part belong to a smooth measure.
@@ -69,12 +69,12 @@ const MOST_CHANGES: usize = 8;
 /// which the path was followed. A quantity whose place is not known has none.
 pub(crate) fn derivatives<S: Skin>(
     system: &S,
-    spots: Vec<Spot<S>>,
+    spots: Vec<MeasuredPoint<S>>,
     variations: &[Variation<S>],
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
-    for Spot { place, quantities } in merged(spots) {
+    for MeasuredPoint { place, quantities } in merged(spots) {
         let here = place.and_then(|place| Linearisation::new(system, place).ok());
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
@@ -89,10 +89,10 @@ pub(crate) fn derivatives<S: Skin>(
 }
 
 /// The spots, those at one place together.
-fn merged<S: Skin>(spots: Vec<Spot<S>>) -> Vec<Spot<S>> {
-    let mut merged: Vec<Spot<S>> = Vec::new();
+fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
+    let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
-        let is_there = |other: &&mut Spot<S>| match (&other.place, &spot.place) {
+        let is_there = |other: &&mut MeasuredPoint<S>| match (&other.place, &spot.place) {
             (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
             _ => false,
         };
@@ -184,7 +184,7 @@ impl<S: Skin> Linearised<'_, S> {
 
     fn derivative(
         &self,
-        quantity: &Quantity<S>,
+        quantity: &MeasuredQuantity<S>,
         parameter: usize,
         variation: &Variation<S>,
         (left, right): &(SideMotion<S::Mode>, Option<SideMotion<S::Mode>>),
@@ -216,7 +216,7 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
-impl<S: Skin> Quantity<S> {
+impl<S: Skin> MeasuredQuantity<S> {
     /// The derivative on one side. The scale is the one that is the largest there.
     fn rate(
         &self,

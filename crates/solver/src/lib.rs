@@ -21,7 +21,7 @@
 //! | [`Newton`], [`Condition`], [`NewtonFailure`] | one equilibrium, by Newton's method |
 //! | [`Tangent`], [`NoTangent`], [`Blocks`], [`BlockMatrix`], [`BlockElimination`] | derivatives of a row, eliminated block by block towards the block of the load |
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
-//! | [`Linearisation`], [`Place`], [`Anchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
+//! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
@@ -88,7 +88,7 @@ pub use linear::{BandLu, BandMatrix, SingularMatrix};
 pub use newton::{Condition, Newton, NewtonFailure};
 pub use path::{Path, Point};
 pub use peak::{Peak, Summit};
-pub use sensitivity::{Anchor, Linearisation, Moved, Neighbours, Place};
+pub use sensitivity::{AnchoredPoint, Linearisation, Moved, Neighbours, PathAnchor};
 pub use skyline::{SkylineFactors, SkylineMatrix};
 pub use step::Settings;
 pub use stop::Stop;

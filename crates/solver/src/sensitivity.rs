@@ -8,7 +8,7 @@ use crate::tangent::Tangent;
 
 /// The condition that tells which equilibrium of the path a place is, when a parameter changes the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
+pub enum PathAnchor {
     /// The place stays where it is along the path: at rest, or at a smooth maximum, where moving along the path changes nothing.
     Still,
     /// The control parameter is at its target.
@@ -19,13 +19,13 @@ pub enum Anchor {
 
 /// An equilibrium of a path that a parameter moves.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place<M> {
+pub struct AnchoredPoint<M> {
     /// The equilibrium, with the active set and the mode that are held.
     pub state: State<M>,
     /// The direction of the path there.
     pub direction: Vec<f64>,
     /// The condition that holds the place on the path.
-    pub anchor: Anchor,
+    pub anchor: PathAnchor,
 }
 
 /// A system for two values of a parameter that differ by `2 step`, on both sides of the value that it has.
@@ -62,7 +62,7 @@ pub struct Moved<M> {
 /// differences of explicit functions. No solution is ever differenced.
 #[derive(Clone, Debug)]
 pub struct Linearisation<M> {
-    place: Place<M>,
+    place: AnchoredPoint<M>,
     newton: Newton,
     /// The section of the path that the place stays in.
     section: Vec<(usize, f64)>,
@@ -73,16 +73,19 @@ impl<M: Clone> Linearisation<M> {
     ///
     /// # Errors
     /// If the tangent is singular there.
-    pub fn new<S: System<Mode = M>>(system: &S, place: Place<M>) -> Result<Self, NewtonFailure> {
+    pub fn new<S: System<Mode = M>>(
+        system: &S,
+        place: AnchoredPoint<M>,
+    ) -> Result<Self, NewtonFailure> {
         let section = section(system, &place.direction);
         let condition = Condition { row: section.clone(), value: 0.0 };
         let mut newton = Newton::new(system);
         let direction = newton.tangent(system, &place.state, &condition)?;
-        Ok(Self { place: Place { direction, ..place }, newton, section })
+        Ok(Self { place: AnchoredPoint { direction, ..place }, newton, section })
     }
 
     /// The place.
-    pub fn place(&self) -> &Place<M> {
+    pub fn place(&self) -> &AnchoredPoint<M> {
         &self.place
     }
 
@@ -184,12 +187,12 @@ impl<M: Clone> Linearisation<M> {
         neighbours: &Neighbours<S>,
         unknowns: &[f64],
     ) -> f64 {
-        let Place { state, direction, anchor } = &self.place;
+        let AnchoredPoint { state, direction, anchor } = &self.place;
         let off = |system: &S, step: f64| anchor.off(system, &state.moved(step, unknowns));
         let step = neighbours.step;
         match *anchor {
-            Anchor::Still => 0.0,
-            Anchor::Guard(constraint) if state.active[constraint] => {
+            PathAnchor::Still => 0.0,
+            PathAnchor::Guard(constraint) if state.active[constraint] => {
                 let index = system.constraints()[constraint];
                 -unknowns[index] / direction[index]
             }
@@ -204,7 +207,7 @@ impl<M: Clone> Linearisation<M> {
     /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
     pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
         let guards = Newton::guards(system, &moved.state);
-        let held = |constraint: usize| self.place.anchor == Anchor::Guard(constraint);
+        let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
         let violated = guards.iter().enumerate().filter(|&(c, guard)| *guard < -FLOOR && !held(c));
         let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(b.1))?;
         Some(Change { constraint, activated: !self.place.state.active[constraint] })
@@ -223,17 +226,20 @@ impl<M: Clone> Linearisation<M> {
         system.transition(&mut state, change)?;
         let condition = Condition::through(self.section.clone(), &self.place.state.z);
         let direction = Newton::new(system).solve(system, &mut state, &condition, settings).ok()?;
-        Self::new(system, Place { state, direction, anchor: self.place.anchor }).ok()
+        Self::new(system, AnchoredPoint { state, direction, anchor: self.place.anchor }).ok()
     }
 
-    /// The same place held by the guard of another constraint.
+    /// This place held by the guard of another constraint.
     #[must_use]
     pub fn held_by(self, constraint: usize) -> Self {
-        Self { place: Place { anchor: Anchor::Guard(constraint), ..self.place }, ..self }
+        Self {
+            place: AnchoredPoint { anchor: PathAnchor::Guard(constraint), ..self.place },
+            ..self
+        }
     }
 }
 
-impl<M: Clone> Place<M> {
+impl<M: Clone> AnchoredPoint<M> {
     /// The place near this one at which a function of system, state and direction is stationary along the path, by the
     /// secant method. The function must have an extremum there. `None` where the iteration does not settle.
     pub fn stationary<S: System<Mode = M>>(
@@ -249,7 +255,7 @@ impl<M: Clone> Place<M> {
             let mut state = self.state.moved(distance, &self.direction);
             let condition = Condition { value: origin.value + distance, ..origin.clone() };
             let direction = Newton::new(system).solve(system, &mut state, &condition, settings);
-            let place = Self { state, direction: direction.ok()?, anchor: Anchor::Still };
+            let place = Self { state, direction: direction.ok()?, anchor: PathAnchor::Still };
             let slope = place.slope_along(system, f, ALONG * reach)?;
             Some((distance, slope, place))
         };
@@ -306,7 +312,8 @@ impl<M: Clone> Place<M> {
     /// any section serves; in this one the layers stay at rest that a force makes which has just begun to act.
     fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
         let fast = self.fastest(system).filter(|(_, way)| *way < 1.0);
-        let anchor = fast.map_or(Anchor::Still, |(constraint, _)| Anchor::Guard(constraint));
+        let anchor =
+            fast.map_or(PathAnchor::Still, |(constraint, _)| PathAnchor::Guard(constraint));
         Self { anchor, ..self }
     }
 }
@@ -329,7 +336,7 @@ const MOST_SECANTS: usize = 20;
 /// Part of the way over which the state changes, for derivatives along the path by differences.
 const ALONG: f64 = 1e-5;
 
-impl Anchor {
+impl PathAnchor {
     /// The number that vanishes where the anchor holds.
     fn off<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
         let control = system.controls()[0];

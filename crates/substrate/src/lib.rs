@@ -21,7 +21,7 @@
 //! | [`RowStiffness`], [`Coupling`] | the same with more neighbours and with force from rotation |
 //! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
-//! | [`Strip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
+//! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
 //! | [`mesh`] | cells graded towards the edges and the gap |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
@@ -60,4 +60,4 @@ pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
 pub use stiffness_slopes::{OneSided, StiffnessSlopes};
-pub use strip::{Strip, SubstrateLaw, neo_hookean};
+pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean};

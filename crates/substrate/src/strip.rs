@@ -20,14 +20,14 @@ pub enum SubstrateLaw {
 ///
 /// with the poses `(x, y, φ)` and `(x', y', φ')` of the two scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Strip {
+pub struct SurfaceStrip {
     /// Width at rest: the gap `d`.
     pub width: f64,
     /// Half-width `a` of the bases on both sides.
     pub half_base: f64,
 }
 
-impl Strip {
+impl SurfaceStrip {
     /// The stretch `g` of the strip between two poses `(x, y, φ)`.
     pub fn stretch(&self, left: [f64; 3], right: [f64; 3]) -> f64 {
         // 1 − cos φ without cancellation.
@@ -73,10 +73,10 @@ pub fn neo_hookean(stretch: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::{Strip, neo_hookean};
+    use super::{SurfaceStrip, neo_hookean};
     use approx::assert_relative_eq;
 
-    const STRIP: Strip = Strip { width: 0.2, half_base: 0.5 };
+    const STRIP: SurfaceStrip = SurfaceStrip { width: 0.2, half_base: 0.5 };
 
     #[test]
     fn a_bar_at_rest_has_no_force_and_unit_stiffness() {

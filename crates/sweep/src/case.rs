@@ -28,7 +28,7 @@ pub struct Case {
     pub imperfection: Imperfection,
     /// The imperfect rows that are solved if they scatter at all.
     pub samples: Samples,
-    /// What it is made of, in physical units, as far as that is given.
+    /// The material of the skin, in physical units, as far as that is given.
     pub material: Material,
 }
 

@@ -68,7 +68,7 @@ impl Sweep {
         &self.measures
     }
 
-    /// The same sweep that measures sensitivities besides.
+    /// This sweep, which measures sensitivities besides.
     #[must_use]
     pub fn with_sensitivity(mut self) -> Self {
         if !self.measures.contains(&Measure::Sensitivity) {

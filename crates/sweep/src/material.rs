@@ -1,4 +1,4 @@
-//! What a skin is made of, in physical units.
+//! The material of a skin, in physical units.
 
 /// Thickness, moduli and density of a skin in physical units, as far as they are given. The mechanics need none of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

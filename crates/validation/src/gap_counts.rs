@@ -14,7 +14,7 @@ const STRIPS: &str = "name = \"gaps\"\nmeasures = [\"coverage\", \"flexure\"]\n\
 /// The claims that name the most compliant designs.
 const CLAIMS: [&str; 3] = ["C22", "C23", "C26"];
 
-/// What becomes of the claims on the most compliant designs on strips of one setting.
+/// The fate of the claims on the most compliant designs on strips of one setting.
 #[derive(Clone, Debug)]
 pub struct GapCount {
     /// The setting, as `key = value`.

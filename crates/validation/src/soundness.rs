@@ -26,7 +26,7 @@ const STRONGEST: usize = 60;
 /// The folds of both laws of the substrate, and the claims that they concern.
 #[derive(Clone, Debug)]
 pub struct Soundness {
-    /// What the page says in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
+    /// The text of the page in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
     rows: Vec<[String; 5]>,
     /// The statements of the claims concerned, likewise.
     claims: Vec<[String; 5]>,

@@ -1,4 +1,4 @@
-//! What a command makes from the tables of a folder, noted there so that `squama status` can tell when it is out of date.
+//! A record of each thing that a command makes from the tables of a folder, kept there so that `squama status` can tell when it is out of date.
 
 use std::fs;
 use std::io;

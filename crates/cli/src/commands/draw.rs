@@ -127,16 +127,7 @@ impl Drawing<'_> {
     fn flexure(&self, files: &mut Written) -> anyhow::Result<()> {
         let parameters = self.case.flexure;
         let last = parameters.max_end_rotation_deg;
-        let at: Vec<f64> = match self.arguments.at.as_slice() {
-            [] if self.arguments.animate => {
-                (0..=FRAMES).map(|k| last * f64::from(k) / f64::from(FRAMES)).collect()
-            }
-            [] => {
-                let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
-                reached.map(|size| size * last.signum() + 0.0).collect()
-            }
-            at => at.to_vec(),
-        };
+        let at = self.rotations_deg(last);
         let solved = flexure::snapshots(&self.case.design, &self.case.common, &parameters, &at)?;
         let reached = |(at, state): (&f64, Option<flexure::StripSnapshot>)| match state {
             Some(state) => Ok(state),
@@ -164,6 +155,20 @@ impl Drawing<'_> {
         );
         let file = self.file(&format!("flexure-at-{place}"));
         write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
+    }
+
+    /// The end rotations to draw a strip at that is bent by `last`, degrees.
+    fn rotations_deg(&self, last: f64) -> Vec<f64> {
+        match self.arguments.at.as_slice() {
+            [] if self.arguments.animate => {
+                (0..=FRAMES).map(|k| last * f64::from(k) / f64::from(FRAMES)).collect()
+            }
+            [] => {
+                let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
+                reached.map(|size| size * last.signum() + 0.0).collect()
+            }
+            at => at.to_vec(),
+        }
     }
 }
 

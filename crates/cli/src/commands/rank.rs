@@ -67,7 +67,7 @@ fn none_meets(
     Ok(INCOMPLETE)
 }
 
-/// What the ranking goes by.
+/// The preferences that the ranking goes by.
 fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
     let require = |text: &String| option::<Requirement>("--require", text);
     let requirements = arguments.require.iter().map(require).collect::<anyhow::Result<_>>()?;

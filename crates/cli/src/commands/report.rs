@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use ranking::{Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{Page, SolvedDesign, drawings};
+use report::{Page, PageDesign, drawings};
 use results::columns::design_columns;
 use skin::{flexure, puncture};
 use sweep::Case;
@@ -72,7 +72,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     })
 }
 
-/// What the last ranking went by, as the address of the page has it.
+/// The preferences of the last ranking, as the address of the page has it.
 fn opening(preferences: &Preferences) -> String {
     let list = |texts: Vec<String>| texts.join(",");
     let criteria = list(preferences.criteria.iter().map(ToString::to_string).collect());
@@ -87,7 +87,7 @@ fn opening(preferences: &Preferences) -> String {
 
 /// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings
 /// and curves: as many as there is room for.
-fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<SolvedDesign> {
+fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
     let mut rows: Vec<usize> = Vec::new();
@@ -98,7 +98,7 @@ fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<SolvedDesign> {
     }
     let all: Vec<_> = rows.par_iter().filter_map(|&row| solve(results, row)).collect();
     let mut room = ROOM;
-    let fits = |design: &SolvedDesign| {
+    let fits = |design: &PageDesign| {
         room = room.saturating_sub(design.svg.len());
         room > 0
     };
@@ -106,7 +106,7 @@ fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<SolvedDesign> {
 }
 
 /// A design with drawing and curves, or none if it cannot be solved: its row in the table says why.
-fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
+fn solve(results: &ResultsFolder, row: usize) -> Option<PageDesign> {
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
@@ -125,7 +125,7 @@ fn solve(results: &ResultsFolder, row: usize) -> Option<SolvedDesign> {
         states: &states,
     };
     let path = solved.puncture.path.iter();
-    Some(SolvedDesign {
+    Some(PageDesign {
         number: number.to_owned(),
         svg: drawing.svg().ok()?,
         puncture: path.map(|point| [point.displacement, point.force]).collect(),

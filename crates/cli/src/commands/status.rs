@@ -44,13 +44,13 @@ fn report(status: &run::RunStatus) -> String {
     format!("{name}: {state}\n{}{lists}", aligned(&rows))
 }
 
-/// What is wrong with the files of the run.
+/// The faults of the files of the run.
 fn problems(status: &run::RunStatus) -> String {
     let rows = status.problems.iter().map(|problem| [problem.clone()]);
     titled("what is wrong", &rows.collect::<Vec<_>>())
 }
 
-/// What was made from tables that are no longer there, and the commands that make it again.
+/// Products of tables that are no longer there, and the commands that make them again.
 fn outdated(status: &run::RunStatus) -> String {
     let rows = status.outdated.iter().map(|made| [made.product.clone(), made.command.clone()]);
     titled("out of date", &rows.collect::<Vec<_>>())

@@ -82,6 +82,19 @@ impl Running {
         self.end_within(PATIENCE).expect("the process ends")
     }
 
+    /// The exit status of a process that is sent a signal again and again until it ends.
+    #[cfg(unix)]
+    pub fn end_by(&mut self, signal: i32) -> ExitStatus {
+        let begun = Instant::now();
+        loop {
+            self.send(signal);
+            if let Some(status) = self.end_within(Duration::from_millis(200)) {
+                return status;
+            }
+            assert!(begun.elapsed() < PATIENCE, "sent in vain for {PATIENCE:?}");
+        }
+    }
+
     /// Kills the process; its exit status has no code unless it was done before.
     pub fn kill(&mut self) -> ExitStatus {
         self.child.kill().expect("a process");

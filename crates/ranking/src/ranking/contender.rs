@@ -21,7 +21,7 @@ pub(crate) struct Contender {
     pub criteria: Criteria,
     /// The criteria from 0, the worst, to 1, the best.
     pub rescaled: Criteria,
-    /// What each criterion adds to the score.
+    /// The part that each criterion adds to the score.
     pub terms: Criteria,
     /// Whether no other design beats it in every criterion.
     pub on_front: bool,

@@ -1,9 +1,9 @@
-//! What a table holds, column by column, before it is written as a sheet.
+//! The content of a table, column by column, before it is written as a sheet.
 
 use csv::StringRecord;
 use results::CsvFormat;
 
-/// What is known of a column once all its cells have been seen.
+/// The facts about a column once all its cells have been seen.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct ColumnProfile {
     /// Characters of the longest text.
@@ -26,7 +26,7 @@ const WRITTEN: usize = 4;
 const DIGITS: i32 = 3;
 /// Decimals that a column shows, at most; what needs more is shown as a power of ten.
 const MOST_DECIMALS: i32 = 6;
-/// What is smaller than this part of the largest number of a column is round-off.
+/// A number below this part of the largest one of its column is round-off.
 const ROUND_OFF: f64 = 1e-9;
 
 impl ColumnProfile {

@@ -1,6 +1,6 @@
 //! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
 
-use super::{Quantity, columns, sheet};
+use super::{FigureQuantity, columns, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, NAME, mark, slant_legend};
 use crate::designs::Designs;
@@ -51,7 +51,7 @@ fn lengths(designs: &Designs) -> Lengths {
 pub(super) fn figure(
     name: &str,
     designs: &Designs,
-    quantity: Quantity,
+    quantity: FigureQuantity,
     filled: Option<&str>,
 ) -> String {
     let lengths = lengths(designs);
@@ -107,7 +107,7 @@ struct PanelSeries<'a> {
     palette: &'a SlantPalette,
     lengths: &'a Lengths,
     value: f64,
-    quantity: Quantity,
+    quantity: FigureQuantity,
     filled: Option<&'a str>,
 }
 

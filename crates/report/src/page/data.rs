@@ -4,7 +4,7 @@ use results::shell_word;
 use serde_json::{Map, Value, json};
 use sweep::visible;
 
-use super::{Fact, Page, SolvedDesign};
+use super::{Fact, Page, PageDesign};
 use crate::axis::ChartAxis;
 use crate::palette::{SlantPalette, map_color};
 
@@ -74,7 +74,7 @@ fn slants(values: Vec<f64>) -> Vec<Value> {
     values.into_iter().map(slant).collect()
 }
 
-fn solved(design: &SolvedDesign) -> Value {
+fn solved(design: &PageDesign) -> Value {
     let curves = [("puncture", &design.puncture), ("flexure", &design.flexure)];
     let curves: Map<String, Value> = curves
         .into_iter()

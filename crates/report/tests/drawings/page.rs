@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use ranking::{Ranking, TetrahedralGrid};
-use report::{Designs, Page, SolvedDesign, figures};
+use report::{Designs, Page, PageDesign, figures};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -157,11 +157,11 @@ fn a_page_has_an_axis_for_every_column_of_numbers() {
 
 #[test]
 fn curves_of_solved_designs_have_axes_that_they_fit_on() {
-    let solved = SolvedDesign {
+    let solved = PageDesign {
         number: "0001".to_owned(),
         puncture: vec![[0.0, 0.0], [0.1, 2.345_678_912]],
         flexure: vec![[0.0, 0.0]],
-        ..SolvedDesign::default()
+        ..PageDesign::default()
     };
     let html = Page { solved: vec![solved], ..page(designs()) }.html();
     assert!(html.contains("\"points\":[[0.0,0.0],[0.1,2.34568]]"), "with few digits");

@@ -1,4 +1,4 @@
-//! What is made from the tables of a folder, and the tables that it was made from.
+//! A product of the tables of a folder, and the tables that it was made from.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -14,7 +14,7 @@ use crate::folder::{OutputError, RunFolder};
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Derivation {
-    /// What it is, in a word or two.
+    /// The name of the product, in a word or two.
     pub product: String,
     /// The command that makes it again.
     pub command: String,

@@ -47,7 +47,7 @@ pub enum InvalidFolder {
     Contents {
         /// The folder.
         folder: PathBuf,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// The journal is not the one that the tables were written from.
@@ -55,7 +55,7 @@ pub enum InvalidFolder {
     Journal {
         /// The folder.
         folder: PathBuf,
-        /// What is wrong.
+        /// The fault.
         problem: String,
     },
     /// A table is not the one that was written.
@@ -79,7 +79,7 @@ pub enum InvalidFolder {
         folder: PathBuf,
         /// The name of the table.
         file: String,
-        /// What is wrong.
+        /// The fault.
         problem: &'static str,
     },
     /// A file cannot be read.
@@ -144,7 +144,7 @@ impl VerifiedFolder {
         }
     }
 
-    /// What is to be said if the journal goes on beyond the tables.
+    /// The message if the journal goes on beyond the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
         self.behind.then(|| InvalidFolder::Behind { folder: self.path().to_owned() })
     }
@@ -255,13 +255,13 @@ impl VerifiedFolder {
         }
     }
 
-    /// What is wrong with any of the files that the contents name.
+    /// The faults of any of the files that the contents name.
     pub fn problems(&self) -> Vec<InvalidFolder> {
         let names = self.contents.iter().flat_map(|contents| contents.files.keys());
         names.filter_map(|name| self.file(name).err()).collect()
     }
 
-    /// What was made from the folder and is out of date: each product, and the command that makes it again.
+    /// The products of the folder that are out of date: each, and the command that makes it again.
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();

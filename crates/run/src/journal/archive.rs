@@ -186,7 +186,7 @@ impl Archive {
         self.length
     }
 
-    /// What is to be said if it has fewer lines than it had when the tables in `folder` were written.
+    /// The message if the journal has fewer lines than it had when the tables in `folder` were written.
     pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;

@@ -9,7 +9,7 @@ use super::accuracy::change;
 use super::first_touch::contact_curvature;
 use super::frame::Step;
 use super::mesh::Resolution;
-use super::strip::{Extent, Strip};
+use super::strip::{Strip, StripExtent};
 use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinState};
@@ -131,7 +131,7 @@ impl<'a> FlexureProblem<'a> {
         let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
         let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
         let repeats = self.gaps / self.solved as f64;
-        let extent = Extent { gaps: self.solved, repeats, rotation: whole / repeats };
+        let extent = StripExtent { gaps: self.solved, repeats, rotation: whole / repeats };
         Ok(Strip::new(self.row.clone(), membranes, self.law, self.section, extent))
     }
 

@@ -10,7 +10,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
+    self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -71,7 +72,7 @@ impl FlexureProblem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<Spot<Strip>> {
+    fn spots(&self, record: &Record<Strip>, path: &mut Path<Strip>) -> Vec<MeasuredPoint<Strip>> {
         let settings = &self.common.solver;
         let touching = record.touching().and_then(|point| first_contact(path.system(), point));
         let stiffest = match touching {
@@ -86,7 +87,7 @@ impl FlexureProblem<'_> {
             sensitivity::summit(path, &summit, FOLLOWED[k], settings)
         });
         let strip = path.system();
-        let spot = |place, quantity| Spot { place, quantities: vec![quantity] };
+        let spot = |place, quantity| MeasuredPoint { place, quantities: vec![quantity] };
         vec![
             spot(stiffest, compliance("compliance")),
             spot(Some(rest(strip)), compliance("initial_compliance")),
@@ -107,15 +108,15 @@ impl FlexureProblem<'_> {
 fn quantity(
     measure: &'static str,
     value: fn(&Strip, &SkinState, &[f64], usize) -> f64,
-) -> Quantity<Strip> {
-    Quantity { measure, value, largest: None, turns: false }
+) -> MeasuredQuantity<Strip> {
+    MeasuredQuantity { measure, value, largest: None, turns: false }
 }
 
-fn compliance(measure: &'static str) -> Quantity<Strip> {
+fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {
     let value = |strip: &Strip, state: &SkinState, direction: &[f64], _| {
         strip.normalised_stiffness(strip.stiffness(state, direction)).recip()
     };
-    Quantity { turns: true, ..quantity(measure, value) }
+    MeasuredQuantity { turns: true, ..quantity(measure, value) }
 }
 
 /// Part of the axial energy in the elastic energy.

@@ -68,7 +68,7 @@ impl Layout {
 
 /// The part of a strip that is solved for, and the rotation to which it is bent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Extent {
+pub(crate) struct StripExtent {
     /// Gaps that are solved for.
     pub(crate) gaps: usize,
     /// Gaps `n` of the whole strip for each gap that is solved for, a whole number in a chain alone.
@@ -107,7 +107,7 @@ impl Strip {
         membranes: Vec<Membrane>,
         law: ContactLaw,
         section: Section,
-        Extent { gaps, repeats, rotation }: Extent,
+        StripExtent { gaps, repeats, rotation }: StripExtent,
     ) -> Self {
         let layout = Layout { gaps, interior: membranes[0].interior() };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();

@@ -1,7 +1,7 @@
 //! The strips of surface between the bases as neo-Hookean bars, which take the place of the springs along the row.
 
 use solver::{Residual, Tangent};
-use substrate::{FarField, Strip, SubstrateLaw, neo_hookean};
+use substrate::{FarField, SubstrateLaw, SurfaceStrip, neo_hookean};
 
 use super::system::Chain;
 
@@ -48,7 +48,7 @@ fn end([x, _, rotation]: [f64; 3]) -> End {
 }
 
 impl Chain {
-    /// The same row on a substrate of that law.
+    /// This row on a substrate of that law.
     pub(crate) fn with_law(mut self, law: SubstrateLaw) -> Self {
         let nearest = || self.neighbours.first().map(|neighbour| -neighbour.direct[0]);
         self.bars = match law {
@@ -59,8 +59,8 @@ impl Chain {
     }
 
     /// The strip of surface to the right of a scale.
-    pub(super) fn strip(&self, scale: usize) -> Strip {
-        Strip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }
+    pub(super) fn strip(&self, scale: usize) -> SurfaceStrip {
+        SurfaceStrip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }
     }
 
     /// Shows the bars, from the left, each with the first unknowns of its two scales; none where the substrate is linear.
@@ -104,7 +104,7 @@ impl Chain {
         let excess = |(distance, &width): (usize, &f64)| {
             let [near, next] =
                 [distance, distance + 1].map(|k| end(far.displacement(displacement, k)));
-            let strip = Strip { width, half_base: self.half_base };
+            let strip = SurfaceStrip { width, half_base: self.half_base };
             let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
             // Pressed beyond the one end of the row where it would be stretched beyond the other: the larger of both.
             excess([near, next]).max(excess([next, near])) / self.direct[0]
@@ -125,7 +125,7 @@ impl<F: FnMut(usize, usize, f64)> Tangent for Entries<F> {
 }
 
 impl Bar {
-    fn new(strip: &Strip, spring: f64, [left, right]: [End; 2]) -> Self {
+    fn new(strip: &SurfaceStrip, spring: f64, [left, right]: [End; 2]) -> Self {
         let apart = right.0 - left.0;
         let shortened = left.1.shortened + right.1.shortened;
         let [_, force, slope] = neo_hookean(strip.stretch_by(apart, shortened));

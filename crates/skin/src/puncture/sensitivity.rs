@@ -1,7 +1,7 @@
 //! Derivatives of the measures of a puncture.
 
 use geometry::OutOfRange;
-use solver::{Anchor, Path};
+use solver::{Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::system::{Chain, Layout};
@@ -9,7 +9,8 @@ use super::{Followed, Problem, Puncture, PunctureParameters, RowLength, Rows};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Quantity, Spot, Variation, derivatives, end, first_contact, rest,
+    self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -72,7 +73,7 @@ impl Problem<'_> {
         record: &Record<Chain>,
         path: &mut Path<Chain>,
         folds: bool,
-    ) -> Vec<Spot<Chain>> {
+    ) -> Vec<MeasuredPoint<Chain>> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = stiffest
@@ -81,11 +82,11 @@ impl Problem<'_> {
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
         // The place of a smooth maximum moves along the path, and what is not the largest there with it.
-        let moves = highest.as_ref().is_none_or(|place| place.anchor == Anchor::Still);
+        let moves = highest.as_ref().is_none_or(|place| place.anchor == PathAnchor::Still);
         let at_peak = at_peak(!moves);
         let chain = path.system();
         let touching = record.touching().and_then(|point| first_contact(chain, point));
-        let spot = |place, quantities| Spot { place, quantities };
+        let spot = |place, quantities| MeasuredPoint { place, quantities };
         vec![
             spot(Some(end(path)), at_end(folds)),
             spot(highest, at_peak),
@@ -110,7 +111,7 @@ impl PunctureInput {
 }
 
 /// The quantities at the largest force, those besides it only where its place is known to first order.
-fn at_peak(with_place: bool) -> Vec<Quantity<Chain>> {
+fn at_peak(with_place: bool) -> Vec<MeasuredQuantity<Chain>> {
     let mut quantities = vec![force("peak_force")];
     if with_place {
         let tilt = |chain: &Chain, state: &SkinState, _: &[f64], _| chain.angle_deg(state);
@@ -120,33 +121,33 @@ fn at_peak(with_place: bool) -> Vec<Quantity<Chain>> {
 }
 
 /// The quantities at the critical tilt. The force there is one that the model can answer for unless the surface folds.
-fn at_end(folds: bool) -> Vec<Quantity<Chain>> {
+fn at_end(folds: bool) -> Vec<MeasuredQuantity<Chain>> {
     let sound = (!folds).then(|| force("sound_force"));
     let mut quantities = critical();
     quantities.extend(sound);
     quantities
 }
 
-fn critical() -> Vec<Quantity<Chain>> {
+fn critical() -> Vec<MeasuredQuantity<Chain>> {
     vec![
         force("critical_force"),
         depth("critical_displacement"),
-        Quantity {
+        MeasuredQuantity {
             largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
             ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
         },
-        Quantity {
+        MeasuredQuantity {
             largest: Some(|chain, state| largest(chain, |i| sink(chain, state, i))),
             ..quantity("sink", |chain, state, _, i| sink(chain, state, i))
         },
         quantity("secant_stiffness", |chain, state, _, _| {
             chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
         }),
-        Quantity {
+        MeasuredQuantity {
             largest: Some(|chain, state| extreme(chain, state, -1.0)),
             ..quantity("gap_stretch_min", |chain, state, _, pair| stretch(chain, state, pair, -1.0))
         },
-        Quantity {
+        MeasuredQuantity {
             largest: Some(|chain, state| extreme(chain, state, 1.0)),
             ..quantity("gap_stretch_max", |chain, state, _, pair| stretch(chain, state, pair, 1.0))
         },
@@ -171,26 +172,26 @@ fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
     all.map_or(f64::NAN, |all| if sign > 0.0 { all.max } else { all.min })
 }
 
-fn force(measure: &'static str) -> Quantity<Chain> {
+fn force(measure: &'static str) -> MeasuredQuantity<Chain> {
     quantity(measure, |chain, state, _, _| chain.force(state))
 }
 
 fn quantity(
     measure: &'static str,
     value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
-) -> Quantity<Chain> {
-    Quantity { measure, value, largest: None, turns: false }
+) -> MeasuredQuantity<Chain> {
+    MeasuredQuantity { measure, value, largest: None, turns: false }
 }
 
-fn depth(measure: &'static str) -> Quantity<Chain> {
+fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {
     quantity(measure, |chain, state, _, _| chain.depth(&state.z))
 }
 
-fn stiffness(measure: &'static str) -> Quantity<Chain> {
+fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
     let value = |chain: &Chain, state: &SkinState, direction: &[f64], _| {
         chain.plane_modulus * chain.stiffness(state, direction)
     };
-    Quantity { turns: true, ..quantity(measure, value) }
+    MeasuredQuantity { turns: true, ..quantity(measure, value) }
 }
 
 fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {

@@ -6,7 +6,7 @@
 
 use geometry::{Corner, OutOfRange, Vec2};
 use solver::{Change, Event};
-use substrate::{FarField, RowStiffness, Strip, SubstrateLaw};
+use substrate::{FarField, RowStiffness, SubstrateLaw, SurfaceStrip};
 
 use super::Rows;
 use super::system::{Chain, Layout};
@@ -139,7 +139,7 @@ impl Surroundings {
         for (side, gaps) in self.gaps.iter().enumerate() {
             stretches.extend((0..).zip(gaps).map(|(distance, &width)| {
                 let left = if side == 0 { -1 - distance } else { last + distance };
-                let strip = Strip { width, half_base: chain.half_base };
+                let strip = SurfaceStrip { width, half_base: chain.half_base };
                 let [left, right] = [left, left + 1].map(|k| chain.displacement_anywhere(z, k));
                 strip.stretch(left, right)
             }));

@@ -1,7 +1,9 @@
 //! The places of a path at which measures are taken.
 
 use contact::FORCES;
-use solver::{Anchor, Change, Event, Newton, Path, Place, Point, Settings, State, Summit, System};
+use solver::{
+    AnchoredPoint, Change, Event, Newton, Path, PathAnchor, Point, Settings, State, Summit, System,
+};
 
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
@@ -10,21 +12,24 @@ use crate::record::{PathFunction, Skin};
 const VANISHED: f64 = 1e-8;
 
 /// The beginning of a path.
-pub(crate) fn rest<S: System>(system: &S) -> Place<S::Mode> {
+pub(crate) fn rest<S: System>(system: &S) -> AnchoredPoint<S::Mode> {
     let control = system.controls()[0];
     let mut direction = vec![0.0; system.size()];
     direction[control.index] = control.scale;
-    Place { state: State::at_rest(system), direction, anchor: Anchor::Still }
+    AnchoredPoint { state: State::at_rest(system), direction, anchor: PathAnchor::Still }
 }
 
 /// The end of a path that has reached its target.
-pub(crate) fn end<S: System>(path: &Path<S>) -> Place<S::Mode> {
+pub(crate) fn end<S: System>(path: &Path<S>) -> AnchoredPoint<S::Mode> {
     let Point { state, leaving, .. } = path.point().clone();
-    Place { state, direction: leaving, anchor: Anchor::Target }
+    AnchoredPoint { state, direction: leaving, anchor: PathAnchor::Target }
 }
 
 /// The first contact: the end of the part of the path on which all contacts are open.
-pub(crate) fn first_contact<S: Skin>(system: &S, point: &SkinPoint) -> Option<Place<S::Mode>> {
+pub(crate) fn first_contact<S: Skin>(
+    system: &S,
+    point: &SkinPoint,
+) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     let mut state = SkinState::at_rest(system);
@@ -33,7 +38,7 @@ pub(crate) fn first_contact<S: Skin>(system: &S, point: &SkinPoint) -> Option<Pl
         state.z[force] = 0.0;
     }
     let direction = point.arriving.clone();
-    Some(Place { state, direction, anchor: Anchor::Guard(constraint) })
+    Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }
 
 /// The place at which a function is the largest on a path.
@@ -42,30 +47,30 @@ pub(crate) fn summit<S: Skin>(
     summit: &Summit<S::Mode>,
     f: PathFunction<S>,
     settings: &Settings,
-) -> Option<Place<S::Mode>> {
+) -> Option<AnchoredPoint<S::Mode>> {
     let Point { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
     let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
     let at = |direction: &Vec<f64>, anchor| {
-        Some(Place { state: state.clone(), direction: direction.clone(), anchor })
+        Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
     };
     match (event, &summit.before) {
         _ if summit.is_inside => {
-            at(arriving, Anchor::Still)?.stationary(path.system(), &f, settings)
+            at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings)
         }
-        (_, None) => at(leaving, Anchor::Still),
-        _ if is_target => at(arriving, Anchor::Target),
+        (_, None) => at(leaving, PathAnchor::Still),
+        _ if is_target => at(arriving, PathAnchor::Target),
         (Some(Event::Changed(changes)), Some(before)) => {
             let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
             if leaves >= arrives {
                 let guard = vanished(path.system(), state, changes)?;
-                return at(leaving, Anchor::Guard(guard));
+                return at(leaving, PathAnchor::Guard(guard));
             }
             let Point { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
-            let anchor = Anchor::Guard(vanished(path.system(), &state, changes)?);
-            Some(Place { state, direction: arriving, anchor })
+            let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
+            Some(AnchoredPoint { state, direction: arriving, anchor })
         }
-        _ => at(arriving, Anchor::Still)?.stationary(path.system(), &f, settings),
+        _ => at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What `squama rank` prints.
+//! The text that `squama rank` prints.
 
 use std::fmt::Write as _;
 
@@ -196,7 +196,7 @@ fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<
     shown_columns(results, preferences).iter().map(cell).collect()
 }
 
-/// What to say where no design meets the requirements.
+/// The answer where no design meets the requirements.
 pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet) -> String {
     let folder = results.folder().display();
     let all = designs(results.len());
