@@ -213,10 +213,10 @@ mod tests {
         let tenth = chosen(0.1);
         assert!(tenth.len().abs_diff(72) <= 1, "{}", tenth.len());
         assert_eq!((chosen(1.0).len(), chosen(0.0).len()), (720, 0));
-        // Every slant of a grid of six is among them, each about as often.
+        // Every slant of a grid of six is among them: 12 times on the average, none a third more or less often.
         for slant in 0..6 {
             let count = tenth.iter().filter(|index| **index % 6 == slant).count();
-            assert!((10..=14).contains(&count), "{count} of slant {slant}");
+            assert!((8..=16).contains(&count), "{count} of slant {slant}");
         }
     }
 
