@@ -1,5 +1,7 @@
 //! The record of a path, of a row that is punctured or of a strip that is bent.
 
+use std::cell::OnceCell;
+
 use contact::{CornerContact, CornerEdge};
 use solver::{Change, Path, Peak, Summit, System};
 
@@ -66,6 +68,8 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) history: Vec<Iteration>,
     initial_stiffness: f64,
     stiffness: Peak<Vec<CornerContact>>,
+    /// The largest stiffness between the points too, once it has been searched.
+    stiffness_summit: OnceCell<Option<Summit<Vec<CornerContact>>>>,
     /// Further functions of which the largest value is searched.
     followed: Vec<(PathFunction<S>, Peak<Vec<CornerContact>>)>,
     /// The equilibrium at which the first contact closes.
@@ -84,6 +88,7 @@ impl<S: Skin> Record<S> {
             history: Vec::new(),
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
+            stiffness_summit: OnceCell::new(),
             followed: functions.iter().map(|&f| (f, Peak::default())).collect(),
             touching: None,
             before: start.state.mode.clone(),
@@ -116,6 +121,7 @@ impl<S: Skin> Record<S> {
     }
 
     fn visit_peaks(&mut self, path: &Path<S>) {
+        self.stiffness_summit.take();
         self.stiffness.visit(path, S::stiffness);
         for (f, peak) in &mut self.followed {
             peak.visit(path, *f);
@@ -132,6 +138,7 @@ impl<S: Skin> Record<S> {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
         }
+        self.stiffness_summit.take();
         self.stiffness.replace_points(new);
         self.before.clone_from(&here.state.mode);
     }
@@ -166,8 +173,8 @@ impl<S: Skin> Record<S> {
     }
 
     /// The largest stiffness and its place.
-    pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<Summit<S::Mode>> {
-        self.stiffness.summit(path, S::stiffness)
+    pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<&Summit<S::Mode>> {
+        self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
     /// The largest value of a function that is followed, by its index, and its place.
@@ -188,6 +195,6 @@ impl<S: Skin> Record<S> {
 
     /// The largest stiffness on the path, between its points too.
     pub(crate) fn largest_stiffness(&self, path: &mut Path<S>) -> Option<f64> {
-        self.stiffness.refined(path, S::stiffness)
+        Some(self.stiffness_summit(path)?.value)
     }
 }

@@ -78,7 +78,7 @@ impl FlexureProblem<'_> {
         let stiffest = match touching {
             Some(_) => record
                 .stiffness_summit(path)
-                .and_then(|summit| sensitivity::summit(path, &summit, Strip::stiffness, settings)),
+                .and_then(|summit| sensitivity::summit(path, summit, Strip::stiffness, settings)),
             // Without contact a strip is as stiff everywhere as at rest.
             None => Some(rest(path.system())),
         };

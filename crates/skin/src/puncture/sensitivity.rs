@@ -77,7 +77,7 @@ impl Problem<'_> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = stiffest
-            .and_then(|summit| sensitivity::summit(path, &summit, Chain::stiffness, settings));
+            .and_then(|summit| sensitivity::summit(path, summit, Chain::stiffness, settings));
         let highest = record.summit(path, LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
