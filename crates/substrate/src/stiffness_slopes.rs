@@ -52,7 +52,9 @@ impl StiffnessSlopes {
         }
         let mut on_meshes = Vec::new();
         for cells in CELLS {
-            on_meshes.push(row_reactions_and_rates(footprint, neighbours, cells, &changes)?);
+            // The extrapolation takes the medium and the fine mesh; the coarse one tells its error.
+            let changes = if cells == CELLS[0] { &[] } else { changes.as_slice() };
+            on_meshes.push(row_reactions_and_rates(footprint, neighbours, cells, changes)?);
         }
         let stiffness = stiffness(coupling, [0, 1, 2].map(|mesh: usize| &on_meshes[mesh].0));
         let slope = |change: usize| {
