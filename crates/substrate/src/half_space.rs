@@ -91,7 +91,7 @@ pub struct CornerLine {
 }
 
 /// Numbers in a vector: as many as most processors take at a time.
-const LANES: usize = 4;
+pub(crate) const LANES: usize = 4;
 
 impl CornerLine {
     /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
@@ -116,15 +116,35 @@ impl CornerLine {
     ///
     /// The field point must not be a corner (a collocation point never is).
     pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
+        for (corner, angles) in corners.iter_mut().zip(self.angles(x)) {
+            corner.across = x * angles.across;
+            corner.along = angles.z * angles.along;
+        }
+    }
+
+    /// Returns the inverse hyperbolic sines of the corner functions along the line at the offset `x`.
+    pub fn angles(&mut self, x: f64) -> impl Iterator<Item = CornerAngles> + '_ {
         self.arch.dispatch(Logarithms { x, z: &self.z, of: &mut self.logarithms });
         let (across, along) = self.logarithms.split_at(self.z.len());
         let ln_x = ln_or_zero(x);
         let logarithms = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
-        for (corner, ((across, along), (z, ln_z))) in corners.iter_mut().zip(logarithms) {
-            corner.across = x * (across - ln_x).copysign(*z);
-            corner.along = z * (along - ln_z).copysign(x);
-        }
+        logarithms.map(move |((across, along), (&z, ln_z))| CornerAngles {
+            z,
+            across: (across - ln_x).copysign(z),
+            along: (along - ln_z).copysign(x),
+        })
     }
+}
+
+/// The inverse hyperbolic sines of the functions (S3) of a corner at the offset `(X, Z)`.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerAngles {
+    /// `Z`.
+    pub z: f64,
+    /// `asinh(Z/|X|)`.
+    pub across: f64,
+    /// `asinh(X/|Z|)`.
+    pub along: f64,
 }
 
 /// The logarithms of a line, evaluated in vectors as wide as the processor has them.
