@@ -221,7 +221,10 @@ where
                 break;
             }
             let inside = self.inside(top.place)?;
-            *(if inside.slope > 0.0 { &mut low } else { &mut high }) = inside;
+            // The larger end of the bracket stays until a place inside is higher.
+            let is_lower = inside.value < low.value.max(high.value);
+            let rises = if is_lower { low.value < high.value } else { inside.slope > 0.0 };
+            *(if rises { &mut low } else { &mut high }) = inside;
         }
         Some(())
     }
