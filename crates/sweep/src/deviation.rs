@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::number;
-use crate::parameter::Parameter;
+use crate::parameter::{PARAMETERS, Parameter};
 
 /// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +120,13 @@ impl Deviation {
         }
     }
 
+    /// As [`Self::moved`]; `None` if a parameter then leaves its bounds, so that there is no such skin.
+    pub fn made(&self, case: &Case, by: f64) -> Option<Case> {
+        let moved = self.moved(case, by)?;
+        let mut possible = PARAMETERS.iter().filter(|parameter| Self::is_possible(parameter));
+        possible.all(|parameter| parameter.contains(parameter.get(&moved))).then_some(moved)
+    }
+
     /// One unit of the parameter in the unit of the deviation.
     fn unit(&self, case: &Case) -> Option<f64> {
         if self.in_mm { case.material.thickness_mm } else { Some(1.0) }
@@ -139,9 +146,8 @@ impl Deviation {
 
 /// The case with every length over `t` so many times as long.
 fn with_lengths_times(case: &Case, factor: f64) -> Option<Case> {
-    let lengths = crate::PARAMETERS.iter().filter(|p| p.is_continuous() && p.key.ends_with(OVER_T));
-    lengths.fold(Some(*case), |case, parameter| {
-        let case = case?;
+    let mut lengths = PARAMETERS.iter().filter(|p| p.is_continuous() && p.key.ends_with(OVER_T));
+    lengths.try_fold(*case, |case, parameter| {
         let length = parameter.get(&case).number()?;
         parameter.moved(&case, (factor - 1.0) * length)
     })

@@ -73,5 +73,6 @@ fn axis_line(axis: &Axis) -> String {
 }
 
 fn entry_lines(entries: impl Iterator<Item = (String, String)>) -> String {
-    entries.map(|(key, value)| format!("{key} = {value}\n")).collect()
+    let lines: Vec<_> = entries.map(|(key, value)| format!("{key} = {value}\n")).collect();
+    lines.concat()
 }
