@@ -20,6 +20,7 @@ mod run;
 mod selection;
 mod slurm;
 mod status;
+mod tolerance;
 mod validate;
 mod work;
 
@@ -43,6 +44,7 @@ pub use run::RunArguments;
 pub use selection::Selection;
 pub use slurm::SlurmArguments;
 pub use status::StatusArguments;
+pub use tolerance::ToleranceArguments;
 pub use validate::ValidateArguments;
 pub use work::{Format, Work};
 
@@ -92,6 +94,8 @@ pub enum Command {
     Slurm(SlurmArguments),
     /// Solve one design, print its measures and write its path
     Design(DesignArguments),
+    /// Say how far what is made may differ from what is drawn, and how much of it meets what is required
+    Tolerance(ToleranceArguments),
     /// Find the best designs of a run: by weights, for all weights, and without any
     Rank(RankArguments),
     /// Say where two runs differ, and by how much

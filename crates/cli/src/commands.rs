@@ -23,6 +23,7 @@ mod selection;
 mod slurm;
 mod source;
 mod status;
+mod tolerance;
 mod validate;
 
 pub use calibrate::calibrate;
@@ -42,6 +43,7 @@ pub use rerun::rerun;
 pub use run::run;
 pub use slurm::slurm;
 pub use status::status;
+pub use tolerance::tolerance;
 pub use validate::validate;
 
 use ::run::Program;

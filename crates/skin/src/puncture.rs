@@ -34,8 +34,8 @@ use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
-pub use odd_scale::OddScale;
 pub use number_list::{MOST_NUMBERS, NumberList};
+pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate};
 pub use snap::Snap;

@@ -91,8 +91,7 @@ mod tests {
     #[test]
     fn a_deviation_does_not_depend_on_the_others() {
         let one = drawn("gap_over_t = { batch_sd = 0.01 }", 7);
-        let both =
-            drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
+        let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
         assert_eq!(one[0], both[1]);
         assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
         // Twice the deviation, the same normal number.

@@ -115,10 +115,8 @@ impl Gradients<'_> {
     /// The parameters that differ from scale to scale, with their standard deviations.
     fn scattered(&self) -> Vec<(&'static Parameter, f64)> {
         let (imperfection, gap) = (self.case.imperfection, self.case.design.gap);
-        let all = [
-            ("gap_over_t", imperfection.gap_cv * gap),
-            ("slant_deg", imperfection.slant_sd_deg),
-        ];
+        let all =
+            [("gap_over_t", imperfection.gap_cv * gap), ("slant_deg", imperfection.slant_sd_deg)];
         let named = |(key, sd)| Some((Parameter::named(key)?, sd));
         all.into_iter().filter_map(named).filter(|(_, sd)| *sd > 0.0).collect()
     }

@@ -18,9 +18,7 @@ impl Slopes {
             BatchDeviation::Normal(sd) => {
                 (sd * difference / std::f64::consts::TAU.sqrt(), sd * sd * squares / 2.0)
             }
-            BatchDeviation::Uniform(most) => {
-                (most * difference / 4.0, most * most * squares / 6.0)
-            }
+            BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
         };
         (mean_square - mean * mean).max(0.0)
     }

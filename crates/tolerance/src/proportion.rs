@@ -58,8 +58,7 @@ mod tests {
                         Proportion { met: *met as usize, of: samples as usize }.interval();
                     (low..=high).contains(&probability)
                 };
-                let covered: f64 =
-                    (0..=samples).filter(covers).map(|met| counts.pmf(met)).sum();
+                let covered: f64 = (0..=samples).filter(covers).map(|met| counts.pmf(met)).sum();
                 assert!(covered >= 0.95, "{samples} {probability}: {covered}");
             }
         }

@@ -55,7 +55,8 @@ impl SampleStore {
         let table = fs::read(self.folder.file(&format!("{label}.csv"))).ok()?;
         let is_it = record.of == of && record.sha256 == sha256(&table);
         let mut reader = CsvFormat::Plain.reader(table.as_slice());
-        let header: Vec<String> = reader.headers().ok()?.iter().skip(1).map(str::to_owned).collect();
+        let header: Vec<String> =
+            reader.headers().ok()?.iter().skip(1).map(str::to_owned).collect();
         if !is_it || header != columns {
             return None;
         }

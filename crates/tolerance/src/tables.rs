@@ -89,13 +89,18 @@ pub static SOURCE_COLUMNS: &[Column<DesignSource>] = &[
     Column::new("source", "-", "what deviates, by its key in [tolerance]", |r| {
         r.source.source.clone().into()
     }),
-    Column::new("level", "-", "batch: all scales have the same deviation; scale: each its own", |r| {
-        match r.source.level {
-            Level::Batch => "batch",
-            Level::Scale => "scale",
-        }
-        .into()
-    }),
+    Column::new(
+        "level",
+        "-",
+        "batch: all scales have the same deviation; scale: each its own",
+        |r| {
+            match r.source.level {
+                Level::Batch => "batch",
+                Level::Scale => "scale",
+            }
+            .into()
+        },
+    ),
     Column::new("deviation", "as the source", "standard deviation of the source", |r| {
         r.source.deviation.into()
     }),
@@ -119,9 +124,7 @@ pub static YIELD_COLUMNS: &[Column<DesignYield>] = &[
         r.of.failed.into()
     }),
     Column::new("met", "-", "samples that meet", |r| share(r, |p| p.met.into())),
-    Column::new("yield", "-", "share of the samples that meet", |r| {
-        share(r, |p| p.share().into())
-    }),
+    Column::new("yield", "-", "share of the samples that meet", |r| share(r, |p| p.share().into())),
     Column::new("yield_low", "-", "lower end of the 95 % interval of the yield", |r| {
         share(r, |p| p.interval()[0].into())
     }),

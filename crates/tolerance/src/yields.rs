@@ -25,7 +25,8 @@ pub(crate) fn yields(
     values: &[Vec<Option<f64>>],
     drawn: &[Option<(f64, f64)>],
 ) -> Vec<RequirementYield> {
-    let meets = |k: usize, n: usize| values[k][n].is_some_and(|value| requirements[k].is_met(value));
+    let meets =
+        |k: usize, n: usize| values[k][n].is_some_and(|value| requirements[k].is_met(value));
     let count = values.first().map_or(0, Vec::len);
     let of = |holds: &dyn Fn(usize) -> bool| {
         let met = (0..count).filter(|&n| holds(n)).count();
@@ -64,8 +65,10 @@ mod tests {
     #[test]
     fn what_failed_does_not_meet_and_is_counted_apart() {
         let requirements = ["a >= 1", "b <= 2"].map(|text| text.parse().expect("a requirement"));
-        let values =
-            [vec![Some(1.0), None, Some(3.0), Some(0.5)], vec![Some(1.0), Some(1.0), None, Some(1.0)]];
+        let values = [
+            vec![Some(1.0), None, Some(3.0), Some(0.5)],
+            vec![Some(1.0), Some(1.0), None, Some(1.0)],
+        ];
         let all = yields(&requirements, &values, &[Some((1.0, 0.5)), None]);
         let counts: Vec<_> =
             all.iter().map(|y| (y.proportion.map(|p| (p.met, p.of)), y.failed)).collect();

@@ -46,7 +46,10 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
 
 /// The puncture of sample `number` of `case`; `None` if there is no such row.
 pub(super) fn punctured(
-    case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureResult> {
+    case: &Case,
+    substrate: &RowStiffness,
+    number: u64,
+) -> Option<PunctureResult> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
     let puncture =
         puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
