@@ -18,6 +18,7 @@ mod report;
 mod rerun;
 mod run;
 mod selection;
+mod sensitivity;
 mod slurm;
 mod status;
 mod tolerance;
@@ -42,6 +43,7 @@ pub use report::ReportArguments;
 pub use rerun::RerunArguments;
 pub use run::RunArguments;
 pub use selection::Selection;
+pub use sensitivity::SensitivityArguments;
 pub use slurm::SlurmArguments;
 pub use status::StatusArguments;
 pub use tolerance::ToleranceArguments;
@@ -96,6 +98,8 @@ pub enum Command {
     Design(DesignArguments),
     /// Say how far what is made may differ from what is drawn, and how much of it meets what is required
     Tolerance(ToleranceArguments),
+    /// Say which parameters the measures depend on most, over a box of them
+    Sensitivity(SensitivityArguments),
     /// Find the best designs of a run: by weights, for all weights, and without any
     Rank(RankArguments),
     /// Say where two runs differ, and by how much

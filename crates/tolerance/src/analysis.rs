@@ -1,24 +1,20 @@
 //! The tolerances of the designs of a sweep.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
-use rayon::prelude::*;
-use results::{DesignRow, OutputError, sha256};
+use results::{DesignRow, sha256};
 use run::{Evaluator, Program};
 use skin::Imperfection;
 use sweep::{Case, Measure, Sweep};
 
 use crate::draw;
 use crate::linear::{Gradients, LinearSpread};
-use crate::measured::{MeasuredColumns, NoSuchColumn, Origin};
+use crate::measured::{MeasuredColumns, Origin};
+use crate::no_analysis::NoAnalysis;
 use crate::sampled::Sampled;
 use crate::store::{Sample, SampleStore};
 use crate::yields::{RequirementYield, yields};
-
-/// Samples that are solved between two looks at whether to stop, at least, and as a part of those that are done.
-const BLOCK: usize = 100;
-const BLOCK_PART: usize = 4;
 
 /// The tolerances of the designs of a sweep.
 pub struct Analysis<'a> {
@@ -67,25 +63,6 @@ pub struct MeasureTolerance {
     pub failed: usize,
 }
 
-/// Why there is no analysis of a design.
-#[derive(Debug, thiserror::Error)]
-pub enum Interrupted {
-    /// The work was to stop. The samples so far are kept.
-    #[error("interrupted after {done} of {all} samples")]
-    Stopped {
-        /// Samples that were solved.
-        done: usize,
-        /// Samples that were asked for.
-        all: usize,
-    },
-    /// A requirement is about a column that does not exist.
-    #[error(transparent)]
-    NoSuchColumn(#[from] NoSuchColumn),
-    /// The disk does not take the samples.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-}
-
 impl MeasureTolerance {
     /// How far the linear prediction is off: its spread over that of the samples, less 1.
     pub fn discrepancy(&self) -> Option<f64> {
@@ -122,7 +99,7 @@ impl<'a> Analysis<'a> {
     ///
     /// # Errors
     /// If the work is to stop, a requirement is about no column, or the disk is at fault.
-    pub fn design(&self, index: u64, store: &SampleStore) -> Result<DesignTolerance, Interrupted> {
+    pub fn design(&self, index: u64, store: &SampleStore) -> Result<DesignTolerance, NoAnalysis> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
@@ -135,7 +112,12 @@ impl<'a> Analysis<'a> {
         let keys = deviations.iter().map(|d| format!("{}_deviation", d.key()));
         let names = measured.iter().map(|column| column.name.to_string());
         let columns: Vec<String> = keys.chain(names).collect();
-        let samples = self.sampled(index, &case, &measured, &columns, store)?;
+        let solve = |sample: u64| {
+            let solved = self.solved(index, &case, &measured, sample);
+            solved.unwrap_or_else(|| vec![None; columns.len()])
+        };
+        let label = (&*number.to_string(), &*identity(self.program, &self.sweep.only(index)));
+        let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
         let of = |column: usize| -> Vec<Option<f64>> {
             let place = deviations.len() + column;
             samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
@@ -174,7 +156,7 @@ impl<'a> Analysis<'a> {
         let values = measured.values(drawn);
         let measure = |(k, column): (usize, &results::Column<DesignRow>)| {
             let name = column.name.as_ref();
-            let is_listed = required.contains(&k) || self.is_measure(name, drawn);
+            let is_listed = required.contains(&k) || is_measure(name, drawn);
             is_listed.then(|| {
                 let all = samples(k);
                 let with_value: Vec<f64> = all.iter().copied().flatten().collect();
@@ -191,46 +173,6 @@ impl<'a> Analysis<'a> {
         measured.iter().enumerate().filter_map(measure).collect()
     }
 
-    /// Whether a column is about a measure with derivatives, or about the mass.
-    fn is_measure(&self, name: &str, drawn: &DesignRow) -> bool {
-        let derivatives = &drawn.result.sensitivity;
-        let measure = Origin::of(name).measure();
-        measure.is_none_or(|measure| derivatives.iter().any(|d| d.measure == measure))
-    }
-
-    /// The samples of a design: those that are kept, and those that were not yet solved.
-    fn sampled(
-        &self,
-        index: u64,
-        case: &Case,
-        measured: &MeasuredColumns,
-        columns: &[String],
-        store: &SampleStore,
-    ) -> Result<Vec<Sample>, Interrupted> {
-        let number = self.sweep.grid().number(index);
-        let (label, of) = (number.to_string(), self.identity(index));
-        let mut samples = store.read(&label, &of, columns);
-        while samples.len() < self.samples {
-            let done = samples.len();
-            if self.stop.load(Ordering::Relaxed) {
-                return Err(Interrupted::Stopped { done, all: self.samples });
-            }
-            let block = BLOCK.max(done / BLOCK_PART).min(self.samples - done);
-            let numbers = (done as u64 + 1)..=(done + block) as u64;
-            let solve = |sample: u64| {
-                let (values, number) = (columns.len(), sample);
-                let solved = self.solved(index, case, measured, sample);
-                let values = solved.unwrap_or_else(|| vec![None; values]);
-                Sample { number, values }
-            };
-            let numbers: Vec<u64> = numbers.collect();
-            samples.par_extend(numbers.into_par_iter().map(solve));
-            store.write(&label, &of, columns, &samples)?;
-        }
-        samples.truncate(self.samples);
-        Ok(samples)
-    }
-
     /// The deviations and values of a sample; `None` if there is no such skin.
     fn solved(
         &self,
@@ -245,10 +187,17 @@ impl<'a> Analysis<'a> {
         values.extend(measured.values(&row));
         Some(values)
     }
+}
 
-    /// The digest of all that the samples of a design depend on.
-    fn identity(&self, index: u64) -> String {
-        let Program { version, revision } = self.program;
-        sha256(format!("{version} {revision}\n{}", self.sweep.only(index).to_toml()))
-    }
+/// Whether a column is about a measure with derivatives, or about the mass.
+fn is_measure(name: &str, drawn: &DesignRow) -> bool {
+    let derivatives = &drawn.result.sensitivity;
+    let measure = Origin::of(name).measure();
+    measure.is_none_or(|measure| derivatives.iter().any(|d| d.measure == measure))
+}
+
+/// The digest of all that the samples of a sweep depend on.
+pub(crate) fn identity(program: Program, sweep: &Sweep) -> String {
+    let Program { version, revision } = program;
+    sha256(format!("{version} {revision}\n{}", sweep.to_toml()))
 }

@@ -25,7 +25,7 @@ pub(crate) fn sample(
             drawn.push(None);
             continue;
         };
-        let mut random = random(case.samples.seed as u64, number, deviation.parameter().key);
+        let mut random = random(case, number, deviation.parameter().key);
         let possible = |_| {
             let by = draw(batch, &mut random);
             Some((deviation.made(&made, by)?, by))
@@ -49,9 +49,15 @@ pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
     }
 }
 
-fn random(seed: u64, number: u64, key: &str) -> ChaCha8Rng {
+/// A number from 0 to 1, the same for every case with that seed.
+pub(crate) fn share(case: &Case, number: u64, key: &str) -> f64 {
+    StandardUniform.sample(&mut random(case, number, key))
+}
+
+/// The random numbers of a sample that are for one key.
+fn random(case: &Case, number: u64, key: &str) -> ChaCha8Rng {
     let mut digest = Sha256::new();
-    digest.update(seed.to_le_bytes());
+    digest.update((case.samples.seed as u64).to_le_bytes());
     digest.update(number.to_le_bytes());
     digest.update(key.as_bytes());
     ChaCha8Rng::from_seed(digest.finalize().into())

@@ -16,27 +16,35 @@
 //! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
 //! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
 //! | [`Sample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
-//! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`] | the tables |
+//! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | the parts that variables have in the variance over a box |
+//! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`Estimate`] | the estimators, for any function |
+//! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
 
 mod analysis;
 mod draw;
+mod global;
 mod linear;
 mod measured;
 mod moments;
+mod no_analysis;
 mod proportion;
 mod sampled;
+mod sobol;
 mod store;
 mod tables;
 mod yields;
 
-pub use analysis::{Analysis, DesignTolerance, Interrupted, MeasureTolerance};
+pub use analysis::{Analysis, DesignTolerance, MeasureTolerance};
+pub use global::{GlobalAnalysis, GlobalSensitivity, MeasureIndices};
 pub use linear::{Level, LinearSpread, SourceShare};
 pub use measured::NoSuchColumn;
+pub use no_analysis::NoAnalysis;
 pub use proportion::Proportion;
 pub use sampled::Sampled;
+pub use sobol::{Estimate, Evaluation, SobolIndices, sobol_indices};
 pub use store::{Sample, SampleStore};
 pub use tables::{
-    DesignMeasureTolerance, DesignSource, DesignYield, SOURCE_COLUMNS, TOLERANCE_COLUMNS,
-    YIELD_COLUMNS,
+    DesignMeasureTolerance, DesignSource, DesignYield, INDEX_COLUMNS, IndexRow, SOURCE_COLUMNS,
+    TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 pub use yields::RequirementYield;

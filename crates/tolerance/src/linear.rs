@@ -158,7 +158,7 @@ impl LinearSpread {
         Self { spread: sum.sqrt(), sources }
     }
 
-    /// The sources that matter, as "gap_mm 83 %, slant_deg from scale to scale 12 %".
+    /// The sources that matter, as "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
     pub fn in_words(&self) -> String {
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         let text = |source: &SourceShare| {

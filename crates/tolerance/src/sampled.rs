@@ -15,6 +15,9 @@ pub struct Sampled {
     pub spread_error: f64,
 }
 
+/// Part of the values up to which their spread is round-off, and counts as none.
+const ROUND_OFF: f64 = 1e-13;
+
 impl Sampled {
     /// The spread of `values`; `None` if there are fewer than two.
     pub fn of(values: &[f64]) -> Option<Self> {
@@ -27,7 +30,9 @@ impl Sampled {
         };
         let variance = moment(2) * n / (n - 1.0);
         let of_variance = (moment(4) - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
-        let spread = variance.sqrt();
+        let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        let is_round_off = variance.sqrt() <= ROUND_OFF * size;
+        let spread = if is_round_off { 0.0 } else { variance.sqrt() };
         let spread_error = if spread > 0.0 { of_variance.sqrt() / (2.0 * spread) } else { 0.0 };
         Some(Self { count, statistics, spread, spread_error })
     }

@@ -4,9 +4,11 @@ use results::{Cell, Column};
 use sweep::DesignNumber;
 
 use crate::analysis::MeasureTolerance;
-use crate::linear::{Level, SourceShare};
+use crate::global::MeasureIndices;
+use crate::linear::{Level, LinearSpread, SourceShare};
 use crate::proportion::Proportion;
 use crate::sampled::Sampled;
+use crate::sobol::SobolIndices;
 use crate::yields::RequirementYield;
 
 /// A row of `tolerance.csv`: a measure of a design and its spread.
@@ -35,6 +37,16 @@ pub struct DesignYield {
     pub of: RequirementYield,
 }
 
+/// A row of `sobol.csv`: the part of a variable in a measure.
+pub struct IndexRow {
+    /// The measure, with the indices of all variables.
+    pub measure: MeasureIndices,
+    /// Key of the variable.
+    pub variable: &'static str,
+    /// The indices of the variable.
+    pub indices: SobolIndices,
+}
+
 const DESIGN: &str = "position of the design in the grid of its sweep";
 const MEASURE: &str = "the measure, by the name of its column";
 const SAME: &str = "as the measure";
@@ -52,7 +64,7 @@ pub static TOLERANCE_COLUMNS: &[Column<DesignMeasureTolerance>] = &[
         |r| r.measure.linear.as_ref().map(|linear| linear.spread).into(),
     ),
     Column::new("sources", "-", "what that spread comes from, the largest share first", |r| {
-        r.measure.linear.as_ref().map(|linear| linear.in_words()).into()
+        r.measure.linear.as_ref().map(LinearSpread::in_words).into()
     }),
     Column::new("samples", "-", "solved samples that have a value", |r| {
         r.measure.sampled.as_ref().map(|sampled| sampled.count).into()
@@ -133,6 +145,43 @@ pub static YIELD_COLUMNS: &[Column<DesignYield>] = &[
     }),
     Column::new("linear_yield", "-", "yield that the linear spread predicts", |r| {
         r.of.linear.into()
+    }),
+];
+
+/// The columns of `sobol.csv`.
+pub static INDEX_COLUMNS: &[Column<IndexRow>] = &[
+    Column::new("measure", "-", MEASURE, |r| r.measure.name.clone().into()),
+    Column::new("variable", "-", "the variable, by its key", |r| r.variable.into()),
+    Column::new(
+        "first",
+        "-",
+        "first-order index: part of the variance that the variable has alone",
+        |r| r.indices.first.value.into(),
+    ),
+    Column::new("first_low", "-", "lower end of its 95 % interval", |r| {
+        r.indices.first.interval()[0].into()
+    }),
+    Column::new("first_high", "-", "upper end of that interval", |r| {
+        r.indices.first.interval()[1].into()
+    }),
+    Column::new(
+        "total",
+        "-",
+        "total index: part of the variance that the variable has, alone and together with others",
+        |r| r.indices.total.value.into(),
+    ),
+    Column::new("total_low", "-", "lower end of its 95 % interval", |r| {
+        r.indices.total.interval()[0].into()
+    }),
+    Column::new("total_high", "-", "upper end of that interval", |r| {
+        r.indices.total.interval()[1].into()
+    }),
+    Column::new("spread", SAME, "standard deviation of the measure over the box", |r| {
+        r.measure.spread.into()
+    }),
+    Column::new("samples", "-", "samples that have all their values", |r| r.measure.samples.into()),
+    Column::new("failed", "-", "samples that lack a value, which are left out", |r| {
+        r.measure.failed.into()
     }),
 ];
 

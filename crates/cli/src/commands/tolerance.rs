@@ -5,12 +5,12 @@ mod report;
 
 use anyhow::{Context as _, ensure};
 use ranking::Requirement;
-use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use results::{CsvFormat, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
-    Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, Interrupted,
+    Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
@@ -22,7 +22,7 @@ use crate::json;
 use crate::print::{note, print};
 
 /// The folder of the samples in that of the tables.
-const SAMPLES: &str = "samples";
+pub(super) const SAMPLES: &str = "samples";
 
 /// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
 pub fn tolerance(
@@ -35,22 +35,13 @@ pub fn tolerance(
     let designs = designs(arguments, &sweep)?;
     let default = || folder_within(&arguments.definition, &sweep, "tolerance");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
-    let store = SampleStore::new(&folder.file(SAMPLES))?;
+    let store = SampleStore::new(&folder.file(SAMPLES));
     interrupt.ask_first();
     let samples = arguments.samples as usize;
     let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());
-    let threads = arguments.threads.map_or(0, usize::from);
-    let pool = ThreadPoolBuilder::new().num_threads(threads).build()?;
-    let analysed = pool.install(|| analysed(&analysis, &designs, &store));
-    let all = match analysed {
-        Ok(all) => all,
-        Err(stopped @ Interrupted::Stopped { .. }) => {
-            note(&format!("{stopped} of a design; they are kept, the same command goes on"));
-            return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
-        }
-        Err(error) => {
-            return Err(error).with_context(|| arguments.definition.path.display().to_string());
-        }
+    let analysed = pool(arguments.threads)?.install(|| analysed(&analysis, &designs, &store));
+    let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
+        return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let files = write(&folder, &all)?;
     let place = folder.path();
@@ -62,6 +53,27 @@ pub fn tolerance(
     }
     let failed = all.iter().any(|design| design.drawn.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
+}
+
+/// So many threads, or one for each core.
+pub(super) fn pool(threads: Option<u16>) -> anyhow::Result<ThreadPool> {
+    let threads = threads.map_or(0, usize::from);
+    Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
+}
+
+/// What an analysis came to; `None`, and a word about it, if it was told to stop.
+pub(super) fn unless_stopped<T>(
+    analysed: Result<T, NoAnalysis>,
+    definition: &args::Definition,
+) -> anyhow::Result<Option<T>> {
+    match analysed {
+        Ok(all) => Ok(Some(all)),
+        Err(stopped @ NoAnalysis::Stopped { .. }) => {
+            note(&format!("{stopped}, which are kept: the same command goes on"));
+            Ok(None)
+        }
+        Err(error) => Err(error).with_context(|| definition.path.display().to_string()),
+    }
 }
 
 /// Refuses a sweep in which nothing deviates.
@@ -103,7 +115,7 @@ fn analysed(
     analysis: &Analysis<'_>,
     designs: &[u64],
     store: &SampleStore,
-) -> Result<Vec<DesignTolerance>, Interrupted> {
+) -> Result<Vec<DesignTolerance>, NoAnalysis> {
     let analyse = |&index: &u64| {
         let mut design = analysis.design(index, store)?;
         if designs.len() > 1 {
