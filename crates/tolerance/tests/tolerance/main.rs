@@ -1,6 +1,7 @@
 //! Predictions against solved samples, closed forms, and what an interruption leaves.
 
 mod global;
+mod guide;
 mod kept;
 mod spreads;
 
