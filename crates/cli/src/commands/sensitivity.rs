@@ -39,6 +39,7 @@ pub fn sensitivity(
     let Some(found) = unless_stopped(solved, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
+    folder.make()?;
     let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
     write_rows(&folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
     let place = folder.path();

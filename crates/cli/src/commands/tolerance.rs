@@ -128,6 +128,7 @@ fn analysed(
 
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
+    folder.make()?;
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
         let number = design.drawn.number;

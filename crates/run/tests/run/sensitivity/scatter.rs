@@ -36,11 +36,14 @@ fn the_derivatives_of_all_scales_add_up_to_that_of_the_row() {
                 }
                 force(&case, &stiffness)
             };
-            let step = 1e-5 * if key == "gap_over_t" { case.design.gap } else { 1.0 };
+            let unit = if key == "gap_over_t" { case.design.gap } else { 1.0 };
+            let step = 1e-5 * unit;
             let Some((above, below)) = moved(step).zip(moved(-step)) else { continue };
             let (sum, whole) = (slopes.iter().sum::<f64>(), (above - below) / (2.0 * step));
             let size = slopes.iter().map(|slope| slope.abs()).sum::<f64>();
-            assert!((sum - whole).abs() < 1e-5 * size, "{key} {k}: {sum} {whole}");
+            // A force that hardly changes is lost in the rounding of its differences.
+            let allowed = 1e-5 * size + 1e-8 * above.abs() / unit;
+            assert!((sum - whole).abs() < allowed, "{key} {k}: {sum} {whole}");
             compared += 1;
         }
     }
