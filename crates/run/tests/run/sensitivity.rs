@@ -4,6 +4,7 @@ mod branches;
 mod designs;
 mod differences;
 mod kinks;
+mod scatter;
 
 use rayon::prelude::*;
 use results::ParameterDerivative;
