@@ -54,10 +54,10 @@ pub(super) fn curvature_derivatives(
     let derivative = |(parameter, variation): (usize, &Variation<FlexureInput>)| {
         let Neighbours { below, above, step } = &variation.neighbours;
         let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
-        let meetings = [&neighbours[0], &neighbours[1]].map(|side| side.nearest(rotation));
-        let rate = |meeting: Option<CornerEdge>| {
-            Some(gap.closing_rate(meeting?, rotation, &neighbours, *step))
-        };
+        // The corners of upright scales meet, and neither may face an edge.
+        let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
+        let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
+        let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
         let kink = (meetings[0] != meetings[1]).then(|| "another corner meets an edge".to_owned());
         let [left, right] = meetings.map(rate);
         let (measure, value) = ("contact_curvature", rotation / gap.row.pitch());
@@ -65,6 +65,9 @@ pub(super) fn curvature_derivatives(
     };
     variations.iter().enumerate().map(derivative).collect()
 }
+
+/// A corner that is as close to its edge as this is about to meet it.
+const CLOSE: f64 = 1e-3;
 
 /// Part of the rotation over which the derivative of a gap is a difference.
 const STEP: f64 = 1e-6;
@@ -112,10 +115,10 @@ impl BareGap {
         self.pair.distance(corner_edge, &Pose::new(0.0, 0.0, 0.0), &self.right(rotation))
     }
 
-    /// The corner that is nearest to the edge that it faces.
-    fn nearest(&self, rotation: f64) -> Option<CornerEdge> {
-        let nearest = self.facing(rotation).min_by(|a, b| a.1.total_cmp(&b.1));
-        nearest.map(|(meeting, _)| meeting)
+    /// The corner that is about to meet the edge that it faces.
+    fn meeting(&self, rotation: f64) -> Option<CornerEdge> {
+        let close = self.facing(rotation).filter(|(_, gap)| gap.abs() < CLOSE);
+        close.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(meeting, _)| meeting)
     }
     /// The first rotation at which the neighbours touch.
     fn closing_rotation(&self) -> Option<f64> {
