@@ -22,6 +22,8 @@
 use std::f64::consts::PI;
 use std::ops::{Add, Sub};
 
+use pulp::{Arch, NullaryFnOnce};
+
 /// The integrals of (S3): what a unit traction on a cell does at a field point, before the elastic
 /// constants enter. At a corner, the corner functions themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,16 +84,22 @@ pub struct CornerLine {
     /// `Z` of each corner, and `ln|Z|`.
     z: Vec<f64>,
     ln: Vec<f64>,
-    /// `|Z| + r` of each corner, then `|X| + r` of each; their logarithms.
+    /// `|Z| + r` of each corner, `|X| + r` of each, and ones that fill the last vector; their logarithms.
     logarithms: Vec<f64>,
+    /// The widest vectors that the processor has.
+    arch: Arch,
 }
+
+/// Numbers in a vector: as many as most processors take at a time.
+pub(crate) const LANES: usize = 4;
 
 impl CornerLine {
     /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
     pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
         let z: Vec<f64> = edges.into_iter().map(|edge| edge - field).collect();
         let ln = z.iter().map(|&z| ln_or_zero(z)).collect();
-        Self { logarithms: vec![1.0; 2 * z.len()], z, ln }
+        let logarithms = vec![1.0; (2 * z.len()).next_multiple_of(LANES)];
+        Self { logarithms, z, ln, arch: Arch::new() }
     }
 
     /// Returns the number of corners.
@@ -108,20 +116,57 @@ impl CornerLine {
     ///
     /// The field point must not be a corner (a collocation point never is).
     pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
-        let (across, along) = self.logarithms.split_at_mut(self.z.len());
-        for ((across, along), z) in across.iter_mut().zip(&mut *along).zip(&self.z) {
-            let r = (x * x + z * z).sqrt();
-            *across = z.abs() + r;
-            *along = x.abs() + r;
+        for (corner, angles) in corners.iter_mut().zip(self.angles(x)) {
+            corner.across = x * angles.across;
+            corner.along = angles.z * angles.along;
         }
-        take_logarithms(&mut self.logarithms);
+    }
+
+    /// Returns the inverse hyperbolic sines of the corner functions along the line at the offset `x`.
+    pub fn angles(&mut self, x: f64) -> impl Iterator<Item = CornerAngles> + '_ {
+        self.arch.dispatch(Logarithms { x, z: &self.z, of: &mut self.logarithms });
         let (across, along) = self.logarithms.split_at(self.z.len());
         let ln_x = ln_or_zero(x);
         let logarithms = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
-        for (corner, ((across, along), (z, ln_z))) in corners.iter_mut().zip(logarithms) {
-            corner.across = x * (across - ln_x).copysign(*z);
-            corner.along = z * (along - ln_z).copysign(x);
+        logarithms.map(move |((across, along), (&z, ln_z))| CornerAngles {
+            z,
+            across: (across - ln_x).copysign(z),
+            along: (along - ln_z).copysign(x),
+        })
+    }
+}
+
+/// The inverse hyperbolic sines of the functions (S3) of a corner at the offset `(X, Z)`.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerAngles {
+    /// `Z`.
+    pub z: f64,
+    /// `asinh(Z/|X|)`.
+    pub across: f64,
+    /// `asinh(X/|Z|)`.
+    pub along: f64,
+}
+
+/// The logarithms of a line, evaluated in vectors as wide as the processor has them.
+struct Logarithms<'a> {
+    x: f64,
+    z: &'a [f64],
+    of: &'a mut [f64],
+}
+
+impl NullaryFnOnce for Logarithms<'_> {
+    type Output = ();
+
+    #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
+    #[inline(always)]
+    fn call(self) {
+        let (across, along) = self.of.split_at_mut(self.z.len());
+        for ((across, along), z) in across.iter_mut().zip(along).zip(self.z) {
+            let r = (self.x * self.x + z * z).sqrt();
+            *across = z.abs() + r;
+            *along = self.x.abs() + r;
         }
+        take_logarithms(self.of);
     }
 }
 
@@ -137,6 +182,7 @@ const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 ///
 /// As in Sun's `fdlibm`: with `x = 2^k (1 + f)`, `1 + f` between `√½` and `√2`, and `s = f/(2 + f)`, a polynomial in `s²`
 /// stands for `ln (1 + f) = 2 artanh s`. Without branches and tables the compiler takes several at a time.
+#[inline(always)]
 fn take_logarithms(numbers: &mut [f64]) {
     const SQRT_HALF: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
     const ONE: u64 = 1.0_f64.to_bits();

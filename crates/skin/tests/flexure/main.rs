@@ -6,7 +6,7 @@
 //! | `elastica` | strips of an extensible elastica, solved by another method |
 //! | `first_touch` | the curvature of first contact in closed form, and bending to the outside |
 //! | `chain` | the assembled chain against the unit cell |
-//! | `steps` | the same path with steps a tenth as long |
+//! | `steps` | the same path with steps a tenth as long, and with a tolerance at round-off |
 //! | `robustness` | the 720 designs of the reference study; strips that end early, and why |
 
 mod chain;

@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use rayon::prelude::*;
-use skin::Common;
 use skin::flexure::{FlexureParameters, solve};
+use skin::{Common, Status};
 use solver::Settings;
 
 use crate::samples::{LAWS, finer, forty};
@@ -22,6 +22,24 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
             let compliance =
                 |flexure: &skin::flexure::Flexure| flexure.measures.compliance.unwrap();
             assert_relative_eq!(compliance(&ours), compliance(&theirs), max_relative = 1e-6);
+        });
+    }
+}
+
+/// Forces as small as round-off are asked for: Newton's method must see that it cannot do better, and say so or end.
+#[test]
+fn a_tolerance_at_round_off_gives_the_same_compliance() {
+    let loose = Settings::default();
+    let tight = Settings { tolerance: 1e-12, ..loose };
+    for law in LAWS {
+        forty().par_iter().for_each(|design| {
+            let compliance = |solver| {
+                let parameters = FlexureParameters::default();
+                let flexure = solve(design, &Common { law, solver }, &parameters).unwrap();
+                assert_eq!(flexure.status, Status::Complete, "{design:?} {law:?}");
+                flexure.measures.compliance.unwrap()
+            };
+            assert_relative_eq!(compliance(loose), compliance(tight), max_relative = 1e-8);
         });
     }
 }
