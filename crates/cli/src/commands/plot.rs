@@ -7,7 +7,7 @@ use report::{DesignCurves, MapRequest, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
-use sweep::Case;
+use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
 use super::figure_file::{Written, check_dpi, joined, write_svg};
@@ -91,7 +91,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let shown = solved.iter().zip(&designs).zip(&cases);
     let shown: Vec<_> = shown
         .map(|(((puncture, flexure), design), case)| DesignCurves {
-            number: number(design),
+            number: number(design, &cases),
             design: &case.design,
             puncture: Some(puncture),
             flexure: Some(flexure),
@@ -137,7 +137,21 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// The number of a design, for a legend, which tells its geometry too.
-fn number(design: &SelectedDesign) -> String {
-    design.number.map_or("beside the grid".to_owned(), |number| number.to_string())
+/// The number of a design, for a legend, which tells its geometry too; with the values in which it differs from the others besides.
+fn number(design: &SelectedDesign, cases: &[Case]) -> String {
+    let number = design.number.map_or("beside the grid".to_owned(), |number| number.to_string());
+    let own = design.case();
+    let differing = PARAMETERS.iter().filter(|parameter| {
+        let is_told = ["gap_over_t", "length_over_t", "slant_deg"].contains(&parameter.key);
+        !is_told && cases.iter().any(|other| parameter.get(other) != parameter.get(&own))
+    });
+    let values = differing.map(|parameter| {
+        format!(
+            "{} {}",
+            parameter.key.replace("_over_t", "/t").replace('_', " "),
+            parameter.get(&own)
+        )
+    });
+    let values: Vec<_> = values.collect();
+    if values.is_empty() { number } else { format!("{}  ({number})", values.join(", ")) }
 }

@@ -159,6 +159,7 @@ fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
         mark(palette, slant, [x, y], 4.5, MarkLook::FILLED),
         label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
         mark(palette, slant, [x + 76.0, y], 4.5, MarkLook::OPEN),
-        label("no contact: slants alike", [x + 86.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
+        label("no contact: slants alike", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
+            .with("fill", INK),
     ])
 }

@@ -1,8 +1,9 @@
 //! How far the measures of the best designs move with their gaps, for people and for programs.
 
-use ranking::{RankedDesign, Ranking, Weights};
+use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
 use rayon::prelude::*;
 use results::Results;
+use results::columns::parameter_of;
 use run::{GapChange, MeasureChange};
 use serde_json::{Value, json};
 
@@ -18,7 +19,7 @@ const LARGE: f64 = 2.0;
 pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     let Some(sweep) = results.definition() else { return Vec::new() };
     let criteria = &ranking.preferences().criteria;
-    let columns: Vec<&str> = criteria.iter().map(|criterion| criterion.column.as_ref()).collect();
+    let columns = measured_columns(ranking.preferences());
     let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
     let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
     let mut numbers: Vec<&str> = Vec::new();
@@ -31,8 +32,21 @@ pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
     numbers.par_iter().filter_map(|number| GapChange::of(sweep, number, &columns)).collect()
 }
 
-/// A table of the changes, and a sentence for each design at a cliff.
-pub fn gap_changes_report(changes: &[GapChange]) -> String {
+/// The columns of the criteria and of the requirements that are measured, each once.
+fn measured_columns(preferences: &Preferences) -> Vec<&str> {
+    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
+    let required = preferences.requirements.iter().map(|requirement| requirement.column.as_str());
+    let mut columns: Vec<&str> = Vec::new();
+    for column in criteria.chain(required) {
+        if parameter_of(column).is_none() && !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
+    columns
+}
+
+/// A table of the changes, and a sentence for each design at a cliff and each requirement that is missed.
+pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -> String {
     let Some(first) = changes.first().filter(|first| !first.measures.is_empty()) else {
         return String::new();
     };
@@ -44,7 +58,9 @@ pub fn gap_changes_report(changes: &[GapChange]) -> String {
     };
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(changes.iter().map(row)).collect();
     let cliffs: String = changes.iter().flat_map(cliffs).collect();
-    format!("\nWhere the gap comes out 10 % smaller / 10 % larger\n{}{cliffs}", aligned(&rows))
+    let missed: String = changes.iter().flat_map(|change| missed(change, requirements)).collect();
+    let title = "Where the gap comes out 10 % smaller / 10 % larger";
+    format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
 }
 
 /// The changes for programs.
@@ -71,7 +87,7 @@ fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
-        _ if changed == value => "as is".to_owned(),
+        _ if (ratio - 1.0).abs() < 5e-4 => "as is".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
         _ if ratio > 0.0 && ratio <= LARGE.recip() => format!("÷ {:.1}", ratio.recip()),
@@ -97,6 +113,22 @@ fn cliffs(change: &GapChange) -> Vec<String> {
         [sentence(measure, "smaller", smaller), sentence(measure, "larger", larger)]
     };
     change.measures.iter().flat_map(both).flatten().collect()
+}
+
+/// A sentence for each requirement that a design misses with another gap.
+fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
+    let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
+        let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
+        is_missed.then(|| {
+            format!("  {} misses {requirement} where its gap is 10 % {side}\n", change.design)
+        })
+    };
+    let both = |requirement: &Requirement| {
+        let measure = change.measures.iter().find(|measure| measure.column == requirement.column);
+        let [smaller, larger] = measure?.changed;
+        Some([sentence(requirement, "smaller", smaller), sentence(requirement, "larger", larger)])
+    };
+    requirements.iter().filter_map(both).flatten().flatten().collect()
 }
 
 /// How a measure moves by a factor, in words.

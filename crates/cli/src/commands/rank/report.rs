@@ -31,7 +31,7 @@ impl RankReport<'_> {
         if self.preferences().criteria.len() > 1 {
             let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         }
-        text.push_str(&gap_changes_report(self.changes));
+        text.push_str(&gap_changes_report(self.changes, &self.preferences().requirements));
         if !self.ranking.winners().is_empty() {
             let _ = write!(text, "\n{}", self.winners());
         }

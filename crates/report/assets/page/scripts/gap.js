@@ -12,7 +12,7 @@ squama.gap = (() => {
   /** A factor in words. */
   const words = (factor) => {
     if (factor === null) return "no value";
-    if (factor === 1) return "as is";
+    if (Math.abs(factor - 1) < 5e-4) return "as is";
     if (factor >= LARGE) return `× ${squama.short(Number(factor.toPrecision(2)))}`;
     if (factor > 0 && factor <= 1 / LARGE) return `÷ ${squama.short(Number((1 / factor).toPrecision(2)))}`;
     return `${factor < 1 ? "−" : "+"}${Math.abs(100 * (factor - 1)).toFixed(1)} %`;
