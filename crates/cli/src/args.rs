@@ -19,8 +19,10 @@ mod report;
 mod rerun;
 mod run;
 mod selection;
+mod sensitivity;
 mod slurm;
 mod status;
+mod tolerance;
 mod validate;
 mod work;
 
@@ -43,8 +45,10 @@ pub use report::ReportArguments;
 pub use rerun::RerunArguments;
 pub use run::RunArguments;
 pub use selection::Selection;
+pub use sensitivity::SensitivityArguments;
 pub use slurm::SlurmArguments;
 pub use status::StatusArguments;
+pub use tolerance::ToleranceArguments;
 pub use validate::ValidateArguments;
 pub use work::{Format, Work};
 
@@ -94,6 +98,10 @@ pub enum Command {
     Slurm(SlurmArguments),
     /// Solve one design, print its measures and write its path
     Design(DesignArguments),
+    /// Say how far what is made may differ from what is drawn, and how much of it meets what is required
+    Tolerance(ToleranceArguments),
+    /// Say which parameters the measures depend on most, over a box of them
+    Sensitivity(SensitivityArguments),
     /// Find the best designs of a run: by weights, for all weights, and without any
     Rank(RankArguments),
     /// Say where two runs differ, and by how much

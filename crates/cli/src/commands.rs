@@ -20,9 +20,11 @@ mod rerun;
 mod results_folder;
 mod run;
 mod selection;
+mod sensitivity;
 mod slurm;
 mod source;
 mod status;
+mod tolerance;
 mod validate;
 
 pub use calibrate::calibrate;
@@ -40,8 +42,10 @@ pub use rank::rank;
 pub use report::report;
 pub use rerun::rerun;
 pub use run::run;
+pub use sensitivity::sensitivity;
 pub use slurm::slurm;
 pub use status::status;
+pub use tolerance::tolerance;
 pub use validate::validate;
 
 use ::run::Program;

@@ -49,6 +49,8 @@ fn main() -> ExitCode {
         Command::Merge(arguments) => commands::merge(&arguments),
         Command::Slurm(arguments) => commands::slurm(&arguments),
         Command::Design(arguments) => commands::design(&arguments),
+        Command::Tolerance(arguments) => commands::tolerance(&arguments, &interrupt),
+        Command::Sensitivity(arguments) => commands::sensitivity(&arguments, &interrupt),
         Command::Rank(arguments) => commands::rank(&arguments),
         Command::Compare(arguments) => commands::compare(&arguments),
         Command::Draw(arguments) => commands::draw(&arguments),

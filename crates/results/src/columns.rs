@@ -31,6 +31,7 @@ pub use path::{
     BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
     PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
+pub use physical::physical_source;
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
 

@@ -3,6 +3,7 @@
 pub mod evaluator;
 pub mod groups;
 mod samples;
+mod scatter;
 mod sensitivity;
 pub mod task;
 pub mod work;

@@ -5,6 +5,7 @@ mod ending;
 mod fold;
 mod measures;
 mod number_list;
+mod odd_scale;
 mod point;
 mod sensitivity;
 mod snap;
@@ -34,6 +35,7 @@ use crate::{Common, Design, Sample, Status};
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
 pub use number_list::{MOST_NUMBERS, NumberList};
+pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate};
 pub use snap::Snap;
@@ -147,6 +149,7 @@ pub fn solve_sample(
 #[derive(Clone, Copy)]
 enum Rows<'a> {
     Even(Row),
+    Odd(Row, OddScale),
     Sample(&'a Sample),
 }
 
@@ -154,6 +157,7 @@ impl Rows<'_> {
     fn row(self, layout: Layout) -> Result<Arrangement, OutOfRange> {
         Ok(match self {
             Self::Even(row) => Arrangement::Even(row),
+            Self::Odd(row, odd) => Arrangement::Uneven(odd.within(&row, layout)?),
             Self::Sample(sample) => Arrangement::Uneven(sample.row(layout.left, layout.right)?),
         })
     }

@@ -1,21 +1,25 @@
 //! The validated sweep.
 
 mod axes;
+mod deviations;
 pub(crate) mod invalid;
 pub(crate) mod measure;
 mod reader;
 pub(crate) mod setting;
 pub(crate) mod suggestion;
 mod to_toml;
+mod variables;
 
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::deviation::Deviation;
 use crate::grid::Grid;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter};
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
+use crate::variable::Variable;
 use invalid::{InvalidDefinition, reason};
 use measure::Measure;
 use reader::Reader;
@@ -27,6 +31,8 @@ pub struct Sweep {
     pub(crate) name: String,
     pub(crate) measures: Vec<Measure>,
     pub(crate) grid: Grid,
+    pub(crate) variables: Vec<Variable>,
+    pub(crate) deviations: Vec<Deviation>,
 }
 
 impl Sweep {
@@ -80,6 +86,16 @@ impl Sweep {
     /// The designs.
     pub fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    /// The parameters that no design fixes. Until they are searched over or drawn, they stand in the middle of their values.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// How far what is made differs from what is drawn.
+    pub fn deviations(&self) -> &[Deviation] {
+        &self.deviations
     }
 
     /// The sweep with design `index` alone.

@@ -16,6 +16,8 @@
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
 //! | [`Case`] | one design with everything that it is solved with |
+//! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn |
+//! | [`Deviation`], [`BatchDeviation`] | how far what is made differs from what is drawn |
 //! | [`Material`] | what it is made of, in physical units |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
 //!
@@ -41,12 +43,14 @@
 mod case;
 mod decimal;
 mod definition;
+mod deviation;
 mod grid;
 mod material;
 pub mod number;
 mod parameter;
 mod subset;
 pub mod toml_source;
+mod variable;
 mod visible;
 
 pub use case::{Case, Samples};
@@ -55,8 +59,10 @@ pub use definition::invalid::{InvalidDefinition, Problem, reason};
 pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;
+pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use material::Material;
 pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
+pub use variable::{Variable, VariableValues};
 pub use visible::{shortened, visible};

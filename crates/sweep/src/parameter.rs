@@ -325,7 +325,8 @@ impl Parameter {
         }
     }
 
-    fn contains(&self, value: Scalar) -> bool {
+    /// Whether a value is within the bounds.
+    pub(crate) fn contains(&self, value: Scalar) -> bool {
         match (&self.kind, value) {
             (
                 ParameterKind::Number { range, .. }

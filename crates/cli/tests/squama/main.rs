@@ -22,6 +22,7 @@ mod selection;
 mod shards;
 mod survival;
 mod table;
+mod tolerances;
 mod tutorial;
 mod validation;
 mod workbooks;

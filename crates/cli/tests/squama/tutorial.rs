@@ -65,6 +65,8 @@ fn every_command_does_what_it_says() {
         "results/short/reruns.csv",
         "results/wrist/report.html",
         "wrist.xlsx",
+        "results/made/tolerance/yield.csv",
+        "results/box/sensitivity/sobol.csv",
     ] {
         assert!(place.path(file).is_file(), "{file}");
     }

@@ -151,6 +151,12 @@ pub(super) fn physical_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column
     columns
 }
 
+/// The dimensionless value that a column in physical units is made from, by its name, and how.
+pub fn physical_source(name: &str) -> Option<(&'static str, Quantity)> {
+    let value = PHYSICAL_VALUES.iter().find(|value| value.name == name)?;
+    Some((value.of, value.quantity))
+}
+
 /// The unit of a value in physical units and what it is, by its name.
 pub(super) fn explain_physical(name: &str) -> Option<(&'static str, &'static str)> {
     if name == AREAL_MASS.0 {

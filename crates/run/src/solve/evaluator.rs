@@ -14,7 +14,7 @@ use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
 use sweep::{Case, DesignNumber, Measure};
 
 use super::work::{DesignWork, WorkMeter};
-use super::{samples, sensitivity};
+use super::{samples, scatter, sensitivity};
 
 /// The most gaps of a chain that is solved whole: beyond, a path no longer fits into memory.
 const LONGEST_CHAIN: usize = 100_000;
@@ -81,6 +81,45 @@ impl Evaluator {
         let failures = self.measures.iter().filter_map(|measure| failure(*measure, &solved));
         solved.row.result.failures = failures.collect();
         solved
+    }
+
+    /// Solves `case` with the gaps and slants of its imperfect row of that number in place of its own, if they scatter; otherwise
+    /// the design as it is. The coverage stays that of the design, and an imperfect row has no derivatives.
+    pub fn solve_sample(&self, number: DesignNumber, case: &Case, sample: u64) -> DesignRow {
+        if case.imperfection.is_none() {
+            return self.solve(number, case).row;
+        }
+        let punctured =
+            self.measures(Measure::Puncture).then(|| self.punctured_sample(case, sample));
+        let bent = self.measures(Measure::Flexure).then(|| bent_sample(case, sample));
+        let result = DesignResult {
+            coverage: self.measures(Measure::Coverage).then(|| coverage(case)).flatten(),
+            puncture: punctured.map(|result| result.unwrap_or_else(PunctureResult::without_path)),
+            flexure: bent.map(|result| result.unwrap_or_else(FlexureResult::without_path)),
+            ..DesignResult::default()
+        };
+        DesignRow { number, case: *case, result }
+    }
+
+    fn punctured_sample(&self, case: &Case, sample: u64) -> Result<PunctureResult, Outcome> {
+        let substrate = guarded(|| self.substrate(case)).flatten()?;
+        guarded(|| samples::punctured(case, &substrate, sample))?.ok_or(Outcome::Internal)
+    }
+
+    /// The derivatives of the measures of `case` with respect to the gaps and slants of single scales: for every measure one for each
+    /// scale that it depends on, or, in bending, one for all, as independent deviations add up. There are none of what fails.
+    pub fn scatter(&self, case: &Case) -> Vec<ParameterDerivative> {
+        let mut derivatives = Vec::new();
+        if self.measures(Measure::Puncture)
+            && let Ok(substrate) = guarded(|| self.substrate(case)).flatten()
+        {
+            let punctured = solved(|| scatter::puncture(case, &substrate));
+            derivatives.extend(punctured.unwrap_or_default());
+        }
+        if self.measures(Measure::Flexure) && chain_fits(case).is_ok() {
+            derivatives.extend(solved(|| scatter::flexure(case)).unwrap_or_default());
+        }
+        derivatives
     }
 
     fn differentiates(&self) -> bool {
@@ -171,6 +210,12 @@ fn chain_fits(case: &Case) -> Result<(), Outcome> {
     let row = case.design.row().map_err(|_| Outcome::Internal)?;
     let gaps = flexure::whole_gaps(&row, &case.flexure);
     if gaps > LONGEST_CHAIN { Err(Outcome::RowLimit) } else { Ok(()) }
+}
+
+fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
+    chain_fits(case)?;
+    let bent = guarded(|| samples::bent(case, sample))?.ok_or(Outcome::Internal)?;
+    Ok(FlexureResult::new(&bent))
 }
 
 /// The result and the path of what was asked for, the path only if it ran.

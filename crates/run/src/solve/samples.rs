@@ -44,7 +44,12 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
     statistics.compliance = Statistics::of(compliance);
 }
 
-fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<PunctureResult> {
+/// The puncture of sample `number` of `case`; `None` if there is no such row.
+pub(super) fn punctured(
+    case: &Case,
+    substrate: &RowStiffness,
+    number: u64,
+) -> Option<PunctureResult> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
     let puncture =
         puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
@@ -52,7 +57,8 @@ fn punctured(case: &Case, substrate: &RowStiffness, number: u64) -> Option<Punct
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
-fn bent(case: &Case, number: u64) -> Option<Flexure> {
+/// The bending of sample `number` of `case`; `None` if there is no such strip.
+pub(super) fn bent(case: &Case, number: u64) -> Option<Flexure> {
     let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
     flexure::solve_sample(&case.design, &case.common, &case.flexure, &sample).ok()
 }

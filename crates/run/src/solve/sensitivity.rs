@@ -9,7 +9,7 @@ use substrate::{OneSided, RowStiffness, StiffnessSlopes};
 use sweep::{Case, PARAMETERS, Parameter};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
-const STEP: f64 = 2e-6;
+pub(super) const STEP: f64 = 2e-6;
 
 /// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
 const MESH: &str = "the mesh of the substrate is graded by another length";
@@ -75,7 +75,7 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
 }
 
 /// Derivatives with the names and values of the parameters.
-fn named(
+pub(super) fn named(
     case: &Case,
     parameters: &[&'static Parameter],
     derivatives: Vec<Derivative>,
@@ -88,9 +88,10 @@ fn named(
     derivatives.into_iter().filter_map(named).collect()
 }
 
-fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
+/// The puncture of `case` on a substrate of that stiffness.
+pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     let Case { design, common, puncture: parameters, .. } = *case;
-    PunctureInput { design, stiffness, common, parameters }
+    PunctureInput { design, stiffness, common, parameters, odd: None }
 }
 
 fn bent(case: &Case) -> FlexureInput {

@@ -4,6 +4,7 @@ mod branches;
 mod designs;
 mod differences;
 mod kinks;
+mod scatter;
 
 use results::ParameterDerivative;
 use run::Evaluator;

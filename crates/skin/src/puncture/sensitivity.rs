@@ -5,7 +5,7 @@ use solver::{Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::system::{Chain, Layout};
-use super::{Followed, Problem, Puncture, PunctureParameters, RowLength, Rows};
+use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, RowLength, Rows};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
@@ -25,6 +25,8 @@ pub struct PunctureInput {
     pub common: Common,
     /// The other parameters.
     pub parameters: PunctureParameters,
+    /// The scale that differs from all others, if one does.
+    pub odd: Option<OddScale>,
 }
 
 /// Functions whose largest values are measures besides the stiffness.
@@ -40,7 +42,7 @@ pub fn differentiate(
     input: &PunctureInput,
     variations: &[Variation<PunctureInput>],
 ) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
-    let PunctureInput { design, stiffness, common, parameters } = input;
+    let PunctureInput { design, stiffness, common, parameters, .. } = input;
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (start, longest) = problem.start()?;
@@ -100,8 +102,9 @@ impl Problem<'_> {
 impl PunctureInput {
     /// The system of a row of so many scales.
     fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
-        let Self { design, stiffness, common, parameters } = self;
-        let rows = Rows::Even(design.leaning_row()?);
+        let Self { design, stiffness, common, parameters, odd } = self;
+        let row = design.leaning_row()?;
+        let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         match parameters.scales {
             RowLength::Auto => problem.part(layout),

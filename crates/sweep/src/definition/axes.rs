@@ -28,7 +28,8 @@ pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis,
     }
 }
 
-fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
+/// The values of a list, each once.
+pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
     if items.is_empty() {
         let expected = format!("a list of at least one value, each {}", parameter.expected());
         return Err(WrongValue::NotAccepted { found: "[]".to_owned(), expected }.into());

@@ -101,6 +101,12 @@ pub enum Problem {
         /// Where that stands.
         place: Place,
     },
+    /// A deviation in a unit that only another key gives.
+    #[error("needs {other}, expected that to be set")]
+    Needs {
+        /// The other key.
+        other: String,
+    },
     /// Steps that no path can follow.
     #[error("{value} is larger than {other}, expected at most that")]
     StepOrder {

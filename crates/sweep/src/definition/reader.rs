@@ -1,15 +1,19 @@
 //! From keys and values to a sweep.
 
 use super::axes;
+use super::deviations;
 use super::invalid::{InvalidDefinition, Problem, refuse};
 use super::measure::Measure;
 use super::suggestion;
+use super::variables;
 use crate::case::Case;
 use crate::definition::Sweep;
+use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
 use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue};
-use crate::toml_source::{KeyValue, Place, Value};
+use crate::toml_source::{KeyValue, KeyValues, Place, Value};
+use crate::variable::Variable;
 
 /// Keys that are refused before the rest is left unread: nobody corrects more at a time.
 const MOST: usize = 50;
@@ -22,6 +26,8 @@ pub(crate) struct Reader {
     case: Case,
     shared: Vec<(&'static Parameter, Place)>,
     axes: Vec<WrittenAxis>,
+    variables: Vec<(Variable, Place)>,
+    deviations: Vec<(Deviation, Place)>,
     refused: Vec<InvalidDefinition>,
 }
 
@@ -41,6 +47,8 @@ impl Reader {
         let understood = match entry.key.as_str() {
             "name" => self.read_name(entry),
             "measures" => self.read_measures(entry),
+            suggestion::VARIABLES => self.entries(entry, Self::read_variable),
+            suggestion::TOLERANCE => self.entries(entry, Self::read_deviation),
             section if suggestion::is_section(section) => self.section(section, entry),
             _ => Err(unknown("", entry)),
         };
@@ -62,18 +70,46 @@ impl Reader {
     }
 
     fn section(&mut self, section: &str, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let Value::Table(entries) = &entry.value else {
-            let found = entry.value.to_string();
-            let expected = format!("a section, e.g. [{section}]");
-            return Err(refuse(&entry.place, section, WrongValue::NotAccepted { found, expected }));
-        };
-        for entry in entries {
+        self.entries(entry, |reader, entry| reader.parameter(section, entry))
+    }
+
+    /// Understands the entries of a section, one by one.
+    fn entries(
+        &mut self,
+        section: &KeyValue,
+        mut understand: impl FnMut(&mut Self, &KeyValue) -> Result<(), InvalidDefinition>,
+    ) -> Result<(), InvalidDefinition> {
+        for entry in table(section)? {
             if self.refused.len() >= MOST {
                 break;
             }
-            let understood = self.parameter(section, entry);
+            let understood = understand(self, entry);
             self.refused.extend(understood.err());
         }
+        Ok(())
+    }
+
+    fn read_variable(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let Some(parameter) = Parameter::named(&entry.key) else {
+            return Err(unknown(suggestion::VARIABLES, entry));
+        };
+        let key = format!("{}.{}", suggestion::VARIABLES, entry.key);
+        let variable = variables::read(parameter, &entry.value);
+        let variable = variable.map_err(|problem| refuse(&entry.place, &key, problem))?;
+        self.variables.push((variable, entry.place.clone()));
+        Ok(())
+    }
+
+    fn read_deviation(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let key = format!("{}.{}", suggestion::TOLERANCE, entry.key);
+        let wrong = |problem| refuse(&entry.place, &key, problem);
+        let deviation = deviations::read(entry).map_err(wrong)?;
+        let other = self.deviations.iter().find(|(d, _)| d.parameter() == deviation.parameter());
+        if let Some((other, place)) = other {
+            let other = format!("{}.{}", suggestion::TOLERANCE, other.key());
+            return Err(wrong(Problem::Alternative { other, place: place.clone() }));
+        }
+        self.deviations.push((deviation, entry.place.clone()));
         Ok(())
     }
 
@@ -101,14 +137,46 @@ impl Reader {
         // A default in the place of a refused step says nothing about the others.
         let steps = if self.refused.is_empty() { self.check_steps(file) } else { Ok(()) };
         self.refused.extend(contradictions);
+        let fixed: Vec<_> = self.fixed_variables().collect();
+        self.refused.extend(fixed);
+        let without_unit: Vec<_> = self.deviations_without_unit().collect();
+        self.refused.extend(without_unit);
         self.refused.extend(self.check_alternatives().err());
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
         InvalidDefinition::of(self.refused)?;
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
-        let axes = axes::ordered(self.axes.into_iter().map(|written| written.axis).collect());
+        let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();
+        let deviations = self.deviations.into_iter().map(|(deviation, _)| deviation).collect();
+        // A variable stands in the middle of its values until it is searched over or drawn.
+        let middle = |v: &Variable| Axis::list(v.parameter(), vec![v.at(0.5)]);
+        let written = self.axes.into_iter().map(|written| written.axis);
+        let axes = axes::ordered(written.chain(variables.iter().map(middle)).collect());
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
-        Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid })
+        Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
+    }
+
+    /// Every variable that is also given a value.
+    fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
+        self.variables.iter().filter_map(|(variable, place)| {
+            let parameter = variable.parameter();
+            let there = self.place(parameter.key)?;
+            let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == parameter);
+            let section = if is_axis { "designs" } else { parameter.section };
+            let other = format!("{section}.{}", parameter.key);
+            let key = format!("{}.{}", suggestion::VARIABLES, parameter.key);
+            Some(refuse(place, &key, Problem::Alternative { other, place: there.clone() }))
+        })
+    }
+
+    /// Every deviation of a material, or in mm, of a skin whose material or thickness is not given.
+    fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
+        self.deviations.iter().filter_map(|(deviation, place)| {
+            let needed = deviation.needs()?;
+            let problem = Problem::Needs { other: format!("material.{needed}") };
+            let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
+            self.place(needed).is_none().then(|| refuse(place, &key, problem))
+        })
     }
 
     /// Every parameter that is set in its section and is an axis too.
@@ -198,6 +266,18 @@ fn unknown(section: &str, entry: &KeyValue) -> InvalidDefinition {
     let key = format!("{section}{dot}{}", entry.key);
     let hint = suggestion::for_key(section, &entry.key);
     refuse(&entry.place, &key, Problem::Unknown { value: entry.value.to_string(), hint })
+}
+
+/// The entries of a section.
+fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
+    match &section.value {
+        Value::Table(entries) => Ok(entries),
+        other => {
+            let (found, key) = (other.to_string(), &section.key);
+            let expected = format!("a section, e.g. [{key}]");
+            Err(refuse(&section.place, key, WrongValue::NotAccepted { found, expected }))
+        }
+    }
 }
 
 fn missing_name(file: &Place) -> InvalidDefinition {

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::suggestion::VARIABLES;
 use crate::parameter::Parameter;
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
@@ -69,8 +70,9 @@ impl Setting {
     /// The parameter that is set, if it is one.
     pub fn parameter(&self) -> Option<&'static Parameter> {
         match self.path.as_slice() {
-            [section, key] => Parameter::named(key)
-                .filter(|parameter| section == "designs" || section == parameter.section),
+            [section, key] => Parameter::named(key).filter(|parameter| {
+                ["designs", VARIABLES, parameter.section].contains(&&**section)
+            }),
             _ => None,
         }
     }
@@ -106,13 +108,14 @@ impl Setting {
         KeyValue { key: key.to_owned(), value, place: self.place.clone() }
     }
 
-    /// A parameter stands in its section or among the axes, and some parameters exclude each other. What the file says in
+    /// A parameter stands in its section, among the axes or among the variables, and some parameters exclude each other. What the file says in
     /// the other places gives way; what another setting says there stays, and is refused as a contradiction.
     fn supersede(&self, table: &mut KeyValues) {
         let Some(parameter) = self.parameter() else { return };
-        let elsewhere = if self.path[0] == "designs" { parameter.section } else { "designs" };
-        if parameter.section != "designs" {
-            drop_from_file(table, elsewhere, parameter.key);
+        for section in ["designs", VARIABLES, parameter.section] {
+            if section != self.path[0] {
+                drop_from_file(table, section, parameter.key);
+            }
         }
         if let Some(other) = parameter.alternative() {
             drop_from_file(table, "designs", other.key);
@@ -178,6 +181,10 @@ mod tests {
         assert_eq!(
             set("flexure.gaps = 42", &["designs.membrane_length_over_t=[50, 100]"]),
             "{ flexure = {}, designs = { membrane_length_over_t = [50, 100] } }"
+        );
+        assert_eq!(
+            set("variables.c1 = [1, 2]", &["contact.c1=3"]),
+            "{ variables = {}, contact = { c1 = 3 } }"
         );
         assert_eq!(
             set("", &["contact.c1=3", "designs.c1=[1, 2]"]),

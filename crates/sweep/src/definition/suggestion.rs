@@ -5,8 +5,14 @@ use crate::parameter::{PARAMETERS, Parameter};
 /// The section of the axes.
 const DESIGNS: &str = "designs";
 
-/// Keys outside of the sections.
-const TOP: [&str; 2] = ["name", "measures"];
+/// The section of the parameters that no design fixes.
+pub(crate) const VARIABLES: &str = "variables";
+
+/// The section of the deviations of what is made.
+pub(crate) const TOLERANCE: &str = "tolerance";
+
+/// Keys outside of the sections of parameters.
+const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
 /// Whether a definition has a section of that name.
 pub(crate) fn is_section(key: &str) -> bool {
@@ -37,7 +43,9 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     if section.is_empty() {
         return TOP.into_iter().chain(sections()).collect();
     }
-    let belongs = |parameter: &&Parameter| section == DESIGNS || section == parameter.section;
+    let belongs = |parameter: &&Parameter| {
+        section == DESIGNS || section == VARIABLES || section == parameter.section
+    };
     PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
 }
 

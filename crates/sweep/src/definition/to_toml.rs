@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::measure::Measure;
-use super::suggestion::sections;
+use super::suggestion::{TOLERANCE, VARIABLES, sections};
 use crate::definition::Sweep;
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar};
@@ -39,12 +39,24 @@ impl Sweep {
     fn sections(&self) -> Vec<(&'static str, String)> {
         let lines = |section: &&'static str| {
             let lines = match *section {
-                "designs" => self.grid().axes().iter().map(axis_line).collect(),
+                "designs" => self.fixed_axes().map(axis_line).collect(),
                 section => self.shared_lines(section),
             };
             (*section, lines)
         };
-        sections().iter().map(lines).filter(|(_, lines): &(_, String)| !lines.is_empty()).collect()
+        let variables = self.variables.iter().map(|v| (v.parameter().key.to_owned(), v.to_toml()));
+        let deviations = self.deviations.iter().map(|d| (d.key(), d.to_toml()));
+        let others =
+            [(VARIABLES, entry_lines(variables)), (TOLERANCE, entry_lines(deviations))].into_iter();
+        let all = sections().into_iter().map(|section| lines(&section)).chain(others);
+        all.filter(|(_, lines): &(_, String)| !lines.is_empty()).collect()
+    }
+
+    /// The axes but for those of variables.
+    fn fixed_axes(&self) -> impl Iterator<Item = &Axis> {
+        let is_variable =
+            |axis: &Axis| self.variables.iter().any(|v| v.parameter() == axis.parameter());
+        self.grid().axes().iter().filter(move |axis| !is_variable(axis))
     }
 
     fn shared_lines(&self, section: &str) -> String {
@@ -58,4 +70,9 @@ impl Sweep {
 
 fn axis_line(axis: &Axis) -> String {
     format!("{} = {}\n", axis.parameter().key, axis.to_toml())
+}
+
+fn entry_lines(entries: impl Iterator<Item = (String, String)>) -> String {
+    let lines: Vec<_> = entries.map(|(key, value)| format!("{key} = {value}\n")).collect();
+    lines.concat()
 }

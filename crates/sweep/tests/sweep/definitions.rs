@@ -18,6 +18,8 @@ fn a_definition_reads_back_from_its_complete_form() {
         "name = 'x'\n[designs]\nscales = { from = 1, to = 9, step = 2 }\nc1 = { from = 0.25, to = 1, step = 0.25 }",
         "name = 'x'\n[solver]\nmax_step = 0.005\n[puncture]\nscales = 7",
         "name = 'x'\n[designs]\nmethod = ['chain', 'unit-cell']\n[flexure]\nelements_per_gap = 3",
+        "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\nc1 = [1, 2]\nbase = ['L', '2L']",
+        "name = 'x'\n[material]\nthickness_mm = 8\n[tolerance]\ngap_mm = { batch_sd = 0.1, scale_sd = 0.05 }\nslant_deg = { batch_within = 2 }\nthickness_mm = { batch_sd = 0.05 }",
     ];
     for text in texts {
         let complete = sweep(text).to_toml();
@@ -111,4 +113,29 @@ fn critical_tilts_are_given_in_degrees_or_by_friction() {
         assert_eq!(again.to_toml(), sweep.to_toml());
         assert_eq!(again.grid().case(0), sweep.grid().case(0));
     }
+}
+
+#[test]
+fn deviations_move_a_case_in_their_own_unit() {
+    let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 45\n[material]\n\
+                thickness_mm = 8\nsubstrate_modulus_MPa = 0.3\n[tolerance]\ngap_mm = { scale_sd = 0.4 }\n\
+                slant_deg = { batch_within = 3 }\nthickness_mm = { batch_sd = 0.1 }\n\
+                substrate_modulus_MPa = { batch_sd = 0.1 }";
+    let sweep = sweep(text);
+    let case = sweep.grid().case(0);
+    let [gap, slant, thickness, modulus] = sweep.deviations() else { panic!("four deviations") };
+    assert_eq!(
+        (gap.key().as_str(), gap.batch(), gap.scale_sd(&case)),
+        ("gap_mm", None, Some(0.05))
+    );
+    let gap = gap.moved(&case, 0.4).expect("a thickness").design.gap;
+    assert!((gap - 0.15).abs() < 1e-15);
+    assert_eq!(slant.moved(&case, -3.0).expect("an angle").design.slant_deg, 42.0);
+    // Twice as thick, and every other length as long as before.
+    let thick = thickness.moved(&case, 8.0).expect("a thickness");
+    assert_eq!((thick.material.thickness_mm, thick.design.gap), (Some(16.0), 0.05));
+    assert_eq!((thick.design.length, thick.flexure.membrane_thickness), (0.5, 0.0625));
+    // Twice as stiff, and the scales as before.
+    let stiff = modulus.moved(&case, 0.3).expect("a modulus");
+    assert_eq!(stiff.puncture.contact_modulus_over_substrate, 9677.0 / 2.0);
 }

@@ -230,3 +230,40 @@ fn deep_settings_are_refused() {
         assert!(sweep::Setting::parse(&format!("designs.slant_deg={nested}")).is_err());
     }
 }
+
+#[test]
+fn variables() {
+    insta::assert_snapshot!(all(&[
+        "variables = 3",
+        "variables.gap = [1, 2]",
+        "variables.gap_over_t = 1",
+        "variables.gap_over_t = [1]",
+        "variables.gap_over_t = { from = 1, to = 1 }",
+        "variables.gap_over_t = { from = 1, to = 2, step = 1 }",
+        "variables.gap_over_t = { from = 1 }",
+        "variables.gap_over_t = { from = 0, to = 1 }",
+        "variables.needle_friction = { from = 'none', to = 1 }",
+        "variables.scales = { from = 3, to = 5 }",
+        "variables.base = { from = 3, to = 5 }",
+        "variables.c1 = [1, 2]\ncontact.c1 = 1",
+        "variables.c1 = [1, 2]\ndesigns.c1 = 1",
+    ]));
+}
+
+#[test]
+fn deviations() {
+    insta::assert_snapshot!(all(&[
+        "tolerance = 1e-3",
+        "tolerance.gap = 0.1",
+        "tolerance.gap_over_t = 0.1",
+        "tolerance.gap_over_t = {}",
+        "tolerance.gap_over_t = { sd = 0.1 }",
+        "tolerance.gap_over_t = { batch_sd = -0.1 }",
+        "tolerance.gap_over_t = { batch_sd = 0.1, batch_within = 0.1 }",
+        "tolerance.length_over_t = { scale_sd = 0.1 }",
+        "tolerance.gap_mm = { batch_sd = 0.1 }",
+        "tolerance.thickness_mm = { batch_sd = 0.1 }",
+        "tolerance.scales = { batch_sd = 1 }",
+        "tolerance.gap_over_t = { batch_sd = 1 }\nmaterial.thickness_mm = 1\ntolerance.gap_mm = { batch_sd = 1 }",
+    ]));
+}

@@ -1,0 +1,134 @@
+//! `squama sensitivity`.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use anyhow::ensure;
+use results::{CsvFormat, MEASURE_TABLES, RunFolder, write_rows};
+use serde_json::{Value, json};
+use sweep::Sweep;
+use tolerance::{
+    Estimate, GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexRow, MeasureIndices,
+    SampleStore, SobolIndices,
+};
+
+use super::source::{folder_within, read};
+use super::tolerance::{SAMPLES, pool, unless_stopped};
+use super::{DONE, INCOMPLETE, PROGRAM};
+use crate::args;
+use crate::interrupt::Interrupt;
+use crate::json;
+use crate::print::{aligned, counted, print};
+
+const TABLE: &str = "sobol.csv";
+
+/// Says which part of the variance of each measure every variable has.
+pub fn sensitivity(
+    arguments: &args::SensitivityArguments,
+    interrupt: &Interrupt,
+) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    check(&sweep, &arguments.definition.path)?;
+    let default = || folder_within(&arguments.definition, &sweep, "sensitivity");
+    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    let store = SampleStore::new(&folder.file(SAMPLES));
+    interrupt.ask_first();
+    let (samples, stop) = (arguments.samples as usize, interrupt.stop());
+    let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
+    let solved = pool(arguments.threads)?.install(|| analysis.solve(&store));
+    let Some(found) = unless_stopped(solved, &arguments.definition)? else {
+        return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
+    };
+    folder.make()?;
+    let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
+    write_rows(&folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
+    let place = folder.path();
+    if arguments.json {
+        json::print(&record(&sweep, &found, place))?;
+    } else {
+        print(&format!("{}\n{}: {TABLE}\n", report(&sweep, &found, samples), place.display()))?;
+    }
+    Ok(DONE)
+}
+
+/// Refuses a definition without a box, or with more than one.
+fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
+    let path = path.display();
+    ensure!(
+        !sweep.variables().is_empty(),
+        "{path}: has no [variables], expected some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
+    );
+    let several = sweep.grid().axes().iter().filter(|axis| axis.len() > 1);
+    let several: Vec<_> = several.map(|axis| axis.parameter().key).collect();
+    ensure!(
+        several.is_empty(),
+        "{path}: {} designs besides the variables, expected one: give one value, or [variables], for {}",
+        sweep.grid().len(),
+        several.join(" ")
+    );
+    Ok(())
+}
+
+fn rows(found: &GlobalSensitivity, measure: &MeasureIndices) -> Vec<IndexRow> {
+    let all = found.variables.iter().zip(&measure.indices);
+    all.map(|(variable, indices)| IndexRow {
+        measure: measure.clone(),
+        variable,
+        indices: *indices,
+    })
+    .collect()
+}
+
+fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
+    let points = samples * (found.variables.len() + 2);
+    let samples = counted(samples as u64, "sample");
+    let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
+    let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
+    for measure in found.measures.iter().filter(is_shown) {
+        let failed = match measure.failed {
+            0 => String::new(),
+            failed => format!(", {} left out", counted(failed as u64, "sample")),
+        };
+        let _ = writeln!(text, "\n{}{failed}", measure.name);
+        let row = |(variable, indices): (&&str, &SobolIndices)| {
+            let (first, total) = (percent(indices.first), percent(indices.total));
+            [(*variable).to_owned(), format!("alone {first}"), format!("with others {total}")]
+        };
+        let rows: Vec<_> = found.variables.iter().zip(&measure.indices).map(row).collect();
+        text.push_str(&aligned(&rows));
+    }
+    text
+}
+
+/// An index in per cent, with its interval.
+fn percent(estimate: Estimate) -> String {
+    let [low, high] = estimate.interval().map(|end| 100.0 * end);
+    format!("{:.0} % ({low:.0} to {high:.0} %)", 100.0 * estimate.value)
+}
+
+fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
+    let estimate = |e: Estimate| json!({ "value": e.value, "interval": e.interval() });
+    let variable = |(variable, indices): (&&str, &SobolIndices)| {
+        json!({
+            "variable": variable,
+            "first": estimate(indices.first),
+            "total": estimate(indices.total),
+        })
+    };
+    let measure = |measure: &MeasureIndices| {
+        let indices = found.variables.iter().zip(&measure.indices).map(variable);
+        json!({
+            "measure": measure.name,
+            "spread": measure.spread,
+            "samples": measure.samples,
+            "failed": measure.failed,
+            "indices": indices.collect::<Vec<_>>(),
+        })
+    };
+    json!({
+        "sweep": sweep.name(),
+        "measures": found.measures.iter().map(measure).collect::<Vec<_>>(),
+        "folder": folder,
+        "files": [TABLE],
+    })
+}

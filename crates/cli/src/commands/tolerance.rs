@@ -1,0 +1,169 @@
+//! `squama tolerance`.
+
+mod record;
+mod report;
+
+use anyhow::{Context as _, ensure};
+use ranking::Requirement;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use results::{CsvFormat, RunFolder, write_rows};
+use sweep::Sweep;
+use tolerance::{
+    Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
+    SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
+};
+
+use super::source::{folder_within, read};
+use super::{DONE, INCOMPLETE, PROGRAM};
+use crate::args;
+use crate::interrupt::Interrupt;
+use crate::json;
+use crate::print::{note, print};
+
+/// The folder of the samples in that of the tables.
+pub(super) const SAMPLES: &str = "samples";
+
+/// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
+pub fn tolerance(
+    arguments: &args::ToleranceArguments,
+    interrupt: &Interrupt,
+) -> anyhow::Result<u8> {
+    let sweep = read(&arguments.definition)?;
+    check(arguments, &sweep)?;
+    let requirements = requirements(arguments)?;
+    let designs = designs(arguments, &sweep)?;
+    let default = || folder_within(&arguments.definition, &sweep, "tolerance");
+    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    let store = SampleStore::new(&folder.file(SAMPLES));
+    interrupt.ask_first();
+    let samples = arguments.samples as usize;
+    let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());
+    let analysed = pool(arguments.threads)?.install(|| analysed(&analysis, &designs, &store));
+    let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
+        return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
+    };
+    let files = write(&folder, &all)?;
+    let place = folder.path();
+    if arguments.json {
+        json::print(&record::record(&sweep, &all, place, &files))?;
+    } else {
+        let text = report::report(&sweep, &requirements, &all);
+        print(&format!("{text}\n{}: {}\n", place.display(), files.join(" ")))?;
+    }
+    let failed = all.iter().any(|design| design.drawn.result.failed());
+    Ok(if failed { INCOMPLETE } else { DONE })
+}
+
+/// So many threads, or one for each core.
+pub(super) fn pool(threads: Option<u16>) -> anyhow::Result<ThreadPool> {
+    let threads = threads.map_or(0, usize::from);
+    Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
+}
+
+/// What an analysis came to; `None`, and a word about it, if it was told to stop.
+pub(super) fn unless_stopped<T>(
+    analysed: Result<T, NoAnalysis>,
+    definition: &args::Definition,
+) -> anyhow::Result<Option<T>> {
+    match analysed {
+        Ok(all) => Ok(Some(all)),
+        Err(stopped @ NoAnalysis::Stopped { .. }) => {
+            note(&format!("{stopped}, which are kept: the same command goes on"));
+            Ok(None)
+        }
+        Err(error) => Err(error).with_context(|| definition.path.display().to_string()),
+    }
+}
+
+/// Refuses a sweep in which nothing deviates.
+fn check(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<()> {
+    ensure!(
+        !sweep.deviations().is_empty() || sweep.is_imperfect(),
+        "{}: has no [tolerance], expected deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }} in it, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
+        arguments.definition.path.display()
+    );
+    ensure!(
+        arguments.samples != 1,
+        "--samples 1: one sample has no spread, expected 0 or at least 2"
+    );
+    Ok(())
+}
+
+fn requirements(arguments: &args::ToleranceArguments) -> anyhow::Result<Vec<Requirement>> {
+    let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
+    arguments.require.iter().map(read).collect()
+}
+
+/// The indices of the designs that are asked for.
+fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
+    let grid = sweep.grid();
+    if arguments.numbers.is_empty() {
+        return Ok((0..grid.len()).collect());
+    }
+    let path = arguments.definition.path.display();
+    let range = |text: &String| {
+        let range = grid.parse_numbers(text.trim());
+        range.with_context(|| format!("{path}: --design {text}"))
+    };
+    let ranges: anyhow::Result<Vec<_>> = arguments.numbers.iter().map(range).collect();
+    Ok(ranges?.into_iter().flatten().collect())
+}
+
+/// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.
+fn analysed(
+    analysis: &Analysis<'_>,
+    designs: &[u64],
+    store: &SampleStore,
+) -> Result<Vec<DesignTolerance>, NoAnalysis> {
+    let analyse = |&index: &u64| {
+        let mut design = analysis.design(index, store)?;
+        if designs.len() > 1 {
+            design.samples = Vec::new();
+        }
+        Ok(design)
+    };
+    designs.par_iter().map(analyse).collect()
+}
+
+/// Writes the tables and returns the names of the files.
+fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
+    folder.make()?;
+    let mut files = Vec::new();
+    let measures = all.iter().flat_map(|design| {
+        let number = design.drawn.number;
+        let row = move |measure: &tolerance::MeasureTolerance| DesignMeasureTolerance {
+            design: number,
+            measure: measure.clone(),
+        };
+        design.measures.iter().map(row)
+    });
+    let format = CsvFormat::Plain;
+    write_rows(folder, "tolerance.csv", format, TOLERANCE_COLUMNS, measures)?;
+    files.push("tolerance.csv".to_owned());
+    let sources = all.iter().flat_map(sources);
+    write_rows(folder, "tolerance_sources.csv", format, SOURCE_COLUMNS, sources)?;
+    files.push("tolerance_sources.csv".to_owned());
+    let yields = all.iter().flat_map(|design| {
+        let number = design.drawn.number;
+        design.yields.iter().map(move |of| DesignYield { design: number, of: of.clone() })
+    });
+    if all.iter().any(|design| !design.yields.is_empty()) {
+        write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
+        files.push("yield.csv".to_owned());
+    } else {
+        folder.remove("yield.csv");
+    }
+    folder.sync();
+    Ok(files)
+}
+
+fn sources(design: &DesignTolerance) -> impl Iterator<Item = DesignSource> {
+    let of = |measure: &tolerance::MeasureTolerance| {
+        let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
+        let (design, measure) = (design.drawn.number, measure.name.clone());
+        let row = move |source| DesignSource { design, measure: measure.clone(), source };
+        sources.map(row).collect::<Vec<_>>()
+    };
+    design.measures.iter().flat_map(of)
+}

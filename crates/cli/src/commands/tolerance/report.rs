@@ -1,0 +1,132 @@
+//! Tolerances, for people.
+
+use std::fmt::Write as _;
+
+use ranking::Requirement;
+use results::MEASURE_TABLES;
+use results::columns::physical_source;
+use sweep::Sweep;
+use tolerance::{DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled};
+
+use crate::print::{aligned, counted, rounded};
+
+/// Designs that are listed before a list is cut short.
+const LISTED: usize = 10;
+
+const HEADER: [&str; 8] = [
+    "measure",
+    "drawn",
+    "predicted ±",
+    "solved ±",
+    "prediction is off by",
+    "5 %",
+    "95 %",
+    "it comes from",
+];
+
+/// The report on a design, or a list of several.
+pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
+    match all {
+        [design] => one(sweep, requirements, design),
+        several => list(sweep, requirements, several),
+    }
+}
+
+fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) -> String {
+    let (number, count) = (design.drawn.number, sweep.grid().len());
+    let samples = counted(design.samples.len() as u64, "sample");
+    let mut text = format!("{}: design {number} of {count}, {samples}\n", sweep.name());
+    let is_shown = |measure: &&MeasureTolerance| is_shown(&measure.name, requirements);
+    let mut rows = vec![HEADER.map(str::to_owned).to_vec()];
+    rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
+    let _ = write!(text, "{}", aligned(&rows));
+    if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
+        text.push_str("  (!) by more than twice the statistical error: the measure is not linear over these deviations, trust the samples\n");
+    }
+    if !design.yields.is_empty() {
+        let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
+        let _ = write!(text, "\nYield\n{}", aligned(&rows));
+    }
+    text
+}
+
+/// Whether people see a measure: what the tables are about, in all units, and what is required.
+fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
+    let measure = physical_source(name).map_or(name, |(measure, _)| measure);
+    let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
+    leads || requirements.iter().any(|requirement| requirement.column == name)
+}
+
+fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
+    let linear = measure.linear.as_ref();
+    let sampled =
+        |value: fn(&Sampled) -> String| measure.sampled.as_ref().map_or("none".to_owned(), value);
+    let off = measure.discrepancy().map_or("unknown".to_owned(), |off| {
+        let mark = if measure.is_off() { " (!)" } else { "" };
+        format!("{:+.0} %{mark}", 100.0 * off)
+    });
+    vec![
+        measure.name.clone(),
+        measure.value.map_or("none".to_owned(), rounded),
+        linear.map_or("kink".to_owned(), |linear| short(linear.spread)),
+        sampled(|s| format!("{} (± {})", short(s.spread), short(s.spread_error))),
+        off,
+        sampled(|s| short(s.statistics.quantiles[0])),
+        sampled(|s| short(s.statistics.quantiles[2])),
+        linear.map_or(String::new(), tolerance::LinearSpread::in_words),
+    ]
+}
+
+fn yield_row(of: &RequirementYield) -> Vec<String> {
+    let name = of.requirement.as_ref().map_or("all together".to_owned(), ToString::to_string);
+    let linear = of.linear.map(|share| format!("prediction {}", percent(share)));
+    let failed = (of.failed > 0).then(|| format!("{} failed", counted(of.failed as u64, "sample")));
+    let notes: Vec<_> = failed.into_iter().chain(linear).collect();
+    vec![name, of.proportion.map_or("none".to_owned(), proportion), notes.join(", ")]
+}
+
+/// A share with its interval: never a bare probability.
+fn proportion(proportion: Proportion) -> String {
+    let [low, high] = proportion.interval().map(percent);
+    format!("{} (95 % interval {low} to {high})", percent(proportion.share()))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Three digits.
+fn short(value: f64) -> String {
+    format!("{value:.2e}").parse().map_or_else(|_| value.to_string(), sweep::number::text)
+}
+
+/// The designs with the highest yield, or in their order if nothing is required.
+fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) -> String {
+    let count = counted(all.len() as u64, "design");
+    let mut text = format!("{}: {count} of {}\n", sweep.name(), sweep.grid().len());
+    let share = |design: &&DesignTolerance| {
+        let last = design.yields.last().and_then(|of| of.proportion.or(None));
+        last.map_or(-1.0, Proportion::share)
+    };
+    let mut designs: Vec<&DesignTolerance> = all.iter().collect();
+    designs.sort_by(|one, other| share(other).total_cmp(&share(one)));
+    let row = |design: &&DesignTolerance| {
+        let yielded = design.yields.last().and_then(|of| of.proportion).map(proportion);
+        let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
+        let measure = |m: &MeasureTolerance| {
+            let spread =
+                m.sampled.as_ref().map(|s| s.spread).or(m.linear.as_ref().map(|l| l.spread));
+            let value = m.value.map_or("none".to_owned(), rounded);
+            format!("{} {value} ± {}", m.name, spread.map_or("unknown".to_owned(), short))
+        };
+        let measures: Vec<_> = shown.map(measure).collect();
+        vec![design.drawn.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
+    };
+    let rows: Vec<_> = designs.iter().take(LISTED).map(row).collect();
+    text.push_str(&aligned(&rows));
+    let more = all.len().saturating_sub(LISTED);
+    if more > 0 {
+        let _ = writeln!(text, "  and {more} more");
+    }
+    text
+}

@@ -1,0 +1,72 @@
+//! Derivatives of the measures of a design with respect to the gaps and slants of single scales.
+
+use geometry::OutOfRange;
+use results::ParameterDerivative;
+use skin::flexure::whole_gaps;
+use skin::puncture::{self, OddScale, PunctureInput};
+use skin::{Neighbours, Variation};
+use substrate::RowStiffness;
+use sweep::{Case, Parameter};
+
+use super::sensitivity::{self, STEP, named};
+
+/// Scales to each side of the punctured one that are varied, at most. Those beyond hardly feel a puncture.
+const FARTHEST: usize = 60;
+
+/// The parameters that differ from scale to scale.
+const SCATTERED: [&str; 2] = ["gap_over_t", "slant_deg"];
+
+/// The derivatives of the measures of a puncture with respect to the gap and the slant of every scale near the punctured one,
+/// those that are not zero. The substrate stays as it is, as under imperfect rows.
+pub(super) fn puncture(
+    case: &Case,
+    stiffness: &RowStiffness,
+) -> Result<Vec<ParameterDerivative>, OutOfRange> {
+    let input = sensitivity::punctured(case, stiffness.clone());
+    let (straight, _) = puncture::differentiate(&input, &[])?;
+    let farthest = straight.measures.scales.min(FARTHEST) as i32;
+    let (mut parameters, mut variations) = (Vec::new(), Vec::new());
+    for parameter in SCATTERED.into_iter().filter_map(Parameter::named) {
+        for place in -farthest..=farthest {
+            parameters.push(parameter);
+            variations.extend(one_scale(case, &input, parameter, place));
+        }
+    }
+    let (_, derivatives) = puncture::differentiate(&input, &variations)?;
+    let mut derivatives = named(case, &parameters, derivatives);
+    derivatives.retain(|derivative| derivative.left != Some(0.0) || derivative.kink.is_some());
+    Ok(derivatives)
+}
+
+/// The variation of the row whose scale at `place` alone has another gap or slant.
+fn one_scale(
+    case: &Case,
+    input: &PunctureInput,
+    parameter: &'static Parameter,
+    place: i32,
+) -> Option<Variation<PunctureInput>> {
+    let step = STEP * parameter.size(case)?;
+    let odd = |by: f64| match parameter.key {
+        "gap_over_t" => OddScale { place, gap: by, slant_deg: 0.0 },
+        _ => OddScale { place, gap: 0.0, slant_deg: by },
+    };
+    let [below, above] =
+        [-step, step].map(|by| PunctureInput { odd: Some(odd(by)), ..input.clone() });
+    Some(Variation { neighbours: Neighbours { below, above, step }, right: None })
+}
+
+/// The derivatives of the measures of bending with respect to the gaps and slants, one for all scales: in pure bending every one of
+/// the `n` gaps adds the same, so that independent deviations add up to `1/√n` of a common one. The number of gaps stays.
+pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
+    let gaps = whole_gaps(&case.design.row()?, &case.flexure);
+    let mut fixed = *case;
+    fixed.flexure.gaps = Some(gaps);
+    let (_, mut derivatives) = sensitivity::flexure(&fixed)?;
+    derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter.as_str()));
+    let share = (gaps as f64).sqrt().recip();
+    for derivative in &mut derivatives {
+        derivative.left = derivative.left.map(|slope| share * slope);
+        derivative.right = derivative.right.map(|slope| share * slope);
+    }
+    Ok(derivatives)
+}

@@ -1,0 +1,72 @@
+//! The table `[tolerance]` as it is written.
+
+use super::invalid::Problem;
+use super::suggestion;
+use crate::deviation::{BatchDeviation, Deviation};
+use crate::parameter::{PARAMETERS, WrongValue};
+use crate::toml_source::{KeyValue, KeyValues, Value};
+
+/// The keys of a deviation.
+const KEYS: [&str; 3] = ["batch_sd", "batch_within", "scale_sd"];
+
+/// A deviation in words.
+const EXAMPLE: &str =
+    "e.g. { batch_sd = 0.02 }, { batch_within = 0.05 } or { batch_sd = 0.02, scale_sd = 0.01 }";
+
+/// The deviation that an entry of the table describes.
+pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
+    let Some((parameter, in_mm)) = Deviation::parameter_of(&entry.key) else {
+        return Err(unknown(entry));
+    };
+    let Value::Table(entries) = &entry.value else {
+        return Err(not_accepted(&entry.value, format!("deviations, {EXAMPLE}")));
+    };
+    if let Some(other) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
+        return Err(wrong(entry, format!("unknown key {}, expected {EXAMPLE}", other.key)));
+    }
+    let [sd, within, scale_sd] = KEYS.map(|key| number(entries, key));
+    let batch = match (sd?, within?) {
+        (Some(_), Some(_)) => {
+            return Err(wrong(entry, "two distributions, expected one of the two".to_owned()));
+        }
+        (sd, within) => sd.map(BatchDeviation::Normal).or(within.map(BatchDeviation::Uniform)),
+    };
+    let scale_sd = scale_sd?;
+    if scale_sd.is_some() && !Deviation::scatters(parameter) {
+        let problem = "nothing but gap_over_t (or gap_mm) and slant_deg differs from scale to scale, expected batch_sd or batch_within";
+        return Err(wrong(entry, problem.to_owned()));
+    }
+    if batch.is_none() && scale_sd.is_none() {
+        return Err(wrong(entry, format!("no deviation, expected {EXAMPLE}")));
+    }
+    Ok(Deviation { parameter, in_mm, batch, scale_sd })
+}
+
+/// The number of a key, if it is there.
+fn number(entries: &KeyValues, key: &str) -> Result<Option<f64>, Problem> {
+    let Some(entry) = entries.iter().find(|entry| entry.key == key) else { return Ok(None) };
+    let number = match &entry.value {
+        Value::Number(text) => text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()),
+        _ => None,
+    };
+    let expected = || not_accepted(&entry.value, format!("a number above 0 for {key}"));
+    number.map(Some).ok_or_else(expected)
+}
+
+fn wrong(entry: &KeyValue, problem: String) -> Problem {
+    Problem::Range { range: entry.value.to_string(), problem }
+}
+
+fn not_accepted(value: &Value, expected: String) -> Problem {
+    WrongValue::NotAccepted { found: value.to_string(), expected }.into()
+}
+
+fn unknown(entry: &KeyValue) -> Problem {
+    let possible = PARAMETERS.iter().filter(|parameter| Deviation::is_possible(parameter));
+    let known: Vec<_> = possible.map(|parameter| parameter.key).collect();
+    let hint = match suggestion::nearest(&entry.key, &known) {
+        Some(near) => format!("did you mean {near}?"),
+        None => format!("expected one of {}, or a length in mm, as gap_mm", known.join(", ")),
+    };
+    Problem::Unknown { value: entry.value.to_string(), hint }
+}

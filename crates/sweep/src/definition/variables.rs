@@ -1,0 +1,53 @@
+//! The table `[variables]` as it is written: between bounds, or one of a list.
+
+use super::axes;
+use super::invalid::Problem;
+use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::toml_source::{KeyValues, Value};
+use crate::variable::{Variable, VariableValues};
+
+/// The variable that `value` describes.
+pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Variable, Problem> {
+    let values = match value {
+        Value::Table(entries) => between(parameter, entries, value)?,
+        Value::List(items) => one_of(axes::read_list(parameter, items)?, value)?,
+        single => return Err(fixed(single)),
+    };
+    Ok(Variable { parameter, values })
+}
+
+fn between(
+    parameter: &Parameter,
+    entries: &KeyValues,
+    written: &Value,
+) -> Result<VariableValues, Problem> {
+    let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
+    if parameter.takes_counts() || !parameter.takes_numbers() {
+        return Err(wrong("no numbers in between, expected a list of values".to_owned()));
+    }
+    if let Some(entry) = entries.iter().find(|entry| !["from", "to"].contains(&entry.key.as_str()))
+    {
+        return Err(wrong(format!("unknown key {}, expected from and to", entry.key)));
+    }
+    let bound = |key: &str| {
+        let entry = entries.iter().find(|entry| entry.key == key);
+        let entry = entry.ok_or_else(|| wrong(format!("no `{key}`, expected from and to")))?;
+        let number = parameter.read(&entry.value)?.number();
+        number.ok_or_else(|| wrong(format!("{} is no number", entry.value)))
+    };
+    let (from, to) = (bound("from")?, bound("to")?);
+    if from < to {
+        Ok(VariableValues::Between(from, to))
+    } else {
+        Err(wrong("nothing in between, expected from below to".to_owned()))
+    }
+}
+
+fn one_of(values: Vec<Scalar>, written: &Value) -> Result<VariableValues, Problem> {
+    if values.len() > 1 { Ok(VariableValues::OneOf(values)) } else { Err(fixed(written)) }
+}
+
+fn fixed(written: &Value) -> Problem {
+    let expected = "bounds or several values, e.g. { from = 0.1, to = 1 } or [0.5, 1]".to_owned();
+    WrongValue::NotAccepted { found: written.to_string(), expected }.into()
+}

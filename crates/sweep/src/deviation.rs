@@ -1,0 +1,154 @@
+//! How far what is made differs from what is drawn.
+
+use crate::case::Case;
+use crate::number;
+use crate::parameter::{PARAMETERS, Parameter};
+
+/// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviation {
+    pub(crate) parameter: &'static Parameter,
+    /// Whether the deviations are in mm, of a parameter that is a length over `t`.
+    pub(crate) in_mm: bool,
+    pub(crate) batch: Option<BatchDeviation>,
+    pub(crate) scale_sd: Option<f64>,
+}
+
+/// The distribution of a deviation that all scales of a batch share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BatchDeviation {
+    /// Normal, of this standard deviation.
+    Normal(f64),
+    /// Equally likely everywhere up to this far to either side.
+    Uniform(f64),
+}
+
+impl BatchDeviation {
+    /// The standard deviation.
+    pub fn standard_deviation(self) -> f64 {
+        match self {
+            Self::Normal(deviation) => deviation,
+            Self::Uniform(most) => most / 3.0_f64.sqrt(),
+        }
+    }
+}
+
+/// The end of the key of a length over the thickness, and of the same length in mm.
+const OVER_T: &str = "_over_t";
+const IN_MM: &str = "_mm";
+
+/// The parameters that may differ from scale to scale.
+const SCATTER: [&str; 2] = ["gap_over_t", "slant_deg"];
+
+impl Deviation {
+    /// The parameter of `key`, and whether the key asks for mm.
+    pub(crate) fn parameter_of(key: &str) -> Option<(&'static Parameter, bool)> {
+        let of = |key: &str| Parameter::named(key).filter(|p| Self::is_possible(p));
+        let in_mm = || of(&format!("{}{OVER_T}", key.strip_suffix(IN_MM)?));
+        of(key).map(|parameter| (parameter, false)).or_else(|| Some((in_mm()?, true)))
+    }
+
+    /// Whether a parameter may deviate: a number that describes the skin or its material.
+    pub(crate) fn is_possible(parameter: &Parameter) -> bool {
+        parameter.is_continuous() || parameter.section == "material"
+    }
+
+    /// Whether a parameter may differ from scale to scale.
+    pub(crate) fn scatters(parameter: &Parameter) -> bool {
+        SCATTER.contains(&parameter.key)
+    }
+
+    /// The parameter.
+    pub fn parameter(&self) -> &'static Parameter {
+        self.parameter
+    }
+
+    /// The key in the definition: that of the parameter, or of the same length in mm.
+    pub fn key(&self) -> String {
+        match self.parameter.key.strip_suffix(OVER_T) {
+            Some(stem) if self.in_mm => format!("{stem}{IN_MM}"),
+            _ => self.parameter.key.to_owned(),
+        }
+    }
+
+    /// The key of the material without which the deviation has no meaning.
+    pub(crate) fn needs(&self) -> Option<&'static str> {
+        let material = (self.parameter.section == "material").then_some(self.parameter.key);
+        material.or_else(|| self.in_mm.then_some("thickness_mm"))
+    }
+
+    /// The deviation that all scales of a batch share.
+    pub fn batch(&self) -> Option<BatchDeviation> {
+        self.batch
+    }
+
+    /// The standard deviation from scale to scale in the unit of the parameter, for the designs of a thickness.
+    pub fn scale_sd(&self, case: &Case) -> Option<f64> {
+        Some(self.scale_sd? / self.unit(case)?)
+    }
+
+    /// The case whose parameter differs `by` so much, in the unit of this deviation; it may leave its bounds.
+    ///
+    /// A thickness differs while the other lengths stay as long as they are drawn, in mm, and a modulus differs while that of the
+    /// scales stays.
+    pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
+        match self.parameter.key {
+            "thickness_mm" => {
+                let thickness = case.material.thickness_mm?;
+                let mut moved = with_lengths_times(case, thickness / (thickness + by))?;
+                moved.material.thickness_mm = Some(thickness + by);
+                Some(moved)
+            }
+            "substrate_modulus_MPa" => {
+                let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
+                moved.material.substrate_modulus_mpa = Some(modulus + by);
+                moved.puncture.contact_modulus_over_substrate *= modulus / (modulus + by);
+                Some(moved)
+            }
+            "membrane_modulus_MPa" => {
+                let (mut moved, modulus) = (*case, case.material.membrane_modulus_mpa?);
+                moved.material.membrane_modulus_mpa = Some(modulus + by);
+                moved.flexure.contact_modulus_over_membrane *= modulus / (modulus + by);
+                Some(moved)
+            }
+            "scale_density_kg_m3" => {
+                let (mut moved, density) = (*case, case.material.scale_density_kg_m3?);
+                moved.material.scale_density_kg_m3 = Some(density + by);
+                Some(moved)
+            }
+            _ => self.parameter.moved(case, by / self.unit(case)?),
+        }
+    }
+
+    /// As [`Self::moved`]; `None` if a parameter then leaves its bounds, so that there is no such skin.
+    pub fn made(&self, case: &Case, by: f64) -> Option<Case> {
+        let moved = self.moved(case, by)?;
+        let mut possible = PARAMETERS.iter().filter(|parameter| Self::is_possible(parameter));
+        possible.all(|parameter| parameter.contains(parameter.get(&moved))).then_some(moved)
+    }
+
+    /// One unit of the parameter in the unit of the deviation.
+    fn unit(&self, case: &Case) -> Option<f64> {
+        if self.in_mm { case.material.thickness_mm } else { Some(1.0) }
+    }
+
+    /// The deviations as a definition writes them.
+    pub fn to_toml(&self) -> String {
+        let batch = self.batch.map(|batch| match batch {
+            BatchDeviation::Normal(deviation) => format!("batch_sd = {}", number::text(deviation)),
+            BatchDeviation::Uniform(most) => format!("batch_within = {}", number::text(most)),
+        });
+        let scale = self.scale_sd.map(|sd| format!("scale_sd = {}", number::text(sd)));
+        let both: Vec<_> = batch.into_iter().chain(scale).collect();
+        format!("{{ {} }}", both.join(", "))
+    }
+}
+
+/// The case with every length over `t` so many times as long.
+fn with_lengths_times(case: &Case, factor: f64) -> Option<Case> {
+    let mut lengths = PARAMETERS.iter().filter(|p| p.is_continuous() && p.key.ends_with(OVER_T));
+    lengths.try_fold(*case, |case, parameter| {
+        let length = parameter.get(&case).number()?;
+        parameter.moved(&case, (factor - 1.0) * length)
+    })
+}

@@ -1,0 +1,74 @@
+//! A parameter that is searched over, or drawn at random, between bounds or among values.
+
+use crate::case::Case;
+use crate::number;
+use crate::parameter::{Parameter, Scalar};
+
+/// A parameter of `[variables]`: no design of the sweep fixes it, an optimisation searches over it and a global sensitivity
+/// analysis draws it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    pub(crate) parameter: &'static Parameter,
+    pub(crate) values: VariableValues,
+}
+
+/// The values that a variable takes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum VariableValues {
+    /// Every number from one to the other, which is larger.
+    Between(f64, f64),
+    /// One of these, at least two.
+    OneOf(Vec<Scalar>),
+}
+
+impl Variable {
+    /// The parameter.
+    pub fn parameter(&self) -> &'static Parameter {
+        self.parameter
+    }
+
+    /// The values that it takes.
+    pub fn values(&self) -> &VariableValues {
+        &self.values
+    }
+
+    /// The value at a `share` from 0 to 1 of the way through the values; of a list every value has an equal part of the way.
+    ///
+    /// ```
+    /// use sweep::{Scalar, Sweep};
+    ///
+    /// let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 0.5 }\nlength_over_t = [0.2, 1]";
+    /// let sweep = Sweep::parse(text, "x.toml", &[])?;
+    /// let at = |share| sweep.variables().iter().map(|v| v.at(share).to_string()).collect::<Vec<_>>();
+    /// assert_eq!(at(0.25), ["0.2", "0.2"]);
+    /// assert_eq!(at(1.0), ["0.5", "1"]);
+    /// # Ok::<(), sweep::InvalidDefinition>(())
+    /// ```
+    pub fn at(&self, share: f64) -> Scalar {
+        match &self.values {
+            VariableValues::Between(from, to) => Scalar::Number(from + share * (to - from)),
+            VariableValues::OneOf(values) => {
+                let place = (share * values.len() as f64) as usize;
+                values[place.min(values.len() - 1)]
+            }
+        }
+    }
+
+    /// Gives `case` a value of this variable.
+    pub fn set(&self, case: &mut Case, value: Scalar) {
+        self.parameter.set(case, value);
+    }
+
+    /// The values as a definition writes them.
+    pub fn to_toml(&self) -> String {
+        match &self.values {
+            VariableValues::Between(from, to) => {
+                format!("{{ from = {}, to = {} }}", number::text(*from), number::text(*to))
+            }
+            VariableValues::OneOf(values) => {
+                let values: Vec<_> = values.iter().map(|value| value.to_toml()).collect();
+                format!("[{}]", values.join(", "))
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! The random deviations of a sample.
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng as _;
+use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
+use sha2::{Digest as _, Sha256};
+use sweep::{BatchDeviation, Case, Deviation};
+
+/// Draws after which a deviation that leaves a parameter within its bounds is no longer looked for.
+const DRAWS: usize = 1000;
+
+/// Sample `number` of a design: its case with the deviations that all scales share, and with the scatter from scale to scale as
+/// its imperfection; and the deviations themselves. `None` if no deviation leaves a parameter within its bounds.
+///
+/// A deviation depends on the seed of the case, the number and the key of its parameter alone: another deviation more or less, or
+/// another design, changes none.
+pub(crate) fn sample(
+    case: &Case,
+    deviations: &[Deviation],
+    number: u64,
+) -> Option<(Case, Vec<Option<f64>>)> {
+    let (mut made, mut drawn) = (*case, Vec::new());
+    for deviation in deviations {
+        let Some(batch) = deviation.batch() else {
+            drawn.push(None);
+            continue;
+        };
+        let mut random = random(case, number, deviation.parameter().key);
+        let possible = |_| {
+            let by = draw(batch, &mut random);
+            Some((deviation.made(&made, by)?, by))
+        };
+        let (moved, by) = (0..DRAWS).find_map(possible)?;
+        made = moved;
+        drawn.push(Some(by));
+    }
+    scatter(&mut made, deviations);
+    Some((made, drawn))
+}
+
+/// Lets gaps and slants scatter from scale to scale as the deviations say, instead of as the definition does.
+pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
+    for deviation in deviations {
+        let Some(sd) = deviation.scale_sd(case) else { continue };
+        match deviation.parameter().key {
+            "gap_over_t" => case.imperfection.gap_cv = sd / case.design.gap,
+            _ => case.imperfection.slant_sd_deg = sd,
+        }
+    }
+}
+
+/// A number from 0 to 1, the same for every case with that seed.
+pub(crate) fn share(case: &Case, number: u64, key: &str) -> f64 {
+    StandardUniform.sample(&mut random(case, number, key))
+}
+
+/// The random numbers of a sample that are for one key.
+fn random(case: &Case, number: u64, key: &str) -> ChaCha8Rng {
+    let mut digest = Sha256::new();
+    digest.update((case.samples.seed as u64).to_le_bytes());
+    digest.update(number.to_le_bytes());
+    digest.update(key.as_bytes());
+    ChaCha8Rng::from_seed(digest.finalize().into())
+}
+
+fn draw(batch: BatchDeviation, random: &mut ChaCha8Rng) -> f64 {
+    match batch {
+        BatchDeviation::Normal(sd) => {
+            let z: f64 = StandardNormal.sample(random);
+            sd * z
+        }
+        BatchDeviation::Uniform(most) => {
+            let share: f64 = StandardUniform.sample(random);
+            most * (2.0 * share - 1.0)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use sweep::Sweep;
+
+    use super::sample;
+
+    fn sweep(tolerance: &str) -> Sweep {
+        let text = format!(
+            "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 1\n[tolerance]\n{tolerance}"
+        );
+        Sweep::parse(&text, "x.toml", &[]).expect("a sweep")
+    }
+
+    fn drawn(tolerance: &str, number: u64) -> Vec<Option<f64>> {
+        let sweep = sweep(tolerance);
+        sample(&sweep.grid().case(0), sweep.deviations(), number).expect("a sample").1
+    }
+
+    #[test]
+    fn a_deviation_does_not_depend_on_the_others() {
+        let one = drawn("gap_over_t = { batch_sd = 0.01 }", 7);
+        let both = drawn("length_over_t = { batch_sd = 0.1 }\ngap_over_t = { batch_sd = 0.01 }", 7);
+        assert_eq!(one[0], both[1]);
+        assert_ne!(one, drawn("gap_over_t = { batch_sd = 0.01 }", 8));
+        // Twice the deviation, the same normal number.
+        let twice = drawn("gap_over_t = { batch_sd = 0.02 }", 7);
+        assert_eq!(twice[0], one[0].map(|by| 2.0 * by));
+    }
+
+    #[test]
+    fn deviations_have_their_moments_and_keep_to_the_bounds() {
+        let normal = |n| drawn("length_over_t = { batch_sd = 0.1 }", n)[0].expect("a deviation");
+        let uniform = |n| drawn("length_over_t = { batch_within = 0.1 }", n)[0].expect("one");
+        let moments = |of: &dyn Fn(u64) -> f64| {
+            let mean = (1..=4000).map(of).sum::<f64>() / 4000.0;
+            (mean, ((1..=4000).map(|n| of(n).powi(2)).sum::<f64>() / 4000.0).sqrt())
+        };
+        let (mean, sd) = moments(&normal);
+        assert!(mean.abs() < 0.005 && (sd - 0.1).abs() < 0.004, "{mean} {sd}");
+        let (mean, sd) = moments(&uniform);
+        assert!(mean.abs() < 0.003 && (sd - 0.1 / 3.0_f64.sqrt()).abs() < 0.002, "{mean} {sd}");
+        assert!((1..=4000).all(|n| uniform(n).abs() <= 0.1));
+        // Half of the draws would make the slant negative.
+        let sweep = sweep("slant_deg = { batch_sd = 3 }");
+        let slant = |n| {
+            let made = sample(&sweep.grid().case(0), sweep.deviations(), n);
+            made.expect("a sample").0.design.slant_deg
+        };
+        assert!((1..=1000).all(|n| slant(n) >= 0.0));
+    }
+
+    #[test]
+    fn scatter_is_relative_to_the_gap_that_is_made() {
+        let sweep = sweep("gap_over_t = { batch_sd = 0.01, scale_sd = 0.02 }");
+        let (made, _) = sample(&sweep.grid().case(0), sweep.deviations(), 3).expect("a sample");
+        assert_ne!(made.design.gap, 0.1);
+        assert_eq!(made.imperfection.gap_cv, 0.02 / made.design.gap);
+    }
+}

@@ -1,0 +1,50 @@
+//! Tolerances: what comes out when what is made differs from what is drawn.
+//!
+//! A [`Deviation`](sweep::Deviation) is common to all scales of a batch or differs from scale to scale. The spread of a measure is
+//! predicted from its derivatives, and solved for with random samples; both stand side by side, with the difference. Random numbers
+//! depend on the seed, the number of the sample and the key of the parameter alone.
+//!
+//! ```text
+//! deviations ─► derivatives ─► LinearSpread ─┐
+//!          └──► samples ─────► Sampled ──────┴─► MeasureTolerance ─► tolerance.csv
+//!                       └────► Proportion ─────► RequirementYield ─► yield.csv
+//! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`Analysis`], [`DesignTolerance`] | a design with its deviations, and everything that is known of it |
+//! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
+//! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
+//! | [`Sample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
+//! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | the parts that variables have in the variance over a box |
+//! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`Estimate`] | the estimators, for any function |
+//! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
+
+mod analysis;
+mod draw;
+mod global;
+mod linear;
+mod measured;
+mod moments;
+mod no_analysis;
+mod proportion;
+mod sampled;
+mod sobol;
+mod store;
+mod tables;
+mod yields;
+
+pub use analysis::{Analysis, DesignTolerance, MeasureTolerance};
+pub use global::{GlobalAnalysis, GlobalSensitivity, MeasureIndices};
+pub use linear::{Level, LinearSpread, SourceShare};
+pub use measured::NoSuchColumn;
+pub use no_analysis::NoAnalysis;
+pub use proportion::Proportion;
+pub use sampled::Sampled;
+pub use sobol::{Estimate, Evaluation, SobolIndices, sobol_indices};
+pub use store::{Sample, SampleStore};
+pub use tables::{
+    DesignMeasureTolerance, DesignSource, DesignYield, INDEX_COLUMNS, IndexRow, SOURCE_COLUMNS,
+    TOLERANCE_COLUMNS, YIELD_COLUMNS,
+};
+pub use yields::RequirementYield;

@@ -1,0 +1,170 @@
+//! The spread of a measure as its derivatives predict it.
+
+use results::ParameterDerivative;
+use sweep::{BatchDeviation, Case, Deviation, PARAMETERS, Parameter};
+
+use crate::measured::Origin;
+use crate::moments::Slopes;
+
+/// Part of a standard deviation over which slopes are taken.
+const STEP: f64 = 1e-5;
+
+/// The scales that share a deviation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// All of a batch have the same.
+    Batch,
+    /// Each has its own.
+    Scale,
+}
+
+/// A source of deviations and its part in the spread of a measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceShare {
+    /// The key of the source in the definition.
+    pub source: String,
+    /// The scales that share a deviation.
+    pub level: Level,
+    /// Standard deviation of the source, in its own unit.
+    pub deviation: f64,
+    /// Standard deviation of the measure, were this the only source.
+    pub spread: f64,
+    /// Part of the variance of the measure.
+    pub share: f64,
+}
+
+/// The spread of a measure as its derivatives predict it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearSpread {
+    /// Standard deviation of the measure.
+    pub spread: f64,
+    /// The sources, the one with the largest share first.
+    pub sources: Vec<SourceShare>,
+}
+
+/// A design with its derivatives and deviations.
+pub(crate) struct Gradients<'a> {
+    /// The design as it is drawn, with its scatter from scale to scale.
+    pub(crate) case: &'a Case,
+    pub(crate) deviations: &'a [Deviation],
+    /// Derivatives with respect to the parameters.
+    pub(crate) common: &'a [ParameterDerivative],
+    /// Derivatives with respect to the gaps and slants of single scales.
+    pub(crate) single: &'a [ParameterDerivative],
+}
+
+impl Gradients<'_> {
+    /// The spread of the column `name`. `None` if it has no derivatives, or a kink without one of its sides.
+    pub(crate) fn spread(&self, name: &str) -> Option<LinearSpread> {
+        let origin = Origin::of(name);
+        let value = match origin.measure() {
+            Some(measure) => self.common.iter().find(|d| d.measure == measure)?.value,
+            None => 0.0,
+        };
+        let mut sources = Vec::new();
+        for deviation in self.deviations {
+            let Some(batch) = deviation.batch() else { continue };
+            let variance = self.slopes(origin, value, deviation, batch)?.variance(batch);
+            let (source, deviation) = (deviation.key(), batch.standard_deviation());
+            sources.push((source, Level::Batch, deviation, variance));
+        }
+        for (parameter, sd) in self.scattered() {
+            let variance = self.scatter(origin, value, parameter.key, sd)?;
+            sources.push((self.key(parameter), Level::Scale, sd, variance));
+        }
+        Some(LinearSpread::of(sources))
+    }
+
+    /// The slopes of a value against a deviation.
+    fn slopes(
+        &self,
+        origin: Origin<'_>,
+        value: f64,
+        deviation: &Deviation,
+        batch: BatchDeviation,
+    ) -> Option<Slopes> {
+        let step = STEP * batch.standard_deviation();
+        let here = origin.value(value, self.case)?;
+        let slope = |by: f64| {
+            let moved = deviation.moved(self.case, by)?;
+            let change = origin.measure().map_or(Some(0.0), |m| self.change(m, &moved))?;
+            Some((origin.value(value + change, &moved)? - here) / by)
+        };
+        Some(Slopes { left: slope(-step)?, right: slope(step)? })
+    }
+
+    /// The change of a measure from this case to a neighbouring one.
+    fn change(&self, measure: &str, moved: &Case) -> Option<f64> {
+        let continuous = PARAMETERS.iter().filter(|parameter| parameter.is_continuous());
+        continuous.map(|parameter| self.change_by(measure, parameter, moved)).sum()
+    }
+
+    /// The part of one parameter in the change of a measure.
+    fn change_by(&self, measure: &str, parameter: &Parameter, moved: &Case) -> Option<f64> {
+        let by = parameter.get(moved).number()? - parameter.get(self.case).number()?;
+        let belongs =
+            |d: &&ParameterDerivative| d.measure == measure && d.parameter == parameter.key;
+        match self.common.iter().find(belongs) {
+            Some(derivative) if by > 0.0 => Some(derivative.right? * by),
+            Some(derivative) if by < 0.0 => Some(derivative.left? * by),
+            // A parameter without derivative has no part in the measure.
+            _ => Some(0.0),
+        }
+    }
+
+    /// The parameters that differ from scale to scale, with their standard deviations.
+    fn scattered(&self) -> Vec<(&'static Parameter, f64)> {
+        let (imperfection, gap) = (self.case.imperfection, self.case.design.gap);
+        let all =
+            [("gap_over_t", imperfection.gap_cv * gap), ("slant_deg", imperfection.slant_sd_deg)];
+        let named = |(key, sd)| Some((Parameter::named(key)?, sd));
+        all.into_iter().filter_map(named).filter(|(_, sd)| *sd > 0.0).collect()
+    }
+
+    /// The variance of a value under independent deviations of the gaps, or slants, of all scales.
+    fn scatter(&self, origin: Origin<'_>, value: f64, key: &str, sd: f64) -> Option<f64> {
+        let Some(measure) = origin.measure() else { return Some(0.0) };
+        let here = origin.value(value, self.case)?;
+        let step = STEP * value.abs().max(f64::MIN_POSITIVE);
+        let factor = (origin.value(value + step, self.case)? - here) / step;
+        let single = self.single.iter();
+        let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
+        let variance = |derivative: &ParameterDerivative| {
+            let slopes =
+                Slopes { left: factor * derivative.left?, right: factor * derivative.right? };
+            Some(slopes.variance(BatchDeviation::Normal(sd)))
+        };
+        of_measure.map(variance).sum()
+    }
+
+    /// The key of a parameter, or that of the deviation in mm in its place.
+    fn key(&self, parameter: &'static Parameter) -> String {
+        let mut same = self.deviations.iter().filter(|d| d.parameter() == parameter);
+        same.next().map_or_else(|| parameter.key.to_owned(), Deviation::key)
+    }
+}
+
+impl LinearSpread {
+    fn of(sources: Vec<(String, Level, f64, f64)>) -> Self {
+        let sum: f64 = sources.iter().map(|(.., variance)| variance).sum();
+        let share = |variance: f64| if sum > 0.0 { variance / sum } else { 0.0 };
+        let source = |(source, level, deviation, variance): (String, Level, f64, f64)| {
+            let (spread, share) = (variance.sqrt(), share(variance));
+            SourceShare { source, level, deviation, spread, share }
+        };
+        let mut sources: Vec<_> = sources.into_iter().map(source).collect();
+        // Stable, so that equal sources keep the order of the definition.
+        sources.sort_by(|one, other| other.share.total_cmp(&one.share));
+        Self { spread: sum.sqrt(), sources }
+    }
+
+    /// The sources that matter, as "`gap_mm` 83 %, `slant_deg` from scale to scale 12 %".
+    pub fn in_words(&self) -> String {
+        let matters = self.sources.iter().filter(|source| source.share >= 0.005);
+        let text = |source: &SourceShare| {
+            let level = if source.level == Level::Scale { " from scale to scale" } else { "" };
+            format!("{}{level} {:.0} %", source.source, 100.0 * source.share)
+        };
+        matters.map(text).collect::<Vec<_>>().join(", ")
+    }
+}

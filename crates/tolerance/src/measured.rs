@@ -1,0 +1,97 @@
+//! The values of a design that deviations change, and how they come from its parameters and derivatives.
+
+use results::columns::{design_columns, physical_source};
+use results::{Cell, Column, DesignRow, Quantity, areal_mass};
+use sweep::{Case, Sweep, nearest};
+
+/// A column that no design has, or that holds no numbers.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no column {found} of numbers, {hint}")]
+pub struct NoSuchColumn {
+    /// The name.
+    pub found: String,
+    /// The column that may be meant.
+    pub hint: String,
+}
+
+/// The columns of numbers of the designs of a sweep.
+pub(crate) struct MeasuredColumns(Vec<Column<DesignRow>>);
+
+impl MeasuredColumns {
+    /// The columns of `sweep` in which `row` holds no text.
+    pub(crate) fn of(sweep: &Sweep, row: &DesignRow) -> Self {
+        let holds_text = |column: &Column<_>| matches!(column.cell(row), Cell::Text(_));
+        Self(design_columns(sweep).into_iter().filter(|column| !holds_text(column)).collect())
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Column<DesignRow>> {
+        self.0.iter()
+    }
+
+    /// The values of a row, `None` where there is none.
+    pub(crate) fn values(&self, row: &DesignRow) -> Vec<Option<f64>> {
+        self.0.iter().map(|column| number(&column.cell(row))).collect()
+    }
+
+    /// The index of the column of that name.
+    pub(crate) fn index(&self, name: &str) -> Result<usize, NoSuchColumn> {
+        let found = self.0.iter().position(|column| column.name == name);
+        found.ok_or_else(|| self.no_such_column(name))
+    }
+
+    fn no_such_column(&self, found: &str) -> NoSuchColumn {
+        let names: Vec<&str> = self.0.iter().map(|column| column.name.as_ref()).collect();
+        let hint = match nearest(found, &names) {
+            Some(near) => format!("did you mean {near}?"),
+            None => "expected one of designs.csv, e.g. critical_force".to_owned(),
+        };
+        NoSuchColumn { found: found.to_owned(), hint }
+    }
+}
+
+fn number(cell: &Cell) -> Option<f64> {
+    match cell {
+        Cell::Number(number) => results::finite(*number),
+        Cell::Count(count) => Some(*count as f64),
+        Cell::Empty | Cell::Text(_) => None,
+    }
+}
+
+/// How a value follows from a measure with derivatives and from the parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Origin<'n> {
+    /// The measure itself.
+    Measure(&'n str),
+    /// The measure in physical units.
+    Physical(&'n str, Quantity),
+    /// The mass of the scales, from the parameters alone.
+    Mass,
+}
+
+impl<'n> Origin<'n> {
+    /// The origin of the column `name`.
+    pub(crate) fn of(name: &'n str) -> Self {
+        match physical_source(name) {
+            Some((measure, quantity)) => Self::Physical(measure, quantity),
+            None if name == "areal_mass_kg_m2" => Self::Mass,
+            None => Self::Measure(name),
+        }
+    }
+
+    /// The measure that it depends on.
+    pub(crate) fn measure(self) -> Option<&'n str> {
+        match self {
+            Self::Measure(measure) | Self::Physical(measure, _) => Some(measure),
+            Self::Mass => None,
+        }
+    }
+
+    /// The value for a value of the measure in a case.
+    pub(crate) fn value(self, measure: f64, case: &Case) -> Option<f64> {
+        match self {
+            Self::Measure(_) => Some(measure),
+            Self::Physical(_, quantity) => quantity.physical(measure, case),
+            Self::Mass => areal_mass(case),
+        }
+    }
+}

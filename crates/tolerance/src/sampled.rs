@@ -1,0 +1,56 @@
+//! The spread of a measure over solved samples.
+
+use results::Statistics;
+
+/// The spread of a measure over solved samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampled {
+    /// Samples that have a value, at least two.
+    pub count: usize,
+    /// Mean and quantiles.
+    pub statistics: Statistics,
+    /// Standard deviation.
+    pub spread: f64,
+    /// Standard error of that standard deviation (T4).
+    pub spread_error: f64,
+}
+
+/// Part of the values up to which their spread is round-off, and counts as none.
+const ROUND_OFF: f64 = 1e-13;
+
+impl Sampled {
+    /// The spread of `values`; `None` if there are fewer than two.
+    pub fn of(values: &[f64]) -> Option<Self> {
+        let count = values.len();
+        let statistics = Statistics::of(values.to_vec()).filter(|_| count > 1)?;
+        let n = count as f64;
+        let moment = |power: i32| {
+            let sum: f64 = values.iter().map(|value| (value - statistics.mean).powi(power)).sum();
+            sum / n
+        };
+        let variance = moment(2) * n / (n - 1.0);
+        let of_variance = (moment(4) - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
+        let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        let is_round_off = variance.sqrt() <= ROUND_OFF * size;
+        let spread = if is_round_off { 0.0 } else { variance.sqrt() };
+        let spread_error = if spread > 0.0 { of_variance.sqrt() / (2.0 * spread) } else { 0.0 };
+        Some(Self { count, statistics, spread, spread_error })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sampled;
+
+    #[test]
+    fn the_error_of_a_spread_is_that_of_the_distribution() {
+        // Equally spaced values are as good as uniform ones: kurtosis 9/5, so the error is s √(0.8/4n).
+        let values: Vec<f64> = (0..1001).map(f64::from).collect();
+        let sampled = Sampled::of(&values).expect("values");
+        assert!((sampled.spread - 1000.0 / 12.0_f64.sqrt()).abs() < 0.5);
+        let expected = sampled.spread * (0.8 / 4004.0_f64).sqrt();
+        assert!((sampled.spread_error / expected - 1.0).abs() < 0.01);
+        assert_eq!(Sampled::of(&[1.0]), None);
+        assert_eq!(Sampled::of(&[2.0, 2.0]).map(|s| (s.spread, s.spread_error)), Some((0.0, 0.0)));
+    }
+}

@@ -1,0 +1,80 @@
+//! The share of samples that meet what is required.
+
+use ranking::{Relation, Requirement};
+use statrs::distribution::{ContinuousCDF as _, Normal};
+
+use crate::proportion::Proportion;
+
+/// The share of samples that meet a requirement, or all of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RequirementYield {
+    /// The requirement; `None` for all together.
+    pub requirement: Option<Requirement>,
+    /// Samples that meet it; `None` if none were solved. A sample without a value does not.
+    pub proportion: Option<Proportion>,
+    /// Samples without a value.
+    pub failed: usize,
+    /// The yield that the linear spread predicts, of one requirement alone.
+    pub linear: Option<f64>,
+}
+
+/// The yields of the `requirements`, each with its values in all samples, and that of all together behind them. A requirement
+/// comes with the value as it is drawn and its linear spread, if there are such.
+pub(crate) fn yields(
+    requirements: &[Requirement],
+    values: &[Vec<Option<f64>>],
+    drawn: &[Option<(f64, f64)>],
+) -> Vec<RequirementYield> {
+    let meets =
+        |k: usize, n: usize| values[k][n].is_some_and(|value| requirements[k].is_met(value));
+    let count = values.first().map_or(0, Vec::len);
+    let of = |holds: &dyn Fn(usize) -> bool| {
+        let met = (0..count).filter(|&n| holds(n)).count();
+        (count > 0).then_some(Proportion { met, of: count })
+    };
+    let one = |k: usize| RequirementYield {
+        requirement: Some(requirements[k].clone()),
+        proportion: of(&|n| meets(k, n)),
+        failed: values[k].iter().filter(|value| value.is_none()).count(),
+        linear: drawn[k].and_then(|(value, spread)| predicted(&requirements[k], value, spread)),
+    };
+    let every = 0..requirements.len();
+    let together = RequirementYield {
+        requirement: None,
+        proportion: of(&|n| every.clone().all(|k| meets(k, n))),
+        failed: (0..count).filter(|&n| every.clone().any(|k| values[k][n].is_none())).count(),
+        linear: None,
+    };
+    every.clone().map(one).chain((!requirements.is_empty()).then_some(together)).collect()
+}
+
+/// The probability that a normal value meets a bound.
+fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> {
+    let normal = Normal::new(value, spread).ok()?;
+    match requirement.relation {
+        Relation::AtLeast | Relation::Above => Some(normal.sf(requirement.limit)),
+        Relation::AtMost | Relation::Below => Some(normal.cdf(requirement.limit)),
+        Relation::Equal => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_failed_does_not_meet_and_is_counted_apart() {
+        let requirements = ["a >= 1", "b <= 2"].map(|text| text.parse().expect("a requirement"));
+        let values = [
+            vec![Some(1.0), None, Some(3.0), Some(0.5)],
+            vec![Some(1.0), Some(1.0), None, Some(1.0)],
+        ];
+        let all = yields(&requirements, &values, &[Some((1.0, 0.5)), None]);
+        let counts: Vec<_> =
+            all.iter().map(|y| (y.proportion.map(|p| (p.met, p.of)), y.failed)).collect();
+        assert_eq!(counts, [(Some((2, 4)), 1), (Some((3, 4)), 1), (Some((1, 4)), 2)]);
+        assert_eq!(all[0].linear, Some(0.5));
+        assert!(all[2].requirement.is_none());
+        assert!(yields(&[], &[], &[]).is_empty());
+    }
+}

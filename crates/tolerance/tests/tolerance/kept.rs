@@ -1,0 +1,48 @@
+//! Samples that are kept: an interruption loses none but those in hand.
+
+use std::fs;
+
+use tolerance::NoAnalysis;
+
+use crate::{QUICK, analysed, sweep};
+
+#[test]
+fn an_analysis_goes_on_where_it_was() {
+    let place = tempfile::tempdir().expect("a folder");
+    let (whole, parts) = (place.path().join("whole"), place.path().join("parts"));
+    let sweep = sweep(
+        QUICK,
+        "gap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 45",
+        "[tolerance]\ngap_over_t = { batch_sd = 0.01, scale_sd = 0.01 }",
+    );
+    let at_once = analysed(&sweep, &[], 250, &whole, false).expect("tolerances");
+    // Told to stop before the first sample, then after 150, then not at all.
+    let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
+    assert!(matches!(stopped, NoAnalysis::Stopped { done: 0, of: 250 }));
+    analysed(&sweep, &[], 150, &parts, false).expect("tolerances");
+    let stopped = analysed(&sweep, &[], 250, &parts, true).expect_err("stopped");
+    assert!(matches!(stopped, NoAnalysis::Stopped { done: 150, of: 250 }));
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!((&again.samples, &again.measures), (&at_once.samples, &at_once.measures));
+    let file = |folder: &std::path::Path| fs::read(folder.join("0001.csv")).expect("a table");
+    assert_eq!(file(&whole), file(&parts));
+    // A table that was changed is not believed.
+    let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
+    fs::write(parts.join("0001.csv"), damaged).expect("written");
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!(again.samples, at_once.samples);
+    assert_eq!(file(&whole), file(&parts));
+}
+
+#[test]
+fn other_deviations_are_other_samples() {
+    let place = tempfile::tempdir().expect("a folder");
+    let sampled = |sd: &str| {
+        let lines = format!("[tolerance]\ngap_over_t = {{ batch_sd = {sd} }}");
+        let sweep = sweep(QUICK, "gap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 45", &lines);
+        analysed(&sweep, &[], 2, place.path(), false).expect("tolerances").samples
+    };
+    let first = sampled("0.01");
+    assert_ne!(first, sampled("0.02"));
+    assert_eq!(first, sampled("0.01"));
+}
