@@ -56,6 +56,13 @@
     return { scale: "log", low, high, ticks: squama.logarithmic[measure].ticks.filter(({ value }) => value >= low && value <= high) };
   };
 
+  // Straight pieces are curved on a logarithmic axis, most of all near zero.
+  const PIECES = 24;
+  const finer = (points) => points.slice(1).flatMap(([x, y], k) => Array.from({ length: PIECES }, (_, i) => {
+    const [fromX, fromY] = points[k], part = ((i + 1) / PIECES) ** 3;
+    return [fromX + part * (x - fromX), fromY + part * (y - fromY)];
+  }));
+
   const curves = () => {
     log.checked = state.log;
     const rows = pair(), own = rows.map(squama.solved);
@@ -71,7 +78,7 @@
       const [measure, xName, yName] = drawn[k], both = own.map((design) => design?.curves?.[measure]);
       const lines = both.map((curve, i) => curve && { points: curve.points, color: squama.slant(rows[i]).color, width: 2.2, dash: i === 0 ? [7, 4] : [] }).filter(Boolean);
       const y = (state.log && logarithmic(both, measure)) || axis(both, "y");
-      if (y.scale === "log") for (const one of lines) one.points = one.points.filter(([, value]) => value > 0);
+      if (y.scale === "log") for (const one of lines) one.points = finer(one.points).filter(([, value]) => value > 0);
       squama.panel.draw(context, { ...place, x: axis(both, "x"), y, xTicks: true, yTicks: true, xName, yName, title: rows.map((row, i) => both[i] && `${squama.number(row)} ${i === 0 ? "- - -" : "——"}`).filter(Boolean).join("   "), lines, marks: [] }, theme, []);
     });
   };
