@@ -2,7 +2,7 @@
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
-use crate::figures::sheet;
+use crate::figures::{in_words, sheet};
 use crate::label::{Anchor, label, width};
 use crate::palette::{INK, RED, map_color};
 use crate::svg::{Element, line};
@@ -35,7 +35,7 @@ impl Histogram<'_> {
         let shown: Vec<f64> = shown.chain(self.bounds.iter().map(|(_, at)| *at)).collect();
         let low = shown.iter().copied().fold(f64::INFINITY, f64::min);
         let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let x = ChartAxis::linear(self.measure, low, high);
+        let x = ChartAxis::linear(&in_words(self.measure), low, high);
         let bars = self.bars();
         let y = ChartAxis::spanning("samples", bars.iter().map(|(.., count)| *count));
         let height = HISTOGRAM_HEIGHT - 150.0;
@@ -91,7 +91,7 @@ fn marked(
     let top = panel.area.top;
     let is_right = x > panel.area.center()[0];
     let anchor = if is_right { Anchor::End } else { Anchor::Start };
-    let text = label(text, [x, top - 8.0 - above], 12.0, anchor).with("fill", color);
+    let text = label(&in_words(text), [x, top - 8.0 - above], 12.0, anchor).with("fill", color);
     Some(
         Element::group("mark")
             .containing([line([x, top - 4.0 - above], [x, bottom], color, 1.6), text]),
@@ -112,32 +112,45 @@ pub fn share_bars(name: &str, measures: &[Shares]) -> String {
             sources.push(source);
         }
     }
-    let color = |k: usize| map_color((k as f64 + 0.5) / sources.len().max(1) as f64);
-    let mut inside = Vec::new();
-    for (k, source) in sources.iter().enumerate() {
-        let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
-        inside.push(block([x, y - 9.0], [12.0, 12.0], &color(k)));
-        inside.push(label(source, [x + 18.0, y + 2.0], 12.0, Anchor::Start).with("fill", INK));
-    }
+    let mut inside: Vec<Element> =
+        sources.iter().enumerate().flat_map(|(k, source)| legend(k, source, &sources)).collect();
     let top = 62.0 + 18.0 * sources.len().div_ceil(2) as f64;
-    let full = WIDTH - NAMES - 24.0;
     for (row, (measure, shares)) in measures.iter().enumerate() {
         let y = top + ROW * row as f64;
-        inside.push(label(measure, [NAMES - 8.0, y + 16.0], 12.0, Anchor::End).with("fill", INK));
-        let mut left = NAMES;
-        for (k, source) in sources.iter().enumerate() {
-            let share = shares.iter().find(|(of, _)| of == source).map_or(0.0, |(_, share)| *share);
-            inside.push(block([left, y], [full * share, ROW - 8.0], &color(k)));
-            let text = format!("{:.0} %", 100.0 * share);
-            if width(&text, 12.0) + 8.0 < full * share {
-                let middle = [left + 0.5 * full * share, y + 15.0];
-                inside.push(on_bar(&text, middle));
-            }
-            left += full * share;
-        }
+        let name = label(&in_words(measure), [NAMES - 8.0, y + 16.0], 12.0, Anchor::End);
+        inside.push(name.with("fill", INK));
+        inside.extend(parts(shares, &sources, y));
     }
     let title = format!("{name}: where the spread comes from, share of the variance");
     sheet(WIDTH, top + ROW * measures.len() as f64 + 16.0, &title, inside)
+}
+
+/// The colour of source `k` and its name.
+fn legend(k: usize, source: &str, sources: &[&str]) -> [Element; 2] {
+    let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
+    let name = label(&in_words(source), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
+    [block([x, y - 9.0], [12.0, 12.0], &color(k, sources)), name.with("fill", INK)]
+}
+
+fn color(k: usize, sources: &[&str]) -> String {
+    map_color((k as f64 + 0.5) / sources.len() as f64)
+}
+
+/// The parts of one bar, from the left.
+fn parts(shares: &[(String, f64)], sources: &[&str], y: f64) -> Vec<Element> {
+    let full = WIDTH - NAMES - 24.0;
+    let (mut left, mut drawn) = (NAMES, Vec::new());
+    for (k, source) in sources.iter().enumerate() {
+        let share = shares.iter().find(|(of, _)| of == source).map_or(0.0, |(_, share)| *share);
+        let wide = full * share;
+        drawn.push(block([left, y], [wide, ROW - 8.0], &color(k, sources)));
+        let text = format!("{:.0} %", 100.0 * share);
+        if width(&text, 12.0) + 8.0 < wide {
+            drawn.push(on_bar(&text, [left + 0.5 * wide, y + 15.0]));
+        }
+        left += wide;
+    }
+    drawn
 }
 
 fn block([x, y]: [f64; 2], [wide, high]: [f64; 2], color: &str) -> Element {
