@@ -163,3 +163,32 @@ fn on_bar(text: &str, at: [f64; 2]) -> Element {
     let text = label(text, at, 12.0, Anchor::Middle).with("fill", INK);
     text.with("stroke", "#fff").at("stroke-width", 3.0).with("paint-order", "stroke")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sample_stands_in_one_bar() {
+        let all = |values: &[f64]| {
+            let histogram = Histogram { name: "x", measure: "y", values, drawn: None, bounds: &[] };
+            histogram.bars()
+        };
+        let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
+        let bars = all(&values);
+        assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));
+        // Of 0 to √99, those up to a tenth are 0 alone.
+        assert_eq!((bars[0].0, bars[0].2), (0.0, 1.0));
+        let equal = all(&[2.0; 3]);
+        assert_eq!(equal.iter().map(|(.., count)| count).sum::<f64>(), 3.0);
+    }
+
+    #[test]
+    fn shares_fill_their_bar() {
+        let shares = vec![("gap_mm".to_owned(), 0.75), ("slant_deg".to_owned(), 0.25)];
+        let svg = share_bars("x", &[("force".to_owned(), shares)]);
+        for text in ["75 %", "25 %", "gap mm", "slant deg"] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+    }
+}

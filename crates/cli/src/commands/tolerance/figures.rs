@@ -3,6 +3,7 @@
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
 use results::RunFolder;
+use results::columns::physical_source;
 use sweep::Sweep;
 use tolerance::{DesignTolerance, Level, MeasureTolerance, SourceShare};
 
@@ -53,7 +54,9 @@ fn histogram(
     let values: Vec<f64> = design.samples.iter().filter_map(|s| s.values[place]).collect();
     let own = requirements.iter().filter(|requirement| requirement.column == measure.name);
     let bounds: Vec<_> = own.map(|r| (r.to_string(), r.limit)).collect();
-    let unit = if measure.unit == "-" { String::new() } else { format!(", {}", measure.unit) };
+    // The name of a column in physical units ends in its unit.
+    let has_unit = measure.unit == "-" || physical_source(&measure.name).is_some();
+    let unit = if has_unit { String::new() } else { format!(", {}", measure.unit) };
     let label = format!("{}{unit}", measure.name);
     let histogram =
         Histogram { name, measure: &label, values: &values, drawn: measure.value, bounds: &bounds };
