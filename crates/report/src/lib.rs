@@ -8,6 +8,7 @@
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | figures of a sweep, from its table |
+//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`], [`GapFactors`] | figures, ranking, table and drawings on one HTML page |
@@ -48,6 +49,7 @@ mod page;
 mod palette;
 #[cfg(feature = "png")]
 mod png;
+mod spreads;
 mod svg;
 
 pub use curves::{DesignCurves, curves};
@@ -60,4 +62,5 @@ pub use page::{Fact, GapFactors, Page, PageDesign};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};
+pub use spreads::{Histogram, Shares, share_bars};
 pub use svg::untitled;
