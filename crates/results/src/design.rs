@@ -7,3 +7,4 @@ pub mod parameter_derivative;
 pub mod rerun_change;
 pub mod row;
 pub mod sample_statistics;
+mod stored_derivatives;

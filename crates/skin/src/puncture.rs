@@ -18,6 +18,7 @@ mod tilts;
 mod window;
 
 use contact::ContactLaw;
+use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
 use point::scales;
 use snap::Needle;
@@ -188,7 +189,7 @@ impl PunctureParameters {
 struct Followed {
     record: Record<Chain>,
     needle: Needle,
-    folds: Vec<Fold>,
+    folds: FoldWatch,
     at_tilts: Vec<Option<TiltMeasures>>,
     path: Path<Chain>,
     status: Status,
@@ -197,7 +198,8 @@ struct Followed {
 impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
-        let Self { record, needle, folds, at_tilts, mut path, status } = self;
+        let Self { record, needle, folds: FoldWatch { folds, .. }, at_tilts, mut path, status } =
+            self;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         let (instability, snaps) = needle.finish(path, &mut measures);
@@ -293,7 +295,7 @@ impl<'a> Problem<'a> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
         let mut record = Record::new(&path, functions);
-        let (mut needle, mut folds) = (Needle::default(), Vec::new());
+        let (mut needle, mut folds) = (Needle::default(), FoldWatch::default());
         let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
         let mut has_room = true;
         while has_room {
@@ -304,13 +306,14 @@ impl<'a> Problem<'a> {
             if !is_beyond {
                 needle.follow(&mut path, [&before, &point], record.events.len());
                 tilts.follow(&mut path, &before, &point);
-                folds.extend(fold::folds(&mut path, &before, &point, record.events.len()));
+                folds.follow(&mut path, [&before, &point], record.events.len());
                 record.visit(&mut path, &point);
             }
             if reach != [Reach::Short; 2] {
                 // What lies beyond may have touched within the step: it is taken again.
                 let from = if is_beyond { &before } else { &point };
-                has_room = self.lengthen(&mut path, &mut record, from, reach, longest)?;
+                has_room =
+                    self.lengthen(&mut path, (&mut record, &mut folds), from, reach, longest)?;
             }
         }
         let status = if has_room {
@@ -327,7 +330,7 @@ impl<'a> Problem<'a> {
     fn lengthen(
         &self,
         path: &mut Path<Chain>,
-        record: &mut Record<Chain>,
+        (record, folds): (&mut Record<Chain>, &mut FoldWatch),
         from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
@@ -339,7 +342,9 @@ impl<'a> Problem<'a> {
         }
         let chain = self.part(longer)?;
         let from = chain.extended(path.system(), from);
-        record.replace_points(|point| chain.extended(path.system(), point), &from);
+        let longer = |point: &SkinPoint| chain.extended(path.system(), point);
+        folds.first = folds.first.as_ref().map(longer);
+        record.replace_points(longer, &from);
         path.go_on(chain, from);
         Ok(true)
     }

@@ -177,6 +177,12 @@ impl<S: Skin> Record<S> {
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 
+    /// The largest value of a function that is followed, by its index, at the points of the path, and its place: that of a load is
+    /// one of them.
+    pub(crate) fn highest_point(&self, followed: usize) -> Option<Summit<S::Mode>> {
+        self.followed.get(followed)?.1.at_points()
+    }
+
     /// The largest value of a function that is followed, by its index, and its place.
     pub(crate) fn summit(&self, path: &mut Path<S>, followed: usize) -> Option<Summit<S::Mode>> {
         let (f, peak) = self.followed.get(followed)?;

@@ -7,7 +7,7 @@
 
 mod places;
 
-use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
+use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings, System};
 
 use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
@@ -79,10 +79,12 @@ pub(crate) fn derivatives<S: Skin>(
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
         let mut linearised = Linearised { system, settings, here, turns };
-        for (parameter, variation) in variations.iter().enumerate() {
-            let sides = linearised.sides(variation);
-            let of = |quantity| linearised.derivative(quantity, parameter, variation, &sides);
-            derivatives.extend(quantities.iter().map(of));
+        let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
+        for quantity in &quantities {
+            let of = |(parameter, sides): (usize, &BothSides<S>)| {
+                linearised.derivative(quantity, parameter, &variations[parameter], sides)
+            };
+            derivatives.extend(sides.iter().enumerate().map(of));
         }
     }
     derivatives
@@ -112,6 +114,9 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
+/// How a place moves on the left of a parameter and, unless alike, on the right.
+type BothSides<S> = (SideMotion<<S as System>::Mode>, Option<SideMotion<<S as System>::Mode>>);
+
 /// How a place moves on one side of a parameter.
 struct SideMotion<M> {
     /// The place below and above; `None` if there is no equilibrium on this side.
@@ -122,10 +127,7 @@ struct SideMotion<M> {
 
 impl<S: Skin> Linearised<'_, S> {
     /// How the place moves on both sides of a parameter. The right side is `None` where it moves as on the left.
-    fn sides(
-        &mut self,
-        variation: &Variation<S>,
-    ) -> (SideMotion<S::Mode>, Option<SideMotion<S::Mode>>) {
+    fn sides(&mut self, variation: &Variation<S>) -> BothSides<S> {
         let neighbours = &variation.neighbours;
         let moved = self.here.moved(self.system, neighbours, self.turns);
         let [left, right] = [&neighbours.below, &neighbours.above]
@@ -187,7 +189,7 @@ impl<S: Skin> Linearised<'_, S> {
         quantity: &MeasuredQuantity<S>,
         parameter: usize,
         variation: &Variation<S>,
-        (left, right): &(SideMotion<S::Mode>, Option<SideMotion<S::Mode>>),
+        (left, right): &BothSides<S>,
     ) -> Derivative {
         let place = self.here.place();
         let largest = |state: &SkinState| quantity.largest.map_or(0, |f| f(self.system, state));

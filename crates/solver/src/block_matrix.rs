@@ -50,6 +50,10 @@ pub struct BlockMatrix {
     values: Vec<f64>,
 }
 
+/// The entries of a matrix in blocks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct BlockValues(Vec<f64>);
+
 impl BlockMatrix {
     /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those that are `left_out`, in ascending order.
     /// Every entry is zero afterwards.
@@ -130,9 +134,14 @@ impl BlockMatrix {
         &self.kept
     }
 
-    /// Sets every entry to zero.
-    pub fn clear(&mut self) {
-        self.values.fill(0.0);
+    /// Copies all entries to `values`.
+    pub(crate) fn keep(&self, values: &mut BlockValues) {
+        values.0.clone_from(&self.values);
+    }
+
+    /// Replaces all entries by those of a matrix of the same shape.
+    pub(crate) fn set(&mut self, values: &BlockValues) {
+        self.values.copy_from_slice(&values.0);
     }
 
     /// The entry at (`row`, `column`); zero outside the blocks and where it is left out.

@@ -148,9 +148,18 @@ impl<S: System> Path<S> {
     /// How far the path goes between two neighbouring points, in units of the direction in which it leaves the one and of that
     /// in which it arrives at the other: a direction times its factor is the rate of change with the fraction of [`Path::between`].
     pub fn spans(&self, from: &Point<S::Mode>, to: &Point<S::Mode>) -> [f64; 2] {
+        [&from.leaving, &to.arriving].map(|direction| self.rate_in(from, to, direction))
+    }
+
+    /// The rate of change with the fraction of [`Path::between`], in units of a direction of the path.
+    pub(crate) fn rate_in(
+        &self,
+        from: &Point<S::Mode>,
+        to: &Point<S::Mode>,
+        direction: &[f64],
+    ) -> f64 {
         let condition = self.condition(from);
-        let distance = condition.of(&to.state.z) - condition.value;
-        [&from.leaving, &to.arriving].map(|direction| distance / condition.of(direction))
+        (condition.of(&to.state.z) - condition.value) / condition.of(direction)
     }
 
     /// The equilibrium of [`Path::between`], reached from `near`, a point between the two.

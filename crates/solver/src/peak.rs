@@ -3,35 +3,31 @@
 use std::sync::Arc;
 
 use crate::path::{Path, Point};
+use crate::sensitivity::slope_along;
 use crate::system::{State, System};
 
-/// A search ends where the three highest values agree to this part.
-const FLAT: f64 = 1e-10;
+/// A search ends where it promises to gain less than this part of the value.
+const FLAT: f64 = 1e-11;
 
-/// A search ends where the place of the maximum is known to this part of the first bracket: near a maximum the value
-/// is then off by the square of it.
-const CLOSE: f64 = 2e-6;
+/// How far from a kink a slope is taken, as a part of the segment: at the kink itself a force that begins or ceases to act may
+/// change infinitely fast.
+const NEAR: f64 = 1e-4;
 
-/// A search ends after this many evaluations. Brent's method rarely needs half as many.
-const EVALUATIONS: usize = 40;
-
-/// How far from the larger end of a segment a search begins, as a part of the segment.
-const NEAR: f64 = 0.05;
-
-/// How many times a search begins, each time a tenth as far from the end as before, if the segment begins at a kink.
+/// How many times the search comes closer to a kink, each time a tenth as far from it as before.
 const CLOSER: usize = 4;
+
+/// A search ends after this many rounds. It rarely needs a quarter of them.
+const ROUNDS: usize = 40;
 
 /// A segment that begins or ends at a kink is searched if an end of it has at least this part of the largest value: a force
 /// that has just begun to act may hide a maximum between two points that are both lower than the highest one. Those that were
 /// seen rise by less than a hundredth above their ends.
 const PROMISING: f64 = 0.95;
 
-/// The smaller part of the golden section.
-const GOLDEN: f64 = 0.381_966_011_250_105_1;
-
 /// Follows the largest value that a function of a system, an equilibrium and its path direction takes.
 ///
-/// At a kink the direction has two values, and the function is evaluated with both.
+/// The function is smooth along the path between kinks, and the length of the direction makes no difference to it. At a kink the
+/// direction has two values, and the function is evaluated with both.
 #[derive(Clone, Debug)]
 pub struct Peak<M = ()> {
     best: Option<Best<M>>,
@@ -119,6 +115,13 @@ impl<M> Peak<M> {
         Some(self.summit(path, f)?.value)
     }
 
+    /// The largest value at the points visited, with its place. `None` if none was.
+    pub fn at_points(&self) -> Option<Summit<M>> {
+        let Best { value, before, point, .. } = self.best.as_ref()?;
+        let (point, before) = (Arc::clone(point), before.clone());
+        Some(Summit { value: *value, point, before, is_inside: false })
+    }
+
     /// The largest value as [`Peak::refined`] finds it, with its place.
     pub fn summit<S>(
         &self,
@@ -128,13 +131,8 @@ impl<M> Peak<M> {
     where
         S: System<Mode = M>,
     {
-        let Best { value, before, point, after } = self.best.as_ref()?;
-        let visited = Summit {
-            value: *value,
-            point: Arc::clone(point),
-            before: before.clone(),
-            is_inside: false,
-        };
+        let Best { before, point, after, .. } = self.best.as_ref()?;
+        let visited = self.at_points()?;
         let segments = [before.as_ref().zip(Some(point)), Some(point).zip(after.as_ref())];
         let kinks = self.kinks.iter().filter(|segment| {
             // Those next to the best point are searched anyway.
@@ -142,8 +140,10 @@ impl<M> Peak<M> {
         });
         let kinks = kinks.map(|segment| (&segment.from, &segment.to));
         let inside = segments.into_iter().flatten().chain(kinks);
-        let maxima = inside.filter_map(|(from, to)| segment_maximum(path, from, to, &f));
-        Some(maxima.fold(visited, |best, next| if next.value > best.value { next } else { best }))
+        Some(inside.fold(visited, |best, (from, to)| {
+            let maximum = Segment::new(path, from, to, &f).maximum(best.value);
+            maximum.filter(|next| next.value > best.value).unwrap_or(best)
+        }))
     }
 }
 
@@ -160,164 +160,166 @@ pub struct Summit<M = ()> {
     pub is_inside: bool,
 }
 
-/// A place on a segment of the path, as a part of the segment, and the value there.
+/// A place on a segment of the path, as a part of the segment, with the value there and its derivative by the place.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     place: f64,
     value: f64,
+    slope: f64,
 }
 
-/// The maximum inside a segment, if there is one.
-fn segment_maximum<S: System>(
-    path: &mut Path<S>,
-    from: &Point<S::Mode>,
-    to: &Point<S::Mode>,
-    f: &impl Fn(&S, &State<S::Mode>, &[f64]) -> f64,
-) -> Option<Summit<S::Mode>> {
-    let start = Sample { place: 0.0, value: f(&path.system, &from.state, &from.leaving) };
-    let end = Sample { place: 1.0, value: f(&path.system, &to.state, &to.arriving) };
-    let mut nearest = from.clone();
-    let mut highest = f64::NEG_INFINITY;
-    let mut at = |place: f64| {
-        let point = path.between_from(from, to, place, &nearest)?;
-        let value = f(&path.system, &point.state, &point.arriving);
-        if value >= highest {
-            (highest, nearest) = (value, point);
+/// A segment of a path that is searched for a maximum of `f`.
+struct Segment<'a, S: System, F> {
+    path: &'a mut Path<S>,
+    from: &'a Point<S::Mode>,
+    to: &'a Point<S::Mode>,
+    f: &'a F,
+    /// Points by their places: both ends, and those inside that were solved for.
+    known: Vec<(f64, Point<S::Mode>)>,
+    /// The largest value inside, and the number of its point.
+    highest: Option<(f64, usize)>,
+}
+
+impl<'a, S, F> Segment<'a, S, F>
+where
+    S: System,
+    F: Fn(&S, &State<S::Mode>, &[f64]) -> f64,
+{
+    fn new(
+        path: &'a mut Path<S>,
+        from: &'a Point<S::Mode>,
+        to: &'a Point<S::Mode>,
+        f: &'a F,
+    ) -> Self {
+        // The end with the active set and the mode of the segment.
+        let State { active, mode, .. } = from.state.clone();
+        let state = State { z: to.state.z.clone(), active, mode };
+        let (arriving, leaving) = (to.arriving.clone(), to.arriving.clone());
+        let end = Point { state, arriving, leaving, event: None };
+        Self { path, from, to, f, known: vec![(0.0, from.clone()), (1.0, end)], highest: None }
+    }
+
+    /// The maximum inside, if there is one that may be as high as `least`.
+    ///
+    /// The cubic through the values and slopes at both ends of a bracket tells whether it has a maximum inside, and where to
+    /// look next. A force that has just begun to act may raise the function within a small part of a segment: the slope near
+    /// its end shows that.
+    fn maximum(mut self, least: f64) -> Option<Summit<S::Mode>> {
+        let bracket = [self.start(least)?, self.end(least)?];
+        self.search(bracket, least)?;
+        let (value, number) = self.highest?;
+        let (_, point) = self.known.swap_remove(number);
+        Some(Summit { value, point: Arc::new(point), before: None, is_inside: true })
+    }
+
+    /// Looks for the maximum within a bracket. `None` where Newton's method does not get to a place.
+    fn search(&mut self, [mut low, mut high]: [Sample; 2], least: f64) -> Option<()> {
+        for _ in 0..ROUNDS {
+            let Some(top) = low.top(&high) else { break };
+            let reached = self.highest.map_or(f64::NEG_INFINITY, |(value, _)| value);
+            if top.value < PROMISING * least || top.value - reached <= FLAT * top.value.abs() {
+                break;
+            }
+            let inside = self.inside(top.place)?;
+            // The larger end of the bracket stays until a place inside is higher.
+            let is_lower = inside.value < low.value.max(high.value);
+            let rises = if is_lower { low.value < high.value } else { inside.slope > 0.0 };
+            *(if rises { &mut low } else { &mut high }) = inside;
         }
-        Some(Sample { place, value })
-    };
-    let kinks = [from, to].map(|point| point.event.is_some());
-    let mut search = bracket(&mut at, [start, end], kinks)?;
-    for _ in 0..EVALUATIONS {
-        let Some(place) = search.next_place() else { break };
-        search.take(at(place)?);
+        Some(())
     }
-    let value = search.x.value;
-    Some(Summit { value, point: Arc::new(nearest), before: None, is_inside: true })
-}
 
-/// A bracket of the maximum: where the function rises from the larger end, or, between kinks, anywhere inside.
-fn bracket(
-    at: &mut impl FnMut(f64) -> Option<Sample>,
-    ends: [Sample; 2],
-    kinks: [bool; 2],
-) -> Option<Brent> {
-    let at_an_end = bracket_at_the_larger_end(at, ends, kinks[0]);
-    at_an_end.or_else(|| kinks.contains(&true).then(|| hidden_bracket(at, ends)).flatten())
-}
-
-/// A bracket that begins or ends at the larger end, if the function rises from there.
-///
-/// A force that has just begun to act may raise the function within a small part of the segment, so
-/// behind a kink the search goes on towards the start.
-fn bracket_at_the_larger_end(
-    at: &mut impl FnMut(f64) -> Option<Sample>,
-    [start, end]: [Sample; 2],
-    kink: bool,
-) -> Option<Brent> {
-    if start.value <= end.value {
-        let inside = at(1.0 - NEAR)?;
-        return (inside.value > end.value).then(|| Brent::new([start, end], inside));
-    }
-    let (mut beyond, mut place) = (end, NEAR);
-    for _ in 0..if kink { CLOSER } else { 1 } {
-        let inside = at(place)?;
-        if inside.value > start.value {
-            return Some(Brent::new([start, beyond], inside));
-        }
-        (beyond, place) = (inside, 0.1 * place);
-    }
-    None
-}
-
-/// A bracket around the highest of a few places inside, if it is higher than the places beside it.
-fn hidden_bracket(
-    at: &mut impl FnMut(f64) -> Option<Sample>,
-    [start, end]: [Sample; 2],
-) -> Option<Brent> {
-    // Near the larger end the search has begun already, and has found that the function falls from there.
-    let samples = if start.value <= end.value {
-        [start, at(NEAR)?, at(0.5)?, end]
-    } else {
-        [start, at(0.5)?, at(1.0 - NEAR)?, end]
-    };
-    let higher =
-        |beside: &&[Sample]| beside[1].value > beside[0].value && beside[1].value > beside[2].value;
-    let tops = samples.windows(3).filter(higher);
-    let top = tops.max_by(|a, b| a[1].value.total_cmp(&b[1].value))?;
-    Some(Brent::new([top[0], top[2]], top[1]))
-}
-
-/// The search for a maximum by parabolas and golden sections, in the letters of Brent 1973, *Algorithms for Minimization
-/// without Derivatives*, ch. 5 (isbn 978-0-486-41998-5).
-struct Brent {
-    /// The maximum lies between `a` and `b`.
-    a: f64,
-    b: f64,
-    /// The highest, the second and the third highest sample.
-    x: Sample,
-    w: Sample,
-    v: Sample,
-    /// The last step, and the one before it.
-    d: f64,
-    e: f64,
-    /// Places closer than this count as the same.
-    tolerance: f64,
-}
-
-impl Brent {
-    fn new([low, high]: [Sample; 2], x: Sample) -> Self {
-        let (w, v) = if low.value > high.value { (low, high) } else { (high, low) };
-        let length = high.place - low.place;
-        Self {
-            a: low.place,
-            b: high.place,
-            x,
-            w,
-            v,
-            d: length,
-            e: length,
-            tolerance: CLOSE * length,
+    /// The lower end of the bracket.
+    fn start(&mut self, least: f64) -> Option<Sample> {
+        let Point { state, leaving, event, .. } = self.from;
+        match event {
+            Some(_) => self.beside(0.0, state, leaving, least),
+            None => self.at_end(0.0, state, leaving),
         }
     }
 
-    /// The next place to look at; `None` if the bracket is narrow enough.
-    fn next_place(&mut self) -> Option<f64> {
-        let (x, middle) = (self.x.place, 0.5 * (self.a + self.b));
-        let narrow = (x - middle).abs() <= 2.0 * self.tolerance - 0.5 * (self.b - self.a);
-        if narrow || self.x.value - self.v.value <= FLAT * self.x.value.abs() {
-            return None;
+    /// The upper end of the bracket.
+    fn end(&mut self, least: f64) -> Option<Sample> {
+        let Point { state, arriving, event, .. } = self.to;
+        match event {
+            Some(_) => self.beside(1.0, state, arriving, least),
+            None => self.at_end(1.0, state, arriving),
         }
-        if let Some(step) = self.vertex() {
-            (self.d, self.e) = (step, self.d);
-        } else {
-            let larger = if x < middle { self.b - x } else { self.a - x };
-            (self.d, self.e) = (GOLDEN * larger, larger);
-        }
-        Some(x + self.d.abs().max(self.tolerance).copysign(self.d))
     }
 
-    /// Step to the vertex of the parabola through the three samples, where that converges.
-    fn vertex(&self) -> Option<f64> {
-        let [(x, fx), (w, fw), (v, fv)] =
-            [self.x, self.w, self.v].map(|sample| (sample.place, sample.value));
-        let (r, q) = ((x - w) * (fx - fv), (x - v) * (fx - fw));
-        let step = -0.5 * ((x - v) * q - (x - w) * r) / (q - r);
-        let inside = self.a + self.tolerance < x + step && x + step < self.b - self.tolerance;
-        (inside && step.abs() < 0.5 * self.e.abs()).then_some(step)
+    /// The sample beside a kink. Where the function seems to have a maximum between the two it is looked for, closer and closer
+    /// to the kink.
+    fn beside(
+        &mut self,
+        kink: f64,
+        state: &State<S::Mode>,
+        direction: &[f64],
+        least: f64,
+    ) -> Option<Sample> {
+        let value = (self.f)(&self.path.system, state, direction);
+        let inwards = 1.0 - 2.0 * kink;
+        let beside = self.inside(kink + inwards * NEAR)?;
+        let (mut outer, mut way) = (beside, NEAR);
+        for _ in 0..CLOSER {
+            // Whether the parabola through both falls from the kink on.
+            let falls = 2.0 * (outer.value - value) <= inwards * outer.slope * way;
+            if falls || inwards * outer.slope >= 0.0 {
+                break;
+            }
+            way *= 0.1;
+            let inner = self.inside(kink + inwards * way)?;
+            if inwards * inner.slope > 0.0 {
+                self.search(if kink == 0.0 { [inner, outer] } else { [outer, inner] }, least)?;
+            }
+            outer = inner;
+        }
+        Some(beside)
     }
 
-    /// Takes a new sample `u` into account.
-    fn take(&mut self, u: Sample) {
-        let (inner, outer) = if u.value >= self.x.value { (u, self.x) } else { (self.x, u) };
-        let end = if outer.place > inner.place { &mut self.b } else { &mut self.a };
-        *end = outer.place;
-        if u.value >= self.x.value {
-            (self.x, self.w, self.v) = (u, self.x, self.w);
-        } else if u.value >= self.w.value {
-            (self.w, self.v) = (u, self.w);
-        } else if u.value >= self.v.value {
-            self.v = u;
+    /// The sample at an end that is no kink.
+    fn at_end(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> Option<Sample> {
+        let condition = self.path.condition(self.from);
+        let Path { newton, system, .. } = &mut *self.path;
+        newton.tangent(system, state, &condition).ok()?;
+        Some(self.sample(place, state, direction))
+    }
+
+    /// The sample at a place inside, reached from the nearest point that is known.
+    fn inside(&mut self, place: f64) -> Option<Sample> {
+        let away = |known: &&(f64, Point<S::Mode>)| (known.0 - place).abs();
+        let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let near = nearest.map_or(self.from, |(_, point)| point);
+        let point = self.path.between_from(self.from, self.to, place, near);
+        let point = point.or_else(|| self.path.between(self.from, self.to, place))?;
+        let sample = self.sample(place, &point.state, &point.arriving);
+        if self.highest.is_none_or(|(value, _)| sample.value > value) {
+            self.highest = Some((sample.value, self.known.len()));
         }
+        self.known.push((place, point));
+        Some(sample)
+    }
+
+    /// The sample at a point at which the tangent was factorised last.
+    fn sample(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> Sample {
+        let Self { path, from, to, f, .. } = self;
+        let value = f(&path.system, state, direction);
+        let slope = slope_along(&path.system, &mut path.newton, state, direction, f);
+        Sample { place, value, slope: path.rate_in(from, to, direction) * slope }
+    }
+}
+
+impl Sample {
+    /// The maximum of the cubic between two samples; `None` if it has none between them.
+    fn top(&self, high: &Self) -> Option<Self> {
+        let width = high.place - self.place;
+        let (rise, start, end) = (high.value - self.value, width * self.slope, width * high.slope);
+        // value + start x + square x² + cube x³
+        let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
+        let root = (square * square - 3.0 * cube * start).sqrt();
+        let x =
+            if square > 0.0 { -(square + root) / (3.0 * cube) } else { start / (root - square) };
+        let value = self.value + x * (start + x * (square + x * cube));
+        let place = self.place + x * width;
+        (0.0 < x && x < 1.0).then_some(Self { place, value, slope: 0.0 })
     }
 }

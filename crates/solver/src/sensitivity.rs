@@ -15,6 +15,8 @@ pub enum PathAnchor {
     Target,
     /// The guard (N5) of this constraint keeps its value: at an event it vanishes.
     Guard(usize),
+    /// The marker of this number keeps its value.
+    Marker(usize),
 }
 
 /// An equilibrium of a path that a parameter moves.
@@ -103,26 +105,20 @@ impl<M: Clone> Linearisation<M> {
             *unknown += along * direction;
         }
         let Neighbours { below, above, step } = neighbours;
-        self.turned(system, [below, above], *step, &unknowns, turns)
-    }
-
-    /// The place before and behind it on its path, where the system stays what it is.
-    fn moved_along<S: System<Mode = M>>(&mut self, system: &S, step: f64) -> [Moved<M>; 2] {
-        let unknowns = self.place.direction.clone();
-        self.turned(system, [system; 2], step, &unknowns, true)
+        self.turned([below, above], *step, &unknowns, turns)
     }
 
     /// The place with unknowns that change at these rates.
     fn turned<S: System<Mode = M>>(
         &mut self,
-        system: &S,
         sides: [&S; 2],
         step: f64,
         unknowns: &[f64],
         turns: bool,
     ) -> [Moved<M>; 2] {
         let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
-        let turning = turns.then(|| self.turning(system, sides, step, &states));
+        let direction = &self.place.direction;
+        let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
         let direction = |step: f64| match &turning {
             Some(turning) => moved(&self.place.direction, step, turning),
             None => self.place.direction.clone(),
@@ -148,36 +144,7 @@ impl<M: Clone> Linearisation<M> {
         };
         let [below, above] = [&neighbours.below, &neighbours.above].map(values);
         let change = difference(below, above, neighbours.step);
-        self.solve(system, change)
-    }
-
-    /// `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
-    fn turning<S: System<Mode = M>>(
-        &mut self,
-        system: &S,
-        sides: [&S; 2],
-        step: f64,
-        states: &[State<M>; 2],
-    ) -> Vec<f64> {
-        let product = |side: usize| {
-            let rows = vec![0.0; system.size()];
-            let mut product = Product { by: &self.place.direction, rows };
-            sides[side].tangent(&states[side], &mut product);
-            product.rows
-        };
-        let change = difference(product(0), product(1), step);
-        self.solve(system, change)
-    }
-
-    /// Solves for minus a change of the equations, which the section and the constraints at rest do not take part in.
-    fn solve<S: System<Mode = M>>(&mut self, system: &S, change: Vec<f64>) -> Vec<f64> {
-        let mut x: Vec<f64> = change.into_iter().map(|change| -change).collect();
-        x[system.load()] = 0.0;
-        for index in inactive(system, &self.place.state) {
-            x[index] = 0.0;
-        }
-        self.newton.solve_again(&mut x);
-        x
+        rates(&mut self.newton, system, state, change)
     }
 
     /// `s`: how far the place moves along the path besides.
@@ -250,14 +217,14 @@ impl<M: Clone> AnchoredPoint<M> {
     ) -> Option<Self> {
         let section = section(system, &self.direction);
         let origin = Condition::through(section, &self.state.z);
-        let reach = self.reach(system);
+        let reach = reach(system, &self.state, &self.direction);
         let at = |distance: f64| {
             let mut state = self.state.moved(distance, &self.direction);
             let condition = Condition { value: origin.value + distance, ..origin.clone() };
-            let direction = Newton::new(system).solve(system, &mut state, &condition, settings);
-            let place = Self { state, direction: direction.ok()?, anchor: PathAnchor::Still };
-            let slope = place.slope_along(system, f, ALONG * reach)?;
-            Some((distance, slope, place))
+            let mut newton = Newton::new(system);
+            let direction = newton.solve(system, &mut state, &condition, settings).ok()?;
+            let slope = slope_along(system, &mut newton, &state, &direction, f);
+            Some((distance, slope, Self { state, direction, anchor: PathAnchor::Still }))
         };
         let (mut last, mut here) = (at(0.0)?, at(SECANT * reach)?);
         let value = f(system, &self.state, &self.direction);
@@ -279,39 +246,10 @@ impl<M: Clone> AnchoredPoint<M> {
         None
     }
 
-    /// The derivative of a function along the path.
-    fn slope_along<S: System<Mode = M>>(
-        &self,
-        system: &S,
-        f: &impl Fn(&S, &State<M>, &[f64]) -> f64,
-        step: f64,
-    ) -> Option<f64> {
-        let mut here = Linearisation::new(system, self.clone()).ok()?;
-        let [below, above] = here.moved_along(system, step);
-        let value = |moved: &Moved<M>| f(system, &moved.state, &moved.direction);
-        Some((value(&above) - value(&below)) / (2.0 * step))
-    }
-
-    /// The active constraint whose unknown changes fastest along the path, as a part of itself, and the way over which it
-    /// changes by as much as it is.
-    fn fastest<S: System<Mode = M>>(&self, system: &S) -> Option<(usize, f64)> {
-        let constraints = system.constraints().iter().zip(&self.state.active).enumerate();
-        let active = constraints.filter(|(_, (_, active))| **active);
-        let ways = active.map(|(constraint, (&index, _))| {
-            (constraint, (self.state.z[index] / self.direction[index]).abs())
-        });
-        ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
-    }
-
-    /// The way over which nothing changes by more than itself, at most the whole path.
-    fn reach<S: System<Mode = M>>(&self, system: &S) -> f64 {
-        self.fastest(system).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
-    }
-
     /// The place held where the unknown of the fastest constraint keeps its value. Where a function is stationary along the path
     /// any section serves; in this one the layers stay at rest that a force makes which has just begun to act.
     fn anchored<S: System<Mode = M>>(self, system: &S) -> Self {
-        let fast = self.fastest(system).filter(|(_, way)| *way < 1.0);
+        let fast = fastest(system, &self.state, &self.direction).filter(|(_, way)| *way < 1.0);
         let anchor =
             fast.map_or(PathAnchor::Still, |(constraint, _)| PathAnchor::Guard(constraint));
         Self { anchor, ..self }
@@ -344,6 +282,7 @@ impl PathAnchor {
             Self::Still => 0.0,
             Self::Target => state.z[control.index] / control.scale - 1.0,
             Self::Guard(constraint) => guard(system, state, constraint),
+            Self::Marker(number) => system.marker(state, number),
         }
     }
 
@@ -354,8 +293,81 @@ impl PathAnchor {
             Self::Still => 0.0,
             Self::Target => direction[control.index] / control.scale,
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
+            Self::Marker(number) => {
+                let at = |step: f64| system.marker(&state.moved(step, direction), number);
+                (at(ALONG) - at(-ALONG)) / (2.0 * ALONG)
+            }
         }
     }
+}
+
+/// The derivative of a function of system, state and direction along the path, at a state at which the tangent was factorised last.
+/// The length of the direction makes no difference to the function.
+pub(crate) fn slope_along<S: System>(
+    system: &S,
+    newton: &mut Newton,
+    state: &State<S::Mode>,
+    direction: &[f64],
+    f: &impl Fn(&S, &State<S::Mode>, &[f64]) -> f64,
+) -> f64 {
+    let step = ALONG * reach(system, state, direction);
+    let states = [-step, step].map(|step| state.moved(step, direction));
+    let turning = turning(newton, [system; 2], &states, direction, step);
+    let value =
+        |side: usize, step: f64| f(system, &states[side], &moved(direction, step, &turning));
+    (value(1, step) - value(0, -step)) / (2.0 * step)
+}
+
+/// The active constraint whose unknown changes fastest along the path, as a part of itself, and the way over which it changes by as
+/// much as it is.
+fn fastest<S: System>(
+    system: &S,
+    state: &State<S::Mode>,
+    direction: &[f64],
+) -> Option<(usize, f64)> {
+    let constraints = system.constraints().iter().zip(&state.active).enumerate();
+    let active = constraints.filter(|(_, (_, active))| **active);
+    let ways = active
+        .map(|(constraint, (&index, _))| (constraint, (state.z[index] / direction[index]).abs()));
+    ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The way over which nothing changes by more than itself, at most the whole path.
+fn reach<S: System>(system: &S, state: &State<S::Mode>, direction: &[f64]) -> f64 {
+    fastest(system, state, direction).map_or(1.0, |(_, way)| way.clamp(SHORTEST, 1.0))
+}
+
+/// `−J⁻¹ d(J v)/dq` between two states of neighbouring systems.
+fn turning<S: System>(
+    newton: &mut Newton,
+    sides: [&S; 2],
+    states: &[State<S::Mode>; 2],
+    direction: &[f64],
+    step: f64,
+) -> Vec<f64> {
+    let product = |side: usize| {
+        let mut product = Product { by: direction, rows: vec![0.0; direction.len()] };
+        sides[side].tangent(&states[side], &mut product);
+        product.rows
+    };
+    let change = difference(product(0), product(1), step);
+    rates(newton, sides[0], &states[0], change)
+}
+
+/// Solves for minus a change of the equations, which the section and the constraints at rest do not take part in.
+fn rates<S: System>(
+    newton: &mut Newton,
+    system: &S,
+    state: &State<S::Mode>,
+    change: Vec<f64>,
+) -> Vec<f64> {
+    let mut x: Vec<f64> = change.into_iter().map(|change| -change).collect();
+    x[system.load()] = 0.0;
+    for index in inactive(system, state) {
+        x[index] = 0.0;
+    }
+    newton.solve_again(&mut x);
+    x
 }
 
 /// The derivative of what has these values below and above.

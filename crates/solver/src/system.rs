@@ -66,10 +66,13 @@ pub trait System {
     /// [`System::conditions`] of its own.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
-    /// Adds `∂r/∂z` to a zero matrix. Rows and columns of inactive constraints may be left out.
+    /// Adds `∂r/∂z` to a zero matrix, its constant part included. Rows and columns of inactive constraints may be left out.
     fn tangent(&self, state: &State<Self::Mode>, matrix: &mut impl Tangent);
 
-    /// Evaluates the equations and adds `∂r/∂z` to a zero matrix.
+    /// Adds the part of `∂r/∂z` that is the same in every state.
+    fn constant_tangent(&self, _matrix: &mut impl Tangent) {}
+
+    /// Evaluates the equations and adds `∂r/∂z` to a matrix that holds its constant part.
     fn linearise(
         &self,
         state: &State<Self::Mode>,
@@ -120,6 +123,11 @@ pub trait System {
         let step = DIFFERENCE / largest;
         let at = |step: f64| self.condition(&state.moved(step, direction), constraint);
         (at(step) - at(-step)) / (2.0 * step)
+    }
+
+    /// A number, one of several, by which a place of the path may be known that is no event: it vanishes there.
+    fn marker(&self, _state: &State<Self::Mode>, _number: usize) -> f64 {
+        f64::NAN
     }
 
     /// Completes the change of a constraint that has just changed sides in `state`: its flag is the new one and its

@@ -1,7 +1,7 @@
 //! Factors of the tangent of a system: block by block where that is possible, of a band matrix elsewhere.
 
 use crate::block_elimination::BlockElimination;
-use crate::block_matrix::{BlockMatrix, Blocks};
+use crate::block_matrix::{BlockMatrix, BlockValues, Blocks};
 use crate::linear::{BandLu, BandMatrix, SingularMatrix};
 use crate::system::{Residual, State, System, inactive};
 use crate::tangent::Tangent;
@@ -23,6 +23,8 @@ struct InBlocks {
     elimination: BlockElimination,
     /// The unknowns that the matrix leaves out.
     left_out: Option<Vec<usize>>,
+    /// The constant part of the matrix.
+    constant: BlockValues,
 }
 
 #[derive(Clone, Debug)]
@@ -57,7 +59,7 @@ impl TangentSolver {
         self.inactive.extend(inactive(system, state));
         self.is_in_blocks = false;
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, system.blocks()) {
-            in_blocks.shape(blocks, system.size(), &self.inactive);
+            in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.matrix);
             self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();
         }
@@ -66,6 +68,7 @@ impl TangentSolver {
         }
         let InBand { matrix, lu } = self.band.get_or_insert_with(|| InBand::new(system));
         matrix.clear();
+        system.constant_tangent(matrix);
         assemble(system, state, condition, residual, matrix);
         lu.factorise_without(matrix, &self.inactive)
     }
@@ -93,7 +96,7 @@ impl TangentSolver {
     }
 }
 
-/// Evaluates the equations, and adds the tangent to a zero `matrix`, with `condition` in its missing row.
+/// Evaluates the equations, and adds the tangent to a `matrix` that holds its constant part, with `condition` in its missing row.
 fn assemble<S: System>(
     system: &S,
     state: &State<S::Mode>,
@@ -109,12 +112,14 @@ fn assemble<S: System>(
 }
 
 impl InBlocks {
-    /// Makes the matrix zero, without the unknowns that are `inactive`.
-    fn shape(&mut self, blocks: &Blocks, size: usize, inactive: &[usize]) {
+    /// Gives the matrix its constant part alone, without the unknowns that are `inactive`.
+    fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[usize]) {
         if self.left_out.as_deref() == Some(inactive) {
-            self.matrix.clear();
+            self.matrix.set(&self.constant);
         } else {
-            self.matrix.reshape(blocks, size, inactive);
+            self.matrix.reshape(blocks, system.size(), inactive);
+            system.constant_tangent(&mut self.matrix);
+            self.matrix.keep(&mut self.constant);
             let left_out = self.left_out.get_or_insert_default();
             left_out.clear();
             left_out.extend_from_slice(inactive);

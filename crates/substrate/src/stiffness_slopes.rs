@@ -1,6 +1,8 @@
 //! How fast the stiffness of a row changes with its footprint.
 
-use crate::boundary_element::{FootprintChange, RowReactions, Unresolved, row_reactions_and_rates};
+use crate::boundary_element::{
+    FootprintChange, RowReactions, Unresolved, row_reactions, row_reactions_and_rates,
+};
 use crate::row_stiffness::flat;
 use crate::springs::{CELLS, extrapolation};
 use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs};
@@ -50,14 +52,15 @@ impl StiffnessSlopes {
             changes.extend([unit(gap, width, 0.0), unit(-1.0, 0.0, 0.0), unit(0.0, -1.0, 0.0)]);
             changes.push(unit(-gap, -width, 0.0));
         }
-        let mut on_meshes = Vec::new();
-        for cells in CELLS {
-            on_meshes.push(row_reactions_and_rates(footprint, neighbours, cells, &changes)?);
-        }
-        let stiffness = stiffness(coupling, [0, 1, 2].map(|mesh: usize| &on_meshes[mesh].0));
+        let [coarse, medium, fine] = CELLS;
+        let coarse = row_reactions(footprint, neighbours, coarse)?;
+        let on_mesh = |cells| row_reactions_and_rates(footprint, neighbours, cells, &changes);
+        let [(medium, medium_rates), (fine, fine_rates)] = [on_mesh(medium)?, on_mesh(fine)?];
+        let stiffness = stiffness(coupling, [&coarse, &medium, &fine]);
         let slope = |change: usize| {
-            let [medium, fine] = [1, 2].map(|mesh: usize| flat(&on_meshes[mesh].1[change]));
-            slope(coupling, &extrapolation([CELLS[1], CELLS[2]], [&medium, &fine]))
+            let rates = [&medium_rates, &fine_rates].map(|rates| flat(&rates[change]));
+            let [medium, fine] = rates.each_ref();
+            slope(coupling, &extrapolation([CELLS[1], CELLS[2]], [medium, fine]))
         };
         let [by_poisson_ratio, by_gap, by_width] = [0, 1, 2].map(slope);
         let sides = |right: RowStiffness, left: usize| OneSided { left: slope(left) * -1.0, right };

@@ -8,6 +8,7 @@ use super::failure::{Failure, finite};
 use super::outcome::Outcome;
 use super::parameter_derivative::ParameterDerivative;
 use super::sample_statistics::SampleStatistics;
+use super::stored_derivatives;
 
 /// The character between the settings of a design.
 pub const SEPARATOR: char = ' ';
@@ -35,8 +36,8 @@ pub struct DesignResult {
     /// The statistics of imperfect samples, if they were asked for.
     #[serde(skip_serializing_if = "SampleStatistics::is_none")]
     pub samples: SampleStatistics,
-    /// The derivatives of the measures, if they were asked for.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// The derivatives of the measures, those of one measure after the other, if they were asked for.
+    #[serde(with = "stored_derivatives", skip_serializing_if = "Vec::is_empty")]
     pub sensitivity: Vec<ParameterDerivative>,
     /// The settings that are not the sweep's own, as `key=value` with [`SEPARATOR`] between.
     #[serde(skip_serializing_if = "String::is_empty")]

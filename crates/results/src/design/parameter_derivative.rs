@@ -1,13 +1,11 @@
 //! The derivative of a measure with respect to a parameter, as it is kept and written.
 
-use serde::{Deserialize, Serialize};
 use skin::Derivative;
 
 use super::failure::finite;
 
 /// The derivative of a measure of a design with respect to a parameter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ParameterDerivative {
     /// Name of the measure, as its column.
     pub measure: String,
@@ -22,7 +20,6 @@ pub struct ParameterDerivative {
     /// Derivative where the parameter increases.
     pub right: Option<f64>,
     /// The change at a kink; `None` where both derivatives are the same.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kink: Option<String>,
 }
 

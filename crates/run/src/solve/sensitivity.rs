@@ -61,13 +61,14 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
         let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
+        let smooth = (left - right).abs() <= 1e-9;
         Derivative {
             measure: "coverage",
             parameter,
             value: row.coverage(),
             left: Some(left),
-            right: Some(right),
-            kink: ((left - right).abs() > 1e-9).then(|| "another scale under the line".to_owned()),
+            right: Some(if smooth { left } else { right }),
+            kink: (!smooth).then(|| "another scale under the line".to_owned()),
         }
     };
     let keys = parameters.iter().map(|parameter| parameter.key).enumerate();

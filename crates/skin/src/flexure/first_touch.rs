@@ -2,11 +2,12 @@
 
 use std::f64::consts::PI;
 
-use contact::{Corners, Level, Pair, Pose};
+use contact::{CornerEdge, Corners, Level, Pair, Pose};
 use geometry::{OutOfRange, Row};
+use solver::Neighbours;
 
-use super::FlexureParameters;
-use crate::Design;
+use super::{FlexureInput, FlexureParameters};
+use crate::{Derivative, Design, Variation};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
 const LOOKS: u32 = 512;
@@ -33,24 +34,89 @@ pub fn contact_curvature(
     design: &Design,
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
-    let row = design.row()?;
-    let gap = BareGap {
-        row: &row,
-        pair: Pair::new(*row.scale(), row.pitch()),
-        offset: parameters.membrane_axis_offset,
-    };
-    Ok(gap.closing_rotation().map(|rotation| rotation / row.pitch()))
+    let gap = BareGap::new(design.row()?, parameters);
+    Ok(gap.closing_rotation().map(|rotation| rotation / gap.row.pitch()))
 }
 
+/// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
+///
+/// ```text
+/// dκ₁/dq = d(θ₁/p)/dq,   dθ₁/dq = −(∂g/∂q)/(∂g/∂θ)                                          (F6)
+/// ```
+///
+/// where of several corners the one counts that is the nearest to its edge on that side of the parameter.
+pub(super) fn curvature_derivatives(
+    input: &FlexureInput,
+    variations: &[Variation<FlexureInput>],
+) -> Result<Vec<Derivative>, OutOfRange> {
+    let gap = BareGap::of(input)?;
+    let Some(rotation) = gap.closing_rotation() else { return Ok(Vec::new()) };
+    let derivative = |(parameter, variation): (usize, &Variation<FlexureInput>)| {
+        let Neighbours { below, above, step } = &variation.neighbours;
+        let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
+        let meetings = [&neighbours[0], &neighbours[1]].map(|side| side.nearest(rotation));
+        let rate = |meeting: Option<CornerEdge>| {
+            Some(gap.closing_rate(meeting?, rotation, &neighbours, *step))
+        };
+        let kink = (meetings[0] != meetings[1]).then(|| "another corner meets an edge".to_owned());
+        let [left, right] = meetings.map(rate);
+        let (measure, value) = ("contact_curvature", rotation / gap.row.pitch());
+        Ok(Derivative { measure, parameter, value, left, right, kink })
+    };
+    variations.iter().enumerate().map(derivative).collect()
+}
+
+/// Part of the rotation over which the derivative of a gap is a difference.
+const STEP: f64 = 1e-6;
+
 /// A gap whose membrane carries no force.
-struct BareGap<'a> {
-    row: &'a Row,
+struct BareGap {
+    row: Row,
     pair: Pair,
     /// Depth of the axis of the membrane below the bases.
     offset: f64,
 }
 
-impl BareGap<'_> {
+impl BareGap {
+    fn new(row: Row, parameters: &FlexureParameters) -> Self {
+        let pair = Pair::new(*row.scale(), row.pitch());
+        Self { row, pair, offset: parameters.membrane_axis_offset }
+    }
+
+    fn of(input: &FlexureInput) -> Result<Self, OutOfRange> {
+        Ok(Self::new(input.design.leaning_row()?, &input.parameters))
+    }
+
+    /// Derivative of the curvature at which a corner meets its edge, between two `neighbours` that differ by `2 step` in a
+    /// parameter.
+    fn closing_rate(
+        &self,
+        meeting: CornerEdge,
+        rotation: f64,
+        neighbours: &[Self; 2],
+        step: f64,
+    ) -> f64 {
+        let turn = STEP * rotation;
+        let by_rotation = (self.opening(meeting, rotation + turn)
+            - self.opening(meeting, rotation - turn))
+            / (2.0 * turn);
+        let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
+        let turned = -(above - below) / (2.0 * step) / by_rotation;
+        let [below, above] = neighbours.each_ref().map(|gap| gap.row.pitch());
+        let pitch = self.row.pitch();
+        (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
+    }
+
+    /// The distance of a corner from its edge.
+    fn opening(&self, corner_edge: CornerEdge, rotation: f64) -> f64 {
+        self.pair.distance(corner_edge, &Pose::new(0.0, 0.0, 0.0), &self.right(rotation))
+    }
+
+    /// The corner that is nearest to the edge that it faces.
+    fn nearest(&self, rotation: f64) -> Option<CornerEdge> {
+        let nearest = self.facing(rotation).min_by(|a, b| a.1.total_cmp(&b.1));
+        nearest.map(|(meeting, _)| meeting)
+    }
     /// The first rotation at which the neighbours touch.
     fn closing_rotation(&self) -> Option<f64> {
         let upright = self.row.gap() / (1.0 + self.offset);
@@ -79,11 +145,15 @@ impl BareGap<'_> {
 
     /// Whether a corner of one scale has reached an edge of the other.
     fn touches(&self, rotation: f64) -> bool {
+        self.facing(rotation).any(|(_, gap)| gap <= 0.0)
+    }
+
+    /// The corners that face an edge, with their distances from it.
+    fn facing(&self, rotation: f64) -> impl Iterator<Item = (CornerEdge, f64)> {
         let (left, right) = (Pose::new(0.0, 0.0, 0.0), self.right(rotation));
-        [Level::Upper, Level::Lower].into_iter().any(|level| {
-            let facing = Corners::new(level, &self.pair, [&left, &right]).facing();
-            facing.is_some_and(|(_, gap)| gap <= 0.0)
-        })
+        [Level::Upper, Level::Lower]
+            .into_iter()
+            .filter_map(move |level| Corners::new(level, &self.pair, [&left, &right]).facing())
     }
 
     /// The pose of the right scale (F5).

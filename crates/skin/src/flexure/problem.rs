@@ -48,7 +48,7 @@ pub(crate) struct FlexureProblem<'a> {
     pub(crate) gaps: f64,
     /// Gaps that are solved for.
     solved: usize,
-    /// The curvature of first contact of the design; `None` for a sample.
+    /// The curvature of first contact of a design whose measures are asked for.
     contact_curvature: Option<f64>,
 }
 
@@ -59,7 +59,8 @@ impl<'a> FlexureProblem<'a> {
         common: &'a Common,
         parameters: &'a FlexureParameters,
     ) -> Result<Self, OutOfRange> {
-        Self::of_row(design.row()?, design, common, parameters)
+        let contact_curvature = contact_curvature(design, parameters)?;
+        Ok(Self { contact_curvature, ..Self::of_row(design.row()?, design, common, parameters)? })
     }
 
     /// The strip of a design with this row.
@@ -100,10 +101,6 @@ impl<'a> FlexureProblem<'a> {
         solved: usize,
     ) -> Result<Self, OutOfRange> {
         let modulus = parameters.contact_modulus_over_membrane;
-        let contact_curvature = match row {
-            Arrangement::Even(_) => contact_curvature(design, parameters)?,
-            Arrangement::Uneven(_) => None,
-        };
         Ok(Self {
             common,
             parameters,
@@ -113,7 +110,7 @@ impl<'a> FlexureProblem<'a> {
             law: ContactLaw::new(common.law, design.length, design.width, modulus)?,
             gaps,
             solved,
-            contact_curvature,
+            contact_curvature: None,
         })
     }
 

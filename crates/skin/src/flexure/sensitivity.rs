@@ -3,6 +3,7 @@
 use geometry::OutOfRange;
 use solver::Path;
 
+use super::first_touch::curvature_derivatives;
 use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
@@ -47,7 +48,11 @@ pub fn differentiate(
     let problem = FlexureProblem::even(design, common, parameters)?;
     let (mut bent, resolution) = problem.resolved(&FOLLOWED)?;
     let derivatives = match bent.status {
-        Status::Complete => problem.derivatives(&mut bent, resolution, variations)?,
+        Status::Complete => {
+            let mut derivatives = problem.derivatives(&mut bent, resolution, variations)?;
+            derivatives.extend(curvature_derivatives(input, variations)?);
+            derivatives
+        }
         _ => Vec::new(),
     };
     Ok((problem.flexure(bent), derivatives))
@@ -82,10 +87,12 @@ impl FlexureProblem<'_> {
             // Without contact a strip is as stiff everywhere as at rest.
             None => Some(rest(path.system())),
         };
-        let [moment, strain] = [MOMENT, STRAIN].map(|k| {
-            let summit = record.summit(path, k)?;
-            sensitivity::summit(path, &summit, FOLLOWED[k], settings)
-        });
+        let highest = record.highest_point(MOMENT);
+        let moment = highest
+            .and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[MOMENT], settings));
+        let strained = record.summit(path, STRAIN);
+        let strain = strained
+            .and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[STRAIN], settings));
         let strip = path.system();
         let spot = |place, quantity| MeasuredPoint { place, quantities: vec![quantity] };
         vec![

@@ -58,13 +58,35 @@ struct Sample {
     stretch: f64,
 }
 
-/// The folds on the segment between two neighbouring points of a path, in order; `events_before` contact events were before it.
-pub(super) fn folds(
+/// The folds of a path, and the equilibrium of the first.
+#[derive(Default)]
+pub(super) struct FoldWatch {
+    pub(super) folds: Vec<Fold>,
+    pub(super) first: Option<SkinPoint>,
+}
+
+impl FoldWatch {
+    /// Looks for folds on the segment between two neighbouring points of a path; `events_before` contact events were before it.
+    pub(super) fn follow(
+        &mut self,
+        path: &mut Path<Chain>,
+        [from, to]: [&SkinPoint; 2],
+        events_before: usize,
+    ) {
+        for (fold, place) in folds(path, from, to, events_before) {
+            self.folds.push(fold);
+            self.first.get_or_insert(place);
+        }
+    }
+}
+
+/// The folds on the segment between two neighbouring points of a path, in order, with their equilibria.
+fn folds(
     path: &mut Path<Chain>,
     from: &SkinPoint,
     to: &SkinPoint,
     events_before: usize,
-) -> Vec<Fold> {
+) -> Vec<(Fold, SkinPoint)> {
     let crossings = crossings(path, from, to);
     let mut places: Vec<_> = crossings
         .iter()
@@ -72,8 +94,8 @@ pub(super) fn folds(
             let (place, point) = crossing.locate(path, from, to);
             let chain = path.system();
             let (left_scale, folds) = (chain.layout.number(crossing.pair), crossing.folds);
-            let point = chain.path_point(&point);
-            (place, Fold { point, left_scale, folds, events_before })
+            let fold = Fold { point: chain.path_point(&point), left_scale, folds, events_before };
+            (place, (fold, point))
         })
         .collect();
     places.sort_by(|a, b| a.0.total_cmp(&b.0));

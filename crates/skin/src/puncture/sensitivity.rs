@@ -1,12 +1,14 @@
 //! Derivatives of the measures of a puncture.
 
+use contact::CornerContact;
 use geometry::OutOfRange;
-use solver::{Path, PathAnchor};
+use solver::{AnchoredPoint, Path, PathAnchor};
 use substrate::RowStiffness;
 
+use super::fold::{Fold, FoldWatch};
 use super::system::{Chain, Layout};
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, RowLength, Rows};
-use crate::contacts::SkinState;
+use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
@@ -61,7 +63,7 @@ impl Problem<'_> {
         variations: &[Variation<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { record, folds, path, .. } = followed;
-        let spots = self.spots(record, path, !folds.is_empty());
+        let spots = self.spots(record, path, folds);
         let system = path.system();
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
@@ -74,13 +76,13 @@ impl Problem<'_> {
         &self,
         record: &Record<Chain>,
         path: &mut Path<Chain>,
-        folds: bool,
+        FoldWatch { folds, first }: &FoldWatch,
     ) -> Vec<MeasuredPoint<Chain>> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = stiffest
             .and_then(|summit| sensitivity::summit(path, summit, Chain::stiffness, settings));
-        let highest = record.summit(path, LOAD);
+        let highest = record.highest_point(LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
         // The place of a smooth maximum moves along the path, and what is not the largest there with it.
@@ -89,8 +91,12 @@ impl Problem<'_> {
         let chain = path.system();
         let touching = record.touching().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };
+        let folded = first.as_ref().zip(folds.first());
+        let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
+        let (end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
         vec![
-            spot(Some(end(path)), at_end(folds)),
+            spot(Some(end(path)), end_quantities),
+            spot(folded, fold_quantities),
             spot(highest, at_peak),
             spot(touching, vec![depth("first_contact_displacement")]),
             spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
@@ -113,22 +119,37 @@ impl PunctureInput {
     }
 }
 
+impl Chain {
+    /// The equilibrium at which a gap vanishes.
+    fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<Vec<CornerContact>> {
+        let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
+        AnchoredPoint {
+            state: point.state.clone(),
+            direction: point.arriving.clone(),
+            anchor: PathAnchor::Marker(pair),
+        }
+    }
+}
+
 /// The quantities at the largest force, those besides it only where its place is known to first order.
 fn at_peak(with_place: bool) -> Vec<MeasuredQuantity<Chain>> {
     let mut quantities = vec![force("peak_force")];
     if with_place {
-        let tilt = |chain: &Chain, state: &SkinState, _: &[f64], _| chain.angle_deg(state);
-        quantities.extend([depth("peak_displacement"), quantity("peak_tilt_deg", tilt)]);
+        quantities.extend([depth("peak_displacement"), tilt("peak_tilt_deg")]);
     }
     quantities
 }
 
-/// The quantities at the critical tilt. The force there is one that the model can answer for unless the surface folds.
-fn at_end(folds: bool) -> Vec<MeasuredQuantity<Chain>> {
-    let sound = (!folds).then(|| force("sound_force"));
-    let mut quantities = critical();
-    quantities.extend(sound);
-    quantities
+/// The quantities at the critical tilt and at the first fold. The model can answer for the force at that of the two that comes first.
+fn at_end_and_fold(folds: bool) -> (Vec<MeasuredQuantity<Chain>>, Vec<MeasuredQuantity<Chain>>) {
+    let mut end = critical();
+    let mut fold = vec![force("fold_force"), depth("fold_displacement"), tilt("fold_tilt_deg")];
+    (if folds { &mut fold } else { &mut end }).push(force("sound_force"));
+    (end, fold)
+}
+
+fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
+    quantity(measure, |chain, state, _, _| chain.angle_deg(state))
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {

@@ -339,16 +339,18 @@ impl System for Chain {
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
+        self.constant_tangent(matrix);
         self.linearise(state, &mut Residual::new(self.size()), matrix);
+    }
+
+    fn constant_tangent(&self, matrix: &mut impl Tangent) {
+        self.for_springs(|row, column, value| matrix.add(row, column, value));
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
-        self.for_springs(|row, column, value| {
-            residual.add(row, value * z[column]);
-            matrix.add(row, column, value);
-        });
+        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
         self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(z);
@@ -373,6 +375,11 @@ impl System for Chain {
 
     fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         self.contacts.slope(state, constraint, direction)
+    }
+
+    /// The stretch of a gap, by its left scale: where it vanishes the surface folds over.
+    fn marker(&self, state: &SkinState, pair: usize) -> f64 {
+        self.gap_stretch(state, pair)
     }
 
     fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {

@@ -132,17 +132,18 @@ impl Surroundings {
     /// closer to 1.
     pub(super) fn stretches(&self, chain: &Chain, z: &[f64]) -> Vec<f64> {
         let mut stretches = vec![1.0];
-        if self.far.is_none() {
-            return stretches;
-        }
-        let last = chain.layout.scales().cast_signed() - 1;
-        for (side, gaps) in self.gaps.iter().enumerate() {
-            stretches.extend((0..).zip(gaps).map(|(distance, &width)| {
-                let left = if side == 0 { -1 - distance } else { last + distance };
+        let Some(far) = &self.far else { return stretches };
+        for (side, end) in [0, chain.layout.scales() - 1].into_iter().enumerate() {
+            let end = chain.displacement(z, end);
+            let (mut decayed, mut near) = ([1.0; 3], end);
+            for &width in &self.gaps[side] {
+                decayed = std::array::from_fn(|k| decayed[k] * far.decay[k]);
+                let farther = std::array::from_fn(|k| decayed[k] * end[k]);
+                let (left, right) = if side == 0 { (farther, near) } else { (near, farther) };
                 let strip = SurfaceStrip { width, half_base: chain.half_base };
-                let [left, right] = [left, left + 1].map(|k| chain.displacement_anywhere(z, k));
-                strip.stretch(left, right)
-            }));
+                stretches.push(strip.stretch(left, right));
+                near = farther;
+            }
         }
         stretches
     }

@@ -1,7 +1,8 @@
 //! Rows whose surface is a chain of neo-Hookean bars.
 
 use approx::assert_relative_eq;
-use solver::{BandMatrix, System, check_tangent};
+use geometry::{Parallelogram, Row};
+use solver::{BandMatrix, Residual, System, check_tangent};
 use substrate::{Coupling, SubstrateLaw};
 
 use super::*;
@@ -66,4 +67,46 @@ fn at_rest_bars_are_the_springs_that_they_replace() {
             assert_relative_eq!(linear.get(row, column), bars.get(row, column), epsilon = 1e-14);
         }
     }
+}
+
+/// A row that leans to the left is displaced as the mirror image of one that leans to the right.
+#[test]
+fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
+    let layout = Layout { left: 3, right: 3 };
+    let last = layout.scales() - 1;
+    let stiffness = RowStiffness::of(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
+    let chain = |slant_deg: f64, of_substrate: SubstrateLaw| {
+        let scale = Parallelogram::leaning(LIVELY.half_base(), slant_deg).unwrap();
+        let row = Arrangement::Even(Row::new(scale, LIVELY.gap).unwrap());
+        let law = law(&LIVELY, Law::PRINTED, HARD);
+        Chain::new(row, &stiffness, law, layout, 1.0, 0.1, LIVELY.length).with_law(of_substrate)
+    };
+    let forces = |chain: &Chain, displacement: &dyn Fn(usize) -> [f64; 3]| {
+        let (mut state, mut residual) = (SkinState::at_rest(chain), Residual::new(chain.size()));
+        for scale in 0..=last {
+            state.z[layout.scale(scale)..][..3].copy_from_slice(&displacement(scale));
+        }
+        chain.residual(&state, &mut residual);
+        let force =
+            |scale: usize| -> Vec<f64> { residual.value[layout.scale(scale)..][..3].into() };
+        ((0..=last).map(force).collect::<Vec<_>>(), chain.substrate_energy(&state))
+    };
+    let displacement = |scale: usize| {
+        let k = scale as f64;
+        [0.2 * LIVELY.gap * (3.0 * k).sin(), 0.1 * (5.0 * k).cos(), 0.3 * (2.0 * k).sin()]
+    };
+    let reflected = |[x, y, rotation]: [f64; 3]| [-x, y, -rotation];
+    let mut energies = Vec::new();
+    for of_substrate in [SubstrateLaw::Linear, SubstrateLaw::NeoHookean] {
+        let [right, left] = [1.0, -1.0].map(|side| chain(side * LIVELY.slant_deg, of_substrate));
+        let (ours, energy) = forces(&right, &displacement);
+        let (theirs, mirrored) = forces(&left, &|scale| reflected(displacement(last - scale)));
+        for (scale, ours) in ours.iter().enumerate() {
+            let image = reflected(theirs[last - scale].clone().try_into().unwrap());
+            assert_relative_eq!(ours[..], image[..], max_relative = 1e-12, epsilon = 1e-14);
+        }
+        assert_relative_eq!(energy, mirrored, max_relative = 1e-12);
+        energies.push(energy);
+    }
+    assert!((energies[0] / energies[1] - 1.0).abs() > 0.01, "{energies:?}");
 }

@@ -1,0 +1,128 @@
+//! Derivatives as a journal keeps them: measures by parameters, the names of both once.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::parameter_derivative::ParameterDerivative;
+
+/// Measures with the same parameters.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Matrix {
+    /// Keys and values of the parameters.
+    by: Vec<(String, f64)>,
+    of: Vec<Measure>,
+}
+
+/// The derivatives of a measure: its name, its value, the derivatives where the parameters decrease, and kinks.
+#[derive(Debug, Serialize, Deserialize)]
+struct Measure(String, f64, Vec<Option<f64>>, Vec<Kink>);
+
+/// A kink: the position of the parameter, the derivative where it increases, and the change.
+#[derive(Debug, Serialize, Deserialize)]
+struct Kink(usize, Option<f64>, String);
+
+impl Matrix {
+    /// Whether it is one of measures with the parameters of these derivatives.
+    fn fits(&self, derivatives: &[ParameterDerivative]) -> bool {
+        let parameters = derivatives.iter().map(|d| (&d.parameter, d.at.to_bits()));
+        self.by.iter().map(|(key, at)| (key, at.to_bits())).eq(parameters)
+    }
+
+    /// A matrix of no measures with the parameters of these derivatives.
+    fn of_parameters(derivatives: &[ParameterDerivative]) -> Self {
+        let by = derivatives.iter().map(|d| (d.parameter.clone(), d.at)).collect();
+        Self { by, of: Vec::new() }
+    }
+
+    fn derivatives(&self) -> impl Iterator<Item = ParameterDerivative> + '_ {
+        self.of.iter().flat_map(|measure| measure.derivatives(&self.by))
+    }
+}
+
+impl Measure {
+    fn new(derivatives: &[ParameterDerivative]) -> Self {
+        let (measure, value) = (derivatives[0].measure.clone(), derivatives[0].value);
+        let left = derivatives.iter().map(|derivative| derivative.left).collect();
+        let kink = |(position, derivative): (usize, &ParameterDerivative)| {
+            Some(Kink(position, derivative.right, derivative.kink.clone()?))
+        };
+        Self(measure, value, left, derivatives.iter().enumerate().filter_map(kink).collect())
+    }
+
+    fn derivatives<'a>(
+        &'a self,
+        by: &'a [(String, f64)],
+    ) -> impl Iterator<Item = ParameterDerivative> + 'a {
+        let Self(measure, value, left, kinks) = self;
+        by.iter().zip(left).enumerate().map(move |(position, ((parameter, at), &left))| {
+            let kink = kinks.iter().find(|kink| kink.0 == position);
+            ParameterDerivative {
+                measure: measure.clone(),
+                parameter: parameter.clone(),
+                at: *at,
+                value: *value,
+                left,
+                right: kink.map_or(left, |kink| kink.1),
+                kink: kink.map(|kink| kink.2.clone()),
+            }
+        })
+    }
+}
+
+/// Writes derivatives of which those of a measure follow each other.
+pub fn serialize<S: Serializer>(
+    derivatives: &[ParameterDerivative],
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
+    let mut matrices: Vec<Matrix> = Vec::new();
+    for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
+        if !matrices.last().is_some_and(|last| last.fits(of_measure)) {
+            matrices.push(Matrix::of_parameters(of_measure));
+        }
+        if let Some(last) = matrices.last_mut() {
+            last.of.push(Measure::new(of_measure));
+        }
+    }
+    matrices.serialize(serializer)
+}
+
+/// Reads derivatives.
+pub fn deserialize<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<ParameterDerivative>, D::Error> {
+    let matrices = Vec::<Matrix>::deserialize(deserializer)?;
+    Ok(matrices.iter().flat_map(Matrix::derivatives).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{ParameterDerivative, deserialize, serialize};
+
+    fn derivative(measure: &str, parameter: &str, left: f64) -> ParameterDerivative {
+        ParameterDerivative {
+            measure: measure.to_owned(),
+            parameter: parameter.to_owned(),
+            at: 0.1,
+            value: 2.0,
+            left: Some(left),
+            right: Some(left),
+            kink: None,
+        }
+    }
+
+    #[test]
+    fn derivatives_come_back_as_they_were() {
+        let mut derivatives = vec![derivative("coverage", "gap_over_t", 1.0 / 3.0)];
+        for measure in ["critical_force", "sink"] {
+            derivatives.extend(["gap_over_t", "c1"].map(|key| derivative(measure, key, -1e-9)));
+        }
+        (derivatives[2].right, derivatives[2].kink) = (None, Some("a contact opens".to_owned()));
+        (derivatives[3].left, derivatives[3].right) = (None, None);
+        let mut text = Vec::new();
+        serialize(&derivatives, &mut serde_json::Serializer::new(&mut text)).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(text.matches("critical_force").count(), 1, "{text}");
+        let read = deserialize(&mut serde_json::Deserializer::from_str(&text)).unwrap();
+        assert_eq!(read, derivatives);
+    }
+}
