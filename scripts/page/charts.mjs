@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { ready, spots } from "./browser.mjs";
 
-const CHARTS = ["critical-force", "stiffness", "penetration", "compliance", "coverage", "pareto", "measure"];
+const CHARTS = ["critical-force", "stiffness", "penetration", "compliance", "coverage", "map", "pareto", "measure"];
 
 export default ({ page, text, texts, detail, forget, detailIsWhole }) => ({
   async "every figure has a mark for every design"() {
@@ -20,12 +20,12 @@ export default ({ page, text, texts, detail, forget, detailIsWhole }) => ({
     }));
     for (const [id, names] of named) {
       assert.ok(names.length >= 2, id);
-      for (const name of names) assert.match(name, id === "measure" ? /, dimensionless$/ : /\$.+\$.*, dimensionless$/, `${id}: ${name}`);
+      for (const name of names) assert.match(name, id === "measure" ? /, dimensionless$/ : /\$.+\$.*, (dimensionless|degrees)$/, `${id}: ${name}`);
     }
   },
 
   async "a slant has one colour and one mark in every figure"() {
-    const looks = await page.evaluate(() => squama.charts.filter(({ id }) => id !== "coverage" && id !== "pareto").flatMap(({ make }) =>
+    const looks = await page.evaluate(() => squama.charts.filter(({ id }) => !["coverage", "map", "pareto"].includes(id)).flatMap(({ make }) =>
       make(900).panels.flatMap(({ marks }) => marks.map(({ row, color, path }) => `${squama.cell(row, "slant_deg")} ${color} ${path}`))));
     assert.deepEqual([...new Set(looks)].map((look) => look.split(" ")[0]).sort(), ["0", "15", "30", "45", "60", "75"]);
   },
@@ -79,6 +79,25 @@ export default ({ page, text, texts, detail, forget, detailIsWhole }) => ({
       await page.keyboard.press("ArrowLeft");
       assert.equal(await detail(), before, id);
     }
+  },
+
+  async "a map has contours where its column has the values of its ticks"() {
+    const { pieces, ticks } = await page.evaluate(() => {
+      const { panels } = squama.charts.find(({ id }) => id === "map").make(900);
+      const scale = squama.axesOf.critical_force, along = squama.panel.along;
+      const at = ({ marks }, i, j) => along(scale, squama.cell(marks.find((mark) => mark.x === i && mark.y === j).row, "critical_force"));
+      // At each end, a contour lies on an edge between two nodes; the value there comes from both.
+      const valueAt = (panel, [x, y]) => {
+        const [i, j] = [Math.floor(x), Math.floor(y)], [p, q] = [x - i, y - j];
+        return p > 0 ? (1 - p) * at(panel, i, j) + p * at(panel, i + 1, j) : q > 0 ? (1 - q) * at(panel, i, j) + q * at(panel, i, j + 1) : at(panel, i, j);
+      };
+      return { pieces: panels.flatMap((panel) => panel.lines.flatMap(({ points }) => points.map((point) => valueAt(panel, point)))), ticks: scale.ticks.filter(({ label }) => label !== null).map(({ value }) => along(scale, value)) };
+    });
+    assert.ok(pieces.length > 20, `${pieces.length}`);
+    for (const value of pieces) assert.ok(ticks.some((tick) => Math.abs(tick - value) < 1e-9), `${value}`);
+    await page.locator("#mapX").selectOption("length_over_t");
+    assert.match(await page.evaluate(() => squama.charts.find(({ id }) => id === "map").make(900).names[0].text), /aspect ratio/);
+    await page.locator("#mapX").selectOption("gap_over_t");
   },
 
   async "a column of one's choice is drawn"() {

@@ -84,6 +84,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       await page.locator("#pin").focus();
       await page.keyboard.press("Enter");
       await page.locator("#best tbody tr").nth(1).click();
+      assert.match(await text("#detail-gap"), /Gap 10 % smaller \/ larger.*coverage.*critical force/);
       assert.deepEqual((await texts("#compare-numbers thead th")).slice(1, 3), [first, second]);
       const designs = table(results, "designs.csv"), row = (design) => designs.find((one) => one.design === design);
       const force = page.locator("#compare-numbers tbody tr", { hasText: "critical force" }).first().locator("td");
@@ -93,6 +94,15 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       assert.ok(await page.locator("#compare-drawings svg polygon").count() > 6);
       const box = await page.locator("#compare-curves canvas").boundingBox();
       assert.ok(box.height > 150, "curves of the best designs");
+      // The logarithmic axis shows both curves of each measure over its whole width.
+      await page.locator("#log").check();
+      const inked = await page.evaluate(() => {
+        const canvas = document.querySelector("#compare-curves canvas"), context = canvas.getContext("2d");
+        const colored = (x, width) => { const { data } = context.getImageData(x, 0, width, canvas.height); let count = 0; for (let k = 0; k < data.length; k += 4) count += Math.max(data[k], data[k + 1], data[k + 2]) - Math.min(data[k], data[k + 1], data[k + 2]) > 60; return count; };
+        return [colored(0, canvas.width / 2), colored(canvas.width / 2, canvas.width / 2)];
+      });
+      assert.ok(inked.every((count) => count > 150), `${inked}`);
+      await page.locator("#log").uncheck();
       await page.locator("#unpin").click();
       assert.ok(!await page.locator("#compare").isVisible());
     },

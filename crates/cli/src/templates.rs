@@ -4,9 +4,10 @@
 pub type Template = (&'static str, &'static str);
 
 /// All of them.
-const TEMPLATES: [Template; 6] = [
+const TEMPLATES: [Template; 7] = [
     ("paper", include_str!("../../../sweeps/paper.toml")),
     ("smoke", include_str!("../../../sweeps/smoke.toml")),
+    ("glove", include_str!("../../../sweeps/glove.toml")),
     ("gaps", include_str!("../../../sweeps/gaps.toml")),
     ("imperfection", include_str!("../../../sweeps/imperfection.toml")),
     ("paper-as-written", include_str!("../../../sweeps/paper-as-written.toml")),

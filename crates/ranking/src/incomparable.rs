@@ -86,6 +86,12 @@ pub fn check_comparable(
     Ok(())
 }
 
+/// The parameters that say how a column is measured: only designs of the same values can be compared by it.
+pub fn yardsticks(column: &str) -> Vec<&'static str> {
+    let measuring = YARDSTICKS.iter().filter(|yardstick| yardstick.measures(column));
+    measuring.map(|yardstick| yardstick.parameter).collect()
+}
+
 impl Yardstick {
     /// Whether the values of a column depend on it in a way that leaves nothing to compare.
     fn measures(&self, column: &str) -> bool {

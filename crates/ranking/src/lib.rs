@@ -10,7 +10,7 @@
 //! | [`CRITERIA`], [`Criterion`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
 //! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
 //! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
-//! | [`check_comparable`] | whether criteria can be compared between designs |
+//! | [`check_comparable`], [`yardsticks`] | whether criteria can be compared between designs |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
@@ -49,7 +49,7 @@ pub use compare::{
 };
 pub use criterion::{CRITERIA, Criterion, Goal, InvalidCriterion};
 pub use front::pareto_front;
-pub use incomparable::{Incomparable, check_comparable};
+pub use incomparable::{Incomparable, check_comparable, yardsticks};
 pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
     InvalidRanking, RankedDesign, Ranking, pareto_columns, quaternary_columns, ranking_columns,

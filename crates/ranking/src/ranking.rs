@@ -195,6 +195,16 @@ impl<'r> Ranking<'r> {
         self.ranked(&self.candidates[best(&self.candidates, weights)], weights, 1)
     }
 
+    /// The best of the designs under which the surface of the substrate does not fold over, if it does under the best of all; by
+    /// the weights of the preferences. `None` also where the table does not tell.
+    pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
+        let fold = self.results.column("fold_force").ok()?;
+        let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
+        let best = self.winner(self.preferences.weights);
+        let others = || self.by_fitness(self.preferences.weights).into_iter().find(is_open);
+        if is_open(&best) { None } else { others() }
+    }
+
     /// The number of other designs that are as good as the best one by `weights`, but for round-off.
     pub fn equals(&self, weights: Weights) -> usize {
         let scores = || self.candidates.iter().map(|candidate| weights.score(&candidate.terms));

@@ -41,7 +41,7 @@ impl ChartAxis {
     pub(crate) fn fit(label: &str, values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = ends(values);
         if low > 0.0 && high / low > SPANS_DECADES {
-            Self::log(label, low, high)
+            Self::logarithmic(label, low, high)
         } else {
             Self::linear(label, if low > 0.0 && low < 0.5 * high { 0.0 } else { low }, high)
         }
@@ -67,7 +67,13 @@ impl ChartAxis {
         Self { label: label.to_owned(), scale: AxisScale::Linear, low: below, high: above }
     }
 
-    fn log(label: &str, low: f64, high: f64) -> Self {
+    /// Creates a linear axis that ends where it is told to.
+    pub(crate) fn exact(label: &str, low: f64, high: f64) -> Self {
+        Self { label: label.to_owned(), scale: AxisScale::Linear, low, high }
+    }
+
+    /// Creates a logarithmic axis with 5 % of its length beyond each end.
+    pub(crate) fn logarithmic(label: &str, low: f64, high: f64) -> Self {
         let air = (high / low).powf(0.05);
         Self { label: label.to_owned(), scale: AxisScale::Log, low: low / air, high: high * air }
     }
@@ -91,11 +97,16 @@ impl ChartAxis {
 
     /// Returns the axis as the scripts of the page take it: the kind of scale, the ends, and the ticks.
     pub(crate) fn to_json(&self) -> Value {
+        self.to_json_with(PAGE_TICKS)
+    }
+
+    /// Returns the axis as the scripts of the page take it, with about as many labelled ticks as `wanted`.
+    pub(crate) fn to_json_with(&self, wanted: usize) -> Value {
         let scale = match self.scale {
             AxisScale::Linear => "linear",
             AxisScale::Log => "log",
         };
-        let ticks = self.ticks(PAGE_TICKS);
+        let ticks = self.ticks(wanted);
         let tick = |tick: &Tick| json!({"value": tick.value, "label": tick.label});
         let ticks: Vec<_> = ticks.iter().map(tick).collect();
         json!({"scale": scale, "low": self.low, "high": self.high, "ticks": ticks})

@@ -2,7 +2,7 @@
 
 use crate::axis::ChartAxis;
 use crate::label::{Anchor, label, upright, width};
-use crate::palette::{FAINT, GRID, INK, SlantPalette};
+use crate::palette::{FAINT, GRID, INK, RED, SlantPalette};
 use crate::svg::{Element, Spot, line};
 
 /// Size of tick labels, px.
@@ -149,24 +149,52 @@ fn fitting(label: &str, room: f64) -> f64 {
     NAME * (room / width(label, NAME)).min(1.0)
 }
 
-/// Returns the mark of a design of a slant, filled or open.
+/// The look of a mark, besides its slant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MarkLook {
+    /// Whether it is filled, or open.
+    pub(crate) filled: bool,
+    /// Whether the surface of the substrate folds over: it is pale and struck through, as on the page.
+    pub(crate) folded: bool,
+}
+
+impl MarkLook {
+    pub(crate) const FILLED: Self = Self { filled: true, folded: false };
+    pub(crate) const OPEN: Self = Self { filled: false, folded: false };
+    pub(crate) const FOLDED: Self = Self { filled: true, folded: true };
+}
+
+/// Returns the mark of a design of a slant.
 pub(crate) fn mark(
     palette: &SlantPalette,
     slant_deg: f64,
     at: Spot,
     radius: f64,
-    filled: bool,
+    MarkLook { filled, folded }: MarkLook,
 ) -> Element {
     let color = palette.color(slant_deg);
     let fill = if filled { color.as_str() } else { "#fff" };
     let edge = if filled { "#fff" } else { color.as_str() };
     let stroke = if filled { 0.5 } else { 1.3 };
-    palette
+    let shape = palette
         .mark(slant_deg)
         .draw(at, radius)
         .with("fill", fill)
         .with("stroke", edge)
-        .at("stroke-width", stroke)
+        .at("stroke-width", stroke);
+    if !folded {
+        return shape;
+    }
+    let [from, to] = [-1.4, 1.4].map(|s| [at[0] + s * radius, at[1] - s * radius]);
+    Element::group("folded").containing([shape.with("opacity", "0.45"), line(from, to, RED, 1.3)])
+}
+
+/// Returns what a mark that is struck through means.
+pub(crate) fn fold_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
+    let slant = palette.slants().last().copied().unwrap_or(0.0);
+    let text = label("surface folds: do not trust", [x + 10.0, y + 4.0], 12.0, Anchor::Start);
+    let sample = mark(palette, slant, [x, y], 4.5, MarkLook::FOLDED);
+    Element::group("legend").containing([sample, text.with("fill", INK)])
 }
 
 /// Returns the slants with their marks, in one line.
@@ -176,7 +204,7 @@ pub(crate) fn slant_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
     let mut left = x + 64.0;
     for &slant in palette.slants() {
         let text = format!("{slant}°");
-        legend.add(mark(palette, slant, [left, y], 4.5, true));
+        legend.add(mark(palette, slant, [left, y], 4.5, MarkLook::FILLED));
         legend.add(label(&text, [left + 9.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK));
         left += 28.0 + width(&text, 12.0);
     }

@@ -18,7 +18,7 @@ const WIDTH: f64 = 760.0;
 const MARGINS: [f64; 3] = [78.0, 24.0, 62.0];
 const HEIGHT: f64 = 430.0;
 /// Where the first line of the legend stands, px.
-const LEGEND: f64 = 56.0;
+const LEGEND: f64 = 70.0;
 /// Least distance between crosses, px.
 const CROSS: f64 = 9.0;
 /// Width and height of a panel of energies, px.
@@ -178,9 +178,9 @@ fn one_panel(
     };
     let (x, y, title) = (&x, &y, String::new());
     let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
-    let note = [WIDTH - MARGINS[1], LEGEND + 4.0];
+    let note = [MARGINS[0], 48.0];
     let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
-    inside.push(label(text.note, note, 12.0, Anchor::End).with("fill", INK));
+    inside.push(label(text.note, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
     }

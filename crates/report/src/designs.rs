@@ -7,6 +7,9 @@ use results::columns::parameter_of;
 
 use crate::palette::SlantPalette;
 
+/// Parameters that figures of a sweep are drawn over.
+const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
+
 /// Parameters, as their columns, and their values.
 pub(crate) type AxisValues<'a> = Vec<(&'a str, &'a str)>;
 
@@ -67,19 +70,30 @@ impl Designs {
         (0..self.count).filter_map(move |row| self.number(column, row))
     }
 
+    /// Returns the varied parameters, as their columns.
+    pub(crate) fn varied(&self) -> Vec<&str> {
+        let headers = self.headers.iter().map(String::as_str);
+        let parameters = headers.filter(|name| parameter_of(name).is_some());
+        parameters.filter(|name| self.texts(name).len() > 1).collect()
+    }
+
     /// Returns the varied parameters besides gap, aspect ratio and slant, as their columns.
     pub(crate) fn further_axes(&self) -> Vec<&str> {
-        const KNOWN: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
-        let headers = self.headers.iter().map(String::as_str);
-        let further = headers.filter(|name| parameter_of(name).is_some() && !KNOWN.contains(name));
-        further.filter(|name| self.texts(name).len() > 1).collect()
+        self.varied().into_iter().filter(|name| !GEOMETRY.contains(name)).collect()
     }
 
     /// Returns the designs apart by their further axes, each part with those axes and their values; one part without
     /// any if there are none.
     pub(crate) fn parts(&self) -> Vec<(AxisValues<'_>, Self)> {
-        let axes = self.further_axes();
-        let values = |row| axes.iter().map(|axis| (*axis, self.text(axis, row))).collect();
+        self.parts_by(&GEOMETRY)
+    }
+
+    /// Returns the designs apart by the varied parameters that are not among `axes`, each part with those parameters and their
+    /// values; one part without any if there are none.
+    pub(crate) fn parts_by(&self, axes: &[&str]) -> Vec<(AxisValues<'_>, Self)> {
+        let others: Vec<&str> =
+            self.varied().into_iter().filter(|name| !axes.contains(name)).collect();
+        let values = |row| others.iter().map(|axis| (*axis, self.text(axis, row))).collect();
         let mut parts: Vec<(AxisValues<'_>, Vec<usize>)> = Vec::new();
         for row in 0..self.count {
             let own: AxisValues<'_> = values(row);
@@ -91,8 +105,18 @@ impl Designs {
         parts.into_iter().map(|(values, rows)| (values, self.only(&rows))).collect()
     }
 
+    /// Returns whether the surface of the substrate folds over before the puncture of a design ends.
+    pub(crate) fn folded(&self, row: usize) -> bool {
+        !self.text("fold_force", row).is_empty()
+    }
+
+    /// Returns whether the surface folds over under any of the designs.
+    pub(crate) fn any_folded(&self) -> bool {
+        (0..self.count).any(|row| self.folded(row))
+    }
+
     /// Returns the designs in some rows.
-    fn only(&self, rows: &[usize]) -> Self {
+    pub(crate) fn only(&self, rows: &[usize]) -> Self {
         let column = |header: &String| {
             let cells = rows.iter().map(|&row| self.text(header, row).to_owned());
             (header.clone(), cells.collect())
@@ -101,7 +125,7 @@ impl Designs {
     }
 
     /// Returns the different texts of a column.
-    fn texts(&self, column: &str) -> BTreeSet<&str> {
+    pub(crate) fn texts(&self, column: &str) -> BTreeSet<&str> {
         (0..self.count).map(|row| self.text(column, row)).collect()
     }
 

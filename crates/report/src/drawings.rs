@@ -17,7 +17,7 @@ use skin::Design;
 
 use crate::label::{Anchor, label, plain, width};
 use crate::palette::INK;
-use crate::svg::{Element, document};
+use crate::svg::{Element, document, heading};
 
 /// Width of a drawing, px.
 const WIDTH: f64 = 960.0;
@@ -52,11 +52,7 @@ struct DrawingPanel {
 
 /// Stacks `panels` under a title.
 fn stacked(title: &str, panels: Vec<DrawingPanel>) -> String {
-    let mut inside = vec![
-        label(title, [MARGIN, 28.0], 16.0, Anchor::Start)
-            .with("fill", INK)
-            .with("font-weight", "bold"),
-    ];
+    let mut inside = vec![heading(label(title, [MARGIN, 28.0], 16.0, Anchor::Start))];
     let mut top = HEAD;
     for (k, panel) in panels.into_iter().enumerate() {
         let height = panel.height;

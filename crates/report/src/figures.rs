@@ -1,17 +1,19 @@
 //! Figures of a sweep, from its table.
 
-mod coverage;
+mod contours;
+mod map;
 mod multiples;
 mod pareto;
 mod quaternary;
 mod stiffness;
+mod weight_slices;
 
 use ranking::Ranking;
 
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, plain};
-use crate::palette::INK;
-use crate::svg::{Element, document};
+use crate::svg::{Element, document, heading};
+pub use map::{InvalidMap, MapRequest, map};
 
 /// A figure: the name of its file, which says what it shows, and the drawing.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,16 +101,14 @@ fn of_part(name: &str, designs: &Designs) -> Vec<(&'static str, String)> {
         figures.push(("stiffness-against-critical-force", stiffness::figure(name, designs)));
     }
     if designs.has(COVERAGE.column) {
-        figures.push(("coverage-maps-by-slant", coverage::figure(name, designs)));
+        figures.push(("coverage-maps-by-slant", map::coverage(name, designs)));
     }
     figures
 }
 
 /// Returns a sheet of paper with a title.
 pub(crate) fn sheet(width: f64, height: f64, title: &str, inside: Vec<Element>) -> String {
-    let head = label(title, [20.0, 26.0], 15.0, Anchor::Start)
-        .with("fill", INK)
-        .with("font-weight", "bold");
+    let head = heading(label(title, [20.0, 26.0], 15.0, Anchor::Start));
     document(width, height, &plain(title), std::iter::once(head).chain(inside).collect())
 }
 

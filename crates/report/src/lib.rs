@@ -8,8 +8,10 @@
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | figures of a sweep, from its table |
+//! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
+//! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
-//! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
+//! | [`Page`], [`PageDesign`], [`GapFactors`] | figures, ranking, table and drawings on one HTML page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!
@@ -29,7 +31,7 @@
 //! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, thickness_mm: None, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
 //! # #[cfg(feature = "png")]
-//! assert!(report::png(&svg)?.starts_with(b"\x89PNG"));
+//! assert!(report::png(&svg, 96.0)?.starts_with(b"\x89PNG"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -47,6 +49,7 @@ mod page;
 mod palette;
 #[cfg(feature = "png")]
 mod png;
+mod spreads;
 mod svg;
 
 pub use curves::{DesignCurves, curves};
@@ -54,8 +57,10 @@ pub use designs::Designs;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
-pub use figures::{Figure, figures};
-pub use page::{Fact, Page, PageDesign};
+pub use figures::{Figure, InvalidMap, MapRequest, figures, map};
+pub use page::{Fact, GapFactors, Page, PageDesign};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};
+pub use spreads::{Histogram, Shares, share_bars};
+pub use svg::untitled;

@@ -4,6 +4,7 @@
 //! are those of the figures; it ranks as the crate `ranking` does, which `scripts/check-page` holds together.
 
 mod data;
+mod simplified;
 
 use sweep::visible;
 
@@ -19,7 +20,7 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/media.css"),
 ];
 /// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 21] = [
+const SCRIPTS: [&str; 23] = [
     include_str!("../assets/page/scripts/designs.js"),
     include_str!("../assets/page/scripts/elements.js"),
     include_str!("../assets/page/scripts/ranking.js"),
@@ -30,7 +31,9 @@ const SCRIPTS: [&str; 21] = [
     include_str!("../assets/page/scripts/panel.js"),
     include_str!("../assets/page/scripts/chart.js"),
     include_str!("../assets/page/scripts/view.js"),
+    include_str!("../assets/page/scripts/contours.js"),
     include_str!("../assets/page/scripts/figures.js"),
+    include_str!("../assets/page/scripts/gap.js"),
     include_str!("../assets/page/scripts/tetrahedron.js"),
     include_str!("../assets/page/scripts/requirements.js"),
     include_str!("../assets/page/scripts/criteria.js"),
@@ -71,17 +74,28 @@ pub struct Page {
     pub opening: String,
 }
 
-/// A design that was solved again: its drawing and its curves.
+/// The factors by which a column of a design changes where its gap is 10 % smaller and 10 % larger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapFactors {
+    /// The column.
+    pub column: String,
+    /// The factor for the smaller and for the larger gap; `None` where there is no value.
+    pub factors: [Option<f64>; 2],
+}
+
+/// A design that was solved again: its drawing, its curves, and how it moves with its gap.
 #[derive(Clone, Debug, Default)]
 pub struct PageDesign {
     /// The number of the design.
     pub number: String,
-    /// The drawing, as SVG.
+    /// The drawing, as SVG; empty if there is no room for it.
     pub svg: String,
     /// Displacements and forces along the path of the puncture.
     pub puncture: Vec<[f64; 2]>,
     /// Curvatures and moments along the path of bending.
     pub flexure: Vec<[f64; 2]>,
+    /// The columns that are known where the gap is 10 % smaller and larger.
+    pub gap_factors: Vec<GapFactors>,
 }
 
 impl Page {

@@ -5,8 +5,8 @@ use std::sync::{Arc, LazyLock};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
-/// Pixels of the image for each px of the drawing: sharp on screens of twice the usual density.
-const SHARPNESS: f32 = 2.0;
+/// Dots per inch at which a pixel of the image is a px of the drawing.
+const PX_PER_INCH: f64 = 96.0;
 
 static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     let mut fonts = fontdb::Database::new();
@@ -25,22 +25,24 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 #[error("drawing: cannot be made a PNG ({0}), expected a drawing of a size that fits in memory")]
 pub struct NoImage(String);
 
-/// Renders `svg` as a PNG with two pixels for each px.
+/// Renders `svg` as a PNG with `dpi` dots per inch, of which a drawing has 96 px.
 ///
 /// # Errors
 /// If the text is no SVG or the image does not fit in memory.
-pub fn png(svg: &str) -> Result<Vec<u8>, NoImage> {
+pub fn png(svg: &str, dpi: f64) -> Result<Vec<u8>, NoImage> {
     let options = Options {
         fontdb: FONTS.clone(),
         font_family: "Liberation Sans".into(),
         ..Options::default()
     };
     let tree = Tree::from_str(svg, &options).map_err(|error| NoImage(error.to_string()))?;
-    let size = tree.size().to_int_size().scale_by(SHARPNESS);
+    // As exact as pixels are.
+    let sharpness = (dpi / PX_PER_INCH) as f32;
+    let size = tree.size().to_int_size().scale_by(sharpness);
     let size = size.ok_or_else(|| NoImage("it has no size".to_owned()))?;
     let pixels = Pixmap::new(size.width(), size.height());
     let mut pixels = pixels.ok_or_else(|| NoImage("it is too large".to_owned()))?;
-    let sharpness = Transform::from_scale(SHARPNESS, SHARPNESS);
+    let sharpness = Transform::from_scale(sharpness, sharpness);
     resvg::render(&tree, sharpness, &mut pixels.as_mut());
     pixels.encode_png().map_err(|error| NoImage(error.to_string()))
 }

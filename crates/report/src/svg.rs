@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use crate::palette::INK;
+
 /// Fonts of all drawings: the embedded one and those of the same widths.
 const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";
 
@@ -124,6 +126,31 @@ pub(crate) fn document(width: f64, height: f64, title: &str, inside: Vec<Element
     format!("{}\n", root.to_text())
 }
 
+/// Height that the title of a drawing takes, px.
+const TITLE: f64 = 32.0;
+
+/// Returns the title of a drawing as its drawing shows it, which [`untitled`] finds.
+pub(crate) fn heading(title: Element) -> Element {
+    title.with("class", "title").with("fill", INK).with("font-weight", "bold")
+}
+
+/// Returns a drawing without its title, and without the room for it. A drawing that has none stays as it is.
+pub fn untitled(svg: &str) -> String {
+    let parts = || {
+        let (before, rest) = svg.split_once("class=\"title\"")?;
+        let (before, _) = before.rsplit_once("<text")?;
+        let (_, after) = rest.split_once("</text>")?;
+        let (start, size) = before.split_once("viewBox=\"0 0 ")?;
+        let (size, end) = size.split_once('"')?;
+        let (width, height) = size.split_once(' ')?;
+        let lower = px(height.parse::<f64>().ok()? - TITLE);
+        let start =
+            start.replacen(&format!("height=\"{height}\""), &format!("height=\"{lower}\""), 1);
+        Some(format!("{start}viewBox=\"0 {TITLE} {width} {lower}\"{}{}", end, after.trim_start()))
+    };
+    parts().unwrap_or_else(|| svg.to_owned())
+}
+
 /// Returns the data of a path through `points`.
 pub(crate) fn through(points: &[Spot], closed: bool) -> String {
     let mut data = String::new();
@@ -171,4 +198,20 @@ pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
     let shaft = line(from, back(0.8, 0.0), color, width);
     let head = polygon(&[to, back(1.0, 1.0), back(0.75, 0.0), back(1.0, -1.0)]).with("fill", color);
     Element::group("arrow").containing([shaft, head])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Element, document, heading, untitled};
+
+    #[test]
+    fn a_drawing_without_title_is_lower_by_its_room() {
+        let title = heading(Element::new("text").at("x", 20.0).text("a < b"));
+        let svg = document(300.0, 200.0, "a < b", vec![title, Element::group("rest")]);
+        let bare = untitled(&svg);
+        assert!(bare.contains("height=\"168\" viewBox=\"0 32 300 168\""), "{bare}");
+        assert!(!bare.contains("<text") && bare.contains("<g class=\"rest\"/>"), "{bare}");
+        assert!(bare.contains("<title>a &lt; b</title>"), "who cannot see it is told: {bare}");
+        assert_eq!(untitled(&bare), bare);
+    }
 }

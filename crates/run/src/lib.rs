@@ -23,6 +23,7 @@
 //! | [`Estimate`] | time and room that a sweep takes, about |
 //! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
+//! | [`GapChange`], [`MeasureChange`] | how far the measures of a design move with its gap |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -55,6 +56,7 @@
 mod audit;
 mod estimate;
 mod filter;
+mod gap_change;
 mod journal;
 mod merge;
 mod options;
@@ -68,6 +70,7 @@ mod tables;
 pub use audit::{Audit, LargestDifference, SecondWay};
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
+pub use gap_change::{GapChange, MeasureChange};
 pub use journal::{
     Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,
 };

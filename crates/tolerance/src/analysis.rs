@@ -105,9 +105,9 @@ impl<'a> Analysis<'a> {
         let straight = Case { imperfection: Imperfection::default(), ..case };
         let drawn = self.differentiating.solve(number, &straight).row;
         let measured = MeasuredColumns::of(self.sweep, &drawn);
-        let required: Result<Vec<_>, _> =
-            self.requirements.iter().map(|r| measured.index(&r.column)).collect();
-        let required = required?;
+        let asked = self.sweep.measures();
+        let place = |r: &Requirement| measured.required(&r.column, &drawn, asked);
+        let required = self.requirements.iter().map(place).collect::<Result<Vec<_>, _>>()?;
         let deviations = self.sweep.deviations();
         let keys = deviations.iter().map(|d| format!("{}_deviation", d.key()));
         let names = measured.iter().map(|column| column.name.to_string());

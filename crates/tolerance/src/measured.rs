@@ -2,7 +2,7 @@
 
 use results::columns::{design_columns, physical_source};
 use results::{Cell, Column, DesignRow, Quantity, areal_mass};
-use sweep::{Case, Sweep, nearest};
+use sweep::{Case, Measure, Sweep, nearest};
 
 /// A column that no design has, or that holds no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -34,9 +34,27 @@ impl MeasuredColumns {
     }
 
     /// The index of the column of that name.
-    pub(crate) fn index(&self, name: &str) -> Result<usize, NoSuchColumn> {
+    fn index(&self, name: &str) -> Result<usize, NoSuchColumn> {
         let found = self.0.iter().position(|column| column.name == name);
         found.ok_or_else(|| self.no_such_column(name))
+    }
+
+    /// As [`Self::index`], of a column in which `row` has a value unless it failed or all of it is solved.
+    pub(crate) fn required(
+        &self,
+        name: &str,
+        row: &DesignRow,
+        measures: &[Measure],
+    ) -> Result<usize, NoSuchColumn> {
+        let index = self.index(name)?;
+        let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
+        let has_value = number(&self.0[index].cell(row)).is_some();
+        if has_value || is_whole || row.result.failed() {
+            return Ok(index);
+        }
+        let asked: Vec<_> = measures.iter().map(|measure| measure.key()).collect();
+        let hint = format!("expected one of what is measured: {}", asked.join(", "));
+        Err(NoSuchColumn { found: name.to_owned(), hint })
     }
 
     fn no_such_column(&self, found: &str) -> NoSuchColumn {

@@ -1,10 +1,8 @@
 //! Arguments of `squama draw`.
 
-use std::path::PathBuf;
-
 use clap::Args;
 
-use super::{Definition, Selection};
+use super::{Definition, FigureOutput, Selection};
 
 /// Arguments of `squama draw`.
 #[derive(Debug, Args)]
@@ -39,15 +37,10 @@ pub struct DrawArguments {
     #[arg(long)]
     pub flexure: bool,
 
-    /// An image beside each drawing, if squama is built with --features png
-    #[arg(long)]
-    pub png: bool,
-
     /// One page that plays the path instead of drawings
     #[arg(long)]
     pub animate: bool,
 
-    /// Folder of the drawings [default: drawings in the results of the sweep]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: FigureOutput,
 }

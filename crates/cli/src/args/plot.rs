@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
-use super::{Definition, Partial, Selection};
+use super::{Definition, FigureOutput, Partial, Selection};
 
 /// Arguments of `squama plot`.
 #[derive(Debug, Args)]
@@ -14,7 +14,8 @@ use super::{Definition, Partial, Selection};
 Examples:
   squama plot results/paper
   squama plot results/paper --png --out figures
-  squama plot curves sweeps/paper.toml --design 0417,0418"
+  squama plot curves sweeps/paper.toml --design 0417,0418
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force"
 )]
 pub struct PlotArguments {
     /// What to plot instead of a sweep
@@ -25,13 +26,8 @@ pub struct PlotArguments {
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
 
-    /// An image beside each figure, if squama is built with --features png
-    #[arg(long)]
-    pub png: bool,
-
-    /// Folder of the figures [default: RESULTS/figures]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: FigureOutput,
 
     #[command(flatten)]
     pub partial: Partial,
@@ -42,6 +38,42 @@ pub struct PlotArguments {
 pub enum PlotWhat {
     /// Force–displacement, moment–curvature and energies of designs, solved anew
     Curves(CurvesArguments),
+    /// Any column over any two parameters, with contours
+    Map(MapArguments),
+}
+
+/// Arguments of `squama plot map`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force
+  squama plot map results/paper --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.1")]
+pub struct MapArguments {
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Parameter across, by its column
+    #[arg(long, value_name = "COLUMN")]
+    pub x: String,
+
+    /// Parameter upwards, by its column
+    #[arg(long, value_name = "COLUMN")]
+    pub y: String,
+
+    /// Column that is shown: any with numbers; its scale is logarithmic where its values span decades
+    #[arg(long, value_name = "COLUMN")]
+    pub of: String,
+
+    /// Value that another parameter is held at (may be repeated); of the rest there is a map for each value
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+
+    #[command(flatten)]
+    pub partial: Partial,
 }
 
 /// Arguments of `squama plot curves`.
@@ -62,11 +94,6 @@ pub struct CurvesArguments {
     #[arg(long, value_name = "U", allow_hyphen_values = true)]
     pub to: Option<f64>,
 
-    /// An image beside each figure, if squama is built with --features png
-    #[arg(long)]
-    pub png: bool,
-
-    /// Folder of the figures [default: curves in the results of the sweep]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
+    #[command(flatten)]
+    pub output: FigureOutput,
 }

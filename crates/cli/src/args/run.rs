@@ -44,7 +44,7 @@ pub struct RunArguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Folder of the results [default: results/NAME, or results/NAME/shards/i-of-N]
+    /// Folder of the results, which is made with those above it [default: results/NAME, or results/NAME/shards/i-of-N]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 

@@ -25,7 +25,7 @@ pub struct SensitivityArguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Over the whole box of [variables]
+    /// Over the whole box of the variables
     #[arg(long, required = true)]
     pub global: bool,
 

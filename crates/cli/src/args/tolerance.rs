@@ -22,7 +22,7 @@ parameter, as gap_over_t, or, with material.thickness_mm, that of a length in mm
 The spread of every measure is predicted from its derivatives, with the share of each source, and solved
 for with samples; both are told, and how far the prediction is off. The yield is the share of samples that
 meet a requirement, with its 95 % interval; a sample that fails does not meet it, and is counted apart.
-Writes tolerance.csv, tolerance_sources.csv, yield.csv, and the samples of each
+Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each
 design in samples/, from which the same command goes on after an interruption, or with more samples.
 Exit code: 0 done, 1 a design as drawn stopped early, 2 bad input or disk.")]
 pub struct ToleranceArguments {

@@ -9,7 +9,7 @@ use substrate::RowStiffness;
 use sweep::Case;
 
 use super::DONE;
-use super::figure_file::{Written, joined, write_html, write_svg};
+use super::figure_file::{Written, check_dpi, joined, write_html, write_svg};
 use super::selection::{SelectedDesign, select};
 use super::source::folder_within;
 use crate::args;
@@ -24,9 +24,10 @@ const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 /// Draws designs.
 pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
     check_places(arguments)?;
+    check_dpi(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
-    let folder = arguments.out.clone().unwrap_or_else(folder);
+    let folder = arguments.output.out.clone().unwrap_or_else(folder);
     results::make_folder(&folder)?;
     let mut files = Written::default();
     for design in &designs {
@@ -100,7 +101,7 @@ impl Drawing<'_> {
             places(&self.arguments.force, "force", "")
         };
         let file = self.file(&format!("puncture-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
+        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
     }
 
     /// Displacements at equal steps, up to the critical tilt.
@@ -154,7 +155,7 @@ impl Drawing<'_> {
             if last > 0.0 { "0-to-180-deg" } else { "0-to-minus-180-deg" },
         );
         let file = self.file(&format!("flexure-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, self.arguments.png, files)
+        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
     }
 
     /// The end rotations to draw a strip at that is bent by `last`, degrees.

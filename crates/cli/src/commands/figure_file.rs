@@ -1,10 +1,17 @@
 //! Files of drawings and figures.
 
+use std::borrow::Cow;
 use std::io::Write as _;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use results::AtomicFile;
+
+use crate::args::FigureOutput;
+
+/// Dots per inch that an image may have.
+const DPI: RangeInclusive<f64> = 24.0..=2400.0;
 
 /// Names of the files that were written.
 #[derive(Debug, Default)]
@@ -40,15 +47,28 @@ pub fn joined(names: &[String], things: &str) -> String {
     }
 }
 
-/// Writes a drawing, and its image if `png`.
+/// Refuses a density of images that no image has.
+pub fn check_dpi(output: &FigureOutput) -> anyhow::Result<()> {
+    let dpi = output.dpi;
+    ensure!(
+        DPI.contains(&dpi),
+        "--dpi {dpi}: out of range, expected {} to {}",
+        DPI.start(),
+        DPI.end()
+    );
+    Ok(())
+}
+
+/// Writes a drawing as `output` asks for, with its image if there is to be one.
 pub fn write_svg(
     folder: &Path,
     name: &str,
     svg: &str,
-    png: bool,
+    output: &FigureOutput,
     files: &mut Written,
 ) -> anyhow::Result<()> {
-    let image = png.then(|| image(svg)).transpose()?;
+    let svg = if output.no_title { Cow::Owned(report::untitled(svg)) } else { Cow::Borrowed(svg) };
+    let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
     write(folder, format!("{name}.svg"), svg.as_bytes(), files)?;
     match image {
         Some(image) => write(folder, format!("{name}.png"), &image, files),
@@ -57,12 +77,12 @@ pub fn write_svg(
 }
 
 #[cfg(feature = "png")]
-fn image(svg: &str) -> anyhow::Result<Vec<u8>> {
-    Ok(report::png(svg)?)
+fn image(svg: &str, dpi: f64) -> anyhow::Result<Vec<u8>> {
+    Ok(report::png(svg, dpi)?)
 }
 
 #[cfg(not(feature = "png"))]
-fn image(_: &str) -> anyhow::Result<Vec<u8>> {
+fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     anyhow::bail!(
         "--png: this squama was built without images, expected one that is built with them: \
          cargo run --release --features png -- followed by the same arguments"

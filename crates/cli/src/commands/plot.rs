@@ -1,16 +1,16 @@
 //! `squama plot`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use anyhow::bail;
-use report::{DesignCurves, curves, figures};
+use anyhow::{Context as _, bail};
+use report::{DesignCurves, MapRequest, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
-use sweep::Case;
+use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
-use super::figure_file::{Written, joined, write_svg};
+use super::figure_file::{Written, check_dpi, joined, write_svg};
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, select};
 use super::source::{folder_within, verified_folder};
@@ -28,29 +28,61 @@ const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies
 pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
         (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
+        (Some(args::PlotWhat::Map(arguments)), _) => plot_map(arguments),
         (None, Some(results)) => plot_results(results, arguments),
         (None, None) => bail!("nothing to plot, expected RESULTS or curves SWEEP.toml"),
     }
 }
 
 fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
+    check_dpi(&arguments.output)?;
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
     )?;
-    let folder = arguments.out.clone().unwrap_or_else(|| results.folder.join("figures"));
+    let folder = figure_folder(&results, &arguments.output);
     results::make_folder(&folder)?;
     let mut files = Written::default();
-    let ranking = results.ranking()?;
+    let ranking = results.comparable_ranking()?;
     for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
-        write_svg(&folder, &figure.name, &figure.svg, arguments.png, &mut files)?;
+        write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
     }
     derived::note(results.verified(), "figures", &folder, files.names())?;
     print(&files.report(&folder))?;
     Ok(DONE)
 }
 
+/// The folder of the figures of a sweep.
+fn figure_folder(results: &ResultsFolder, output: &args::FigureOutput) -> PathBuf {
+    output.out.clone().unwrap_or_else(|| results.folder.join("figures"))
+}
+
+fn plot_map(arguments: &args::MapArguments) -> anyhow::Result<u8> {
+    check_dpi(&arguments.output)?;
+    let held = |text: &String| {
+        let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
+        let (axis, value) = parts.with_context(|| {
+            format!("--at {text}: is not accepted, expected COLUMN=VALUE, e.g. length_over_t=0.1")
+        })?;
+        Ok((axis.to_owned(), value.to_owned()))
+    };
+    let at = arguments.at.iter().map(held).collect::<anyhow::Result<Vec<_>>>()?;
+    let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
+    let results = ResultsFolder::read(&verified, usize::MAX)?;
+    let request =
+        MapRequest { x: arguments.x.clone(), y: arguments.y.clone(), of: arguments.of.clone(), at };
+    let figure = map(&results.title(), &results.designs, &request)?;
+    let folder = figure_folder(&results, &arguments.output);
+    results::make_folder(&folder)?;
+    let mut files = Written::default();
+    write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
+    derived::note(results.verified(), "figures", &folder, files.names())?;
+    print(&files.report(&folder))?;
+    Ok(DONE)
+}
+
 fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
+    check_dpi(&arguments.output)?;
     check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();
@@ -59,7 +91,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
     let shown = solved.iter().zip(&designs).zip(&cases);
     let shown: Vec<_> = shown
         .map(|(((puncture, flexure), design), case)| DesignCurves {
-            number: number(design),
+            number: number(design, &cases),
             design: &case.design,
             puncture: Some(puncture),
             flexure: Some(flexure),
@@ -67,7 +99,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
         .collect();
     let sweep = &designs[0].sweep;
     let folder = || folder_within(&arguments.definition, sweep, "curves");
-    let folder = arguments.out.clone().unwrap_or_else(folder);
+    let folder = arguments.output.out.clone().unwrap_or_else(folder);
     results::make_folder(&folder)?;
     let mut files = Written::default();
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
@@ -77,7 +109,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
-        write_svg(&folder, &file, &figure.svg, arguments.png, &mut files)?;
+        write_svg(&folder, &file, &figure.svg, &arguments.output, &mut files)?;
     }
     print(&files.report(&folder))?;
     let failed = solved
@@ -105,7 +137,21 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     Ok((puncture, flexure::solve(&case.design, &common, &case.flexure)?))
 }
 
-/// The number of a design, for a legend, which tells its geometry too.
-fn number(design: &SelectedDesign) -> String {
-    design.number.map_or("beside the grid".to_owned(), |number| number.to_string())
+/// The number of a design, for a legend, which tells its geometry too; with the values in which it differs from the others besides.
+fn number(design: &SelectedDesign, cases: &[Case]) -> String {
+    let number = design.number.map_or("beside the grid".to_owned(), |number| number.to_string());
+    let own = design.case();
+    let differing = PARAMETERS.iter().filter(|parameter| {
+        let is_told = ["gap_over_t", "length_over_t", "slant_deg"].contains(&parameter.key);
+        !is_told && cases.iter().any(|other| parameter.get(other) != parameter.get(&own))
+    });
+    let values = differing.map(|parameter| {
+        format!(
+            "{} {}",
+            parameter.key.replace("_over_t", "/t").replace('_', " "),
+            parameter.get(&own)
+        )
+    });
+    let values: Vec<_> = values.collect();
+    if values.is_empty() { number } else { format!("{}  ({number})", values.join(", ")) }
 }

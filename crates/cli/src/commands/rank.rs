@@ -1,5 +1,6 @@
 //! `squama rank`.
 
+mod gap_changes;
 mod record;
 mod report;
 
@@ -15,6 +16,7 @@ use super::{DONE, INCOMPLETE, derived};
 use crate::args;
 use crate::json;
 use crate::print::print;
+use gap_changes::{gap_changes, gap_changes_record};
 use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
@@ -40,10 +42,13 @@ fn ranked(
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
+    let changes = gap_changes(results, ranking);
     if arguments.json {
-        json::print(&ranking_record(results, ranking, arguments.top))?;
+        let mut record = ranking_record(results, ranking, arguments.top);
+        record["gap_changes"] = gap_changes_record(&changes).into();
+        json::print(&record)?;
     } else {
-        let text = RankReport { results, ranking, top: arguments.top }.text();
+        let text = RankReport { results, ranking, top: arguments.top, changes: &changes }.text();
         print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     }
     Ok(DONE)

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use ranking::{Preferences, Ranking, Weights};
+use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{Page, PageDesign, drawings};
+use report::{GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
+use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
 use sweep::Case;
 
@@ -20,7 +21,9 @@ use crate::print::print;
 /// Designs that a page shows, about, at most: a browser takes no more.
 const SHOWN: usize = 10_000;
 
-/// Designs that are drawn as they are at the critical tilt, at most: each is solved again.
+/// Designs that are solved again for their curves, and for how they move with their gaps, at most.
+const SOLVED: usize = 120;
+/// Designs of these that are drawn as they are at the critical tilt, at most.
 const DRAWN: usize = 24;
 /// Largest step along the curves of a drawn design, as a fraction of the whole path: close enough for a line.
 const CURVE_STEP: f64 = 0.01;
@@ -85,28 +88,33 @@ fn opening(preferences: &Preferences) -> String {
     required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
-/// Designs that are best for all criteria alike, for one alone, or for other weights, solved again for their drawings
-/// and curves: as many as there is room for.
+/// Designs that are best for all criteria alike, for one alone, or for other weights, and the next best for all alike, solved
+/// again for curves, and for drawings as many as there is room for.
 fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
     let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
     let named = named.map(|weights| ranking.winner(weights));
+    let winners = named.chain(ranking.winners());
     let mut rows: Vec<usize> = Vec::new();
-    for winner in named.chain(ranking.winners()).map(|winner| winner.row()) {
-        if rows.len() < DRAWN && !rows.contains(&winner) {
-            rows.push(winner);
+    for design in winners.chain(ranking.by_fitness(Weights::BALANCED)) {
+        if rows.len() < SOLVED && !rows.contains(&design.row()) {
+            rows.push(design.row());
         }
     }
-    let all: Vec<_> = rows.par_iter().filter_map(|&row| solve(results, row)).collect();
+    let rows: Vec<_> = rows.into_iter().enumerate().collect();
+    let solve = |&(k, row): &(usize, usize)| solve(results, row, k < DRAWN);
+    let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
     let mut room = ROOM;
-    let fits = |design: &PageDesign| {
+    for design in &mut all {
         room = room.saturating_sub(design.svg.len());
-        room > 0
-    };
-    all.into_iter().take_while(fits).collect()
+        if room == 0 {
+            design.svg.clear();
+        }
+    }
+    all
 }
 
-/// A design with drawing and curves, or none if it cannot be solved: its row in the table says why.
-fn solve(results: &ResultsFolder, row: usize) -> Option<PageDesign> {
+/// A design with curves, and a drawing if it `is_drawn`, or none if it cannot be solved: its row in the table says why.
+fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesign> {
     let number = results.designs.text("design", row);
     let grid = results.sweep.grid();
     let mut case = grid.case(grid.parse_number(number).ok()?);
@@ -127,10 +135,23 @@ fn solve(results: &ResultsFolder, row: usize) -> Option<PageDesign> {
     let path = solved.puncture.path.iter();
     Some(PageDesign {
         number: number.to_owned(),
-        svg: drawing.svg().ok()?,
+        svg: if is_drawn { drawing.svg().ok()? } else { String::new() },
         puncture: path.map(|point| [point.displacement, point.force]).collect(),
         flexure: bending(&case),
+        gap_factors: gap_factors(results, number),
     })
+}
+
+/// How the criteria of a design move with its gap.
+fn gap_factors(results: &ResultsFolder, number: &str) -> Vec<GapFactors> {
+    let columns: Vec<&str> = CRITERIA.iter().map(|criterion| criterion.column.as_ref()).collect();
+    let change = GapChange::of(&results.sweep, number, &columns);
+    let measures = change.map_or_else(Vec::new, |change| change.measures);
+    let factors = |MeasureChange { column, value, changed }| {
+        let factor = |changed: f64| Some(changed / value).filter(|factor| factor.is_finite());
+        GapFactors { column, factors: changed.map(|changed| changed.and_then(factor)) }
+    };
+    measures.into_iter().map(factors).collect()
 }
 
 /// Curvatures and moments along the path of bending; none if it cannot be solved.

@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use ranking::{InvalidRanking, Ranking, TetrahedralGrid};
+use ranking::{InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable};
 use report::{Designs, Fact, facts};
 use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
+
+use crate::print::note;
 
 /// A folder of results.
 pub struct ResultsFolder {
@@ -63,6 +65,18 @@ impl ResultsFolder {
                 | InvalidRanking::Results(InvalidResults::NoColumn { .. }),
             ) => Ok(None),
             Err(error) => Err(error),
+        }
+    }
+
+    /// The ranking of the designs, if there are any to rank and they can be compared; if not, says so.
+    pub fn comparable_ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
+        match check_comparable(&self.results, &Preferences::paper()) {
+            Err(InvalidRanking::Incomparable(why)) => {
+                note(&format!("no figure of the best designs: {why}"));
+                Ok(None)
+            }
+            // What is missing there, the ranking misses too.
+            Ok(()) | Err(_) => self.ranking(),
         }
     }
 }

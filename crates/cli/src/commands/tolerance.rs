@@ -1,5 +1,6 @@
 //! `squama tolerance`.
 
+mod figures;
 mod record;
 mod report;
 
@@ -43,7 +44,10 @@ pub fn tolerance(
     let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
-    let files = write(&folder, &all)?;
+    let mut files = write(&folder, &all)?;
+    if let [design] = all.as_slice() {
+        files.extend(figures::write(&folder, &sweep, &requirements, design)?);
+    }
     let place = folder.path();
     if arguments.json {
         json::print(&record::record(&sweep, &all, place, &files))?;

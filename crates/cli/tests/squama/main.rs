@@ -3,6 +3,7 @@
 mod agreement;
 mod bad_input;
 mod beginnings;
+mod cliffs;
 mod clusters;
 mod contents;
 mod couplings;

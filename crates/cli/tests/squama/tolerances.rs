@@ -51,6 +51,10 @@ fn one_design_is_told_in_words_and_in_json() {
     let share = yields[0]["yield"].as_f64().expect("a share");
     let interval = &yields[0]["interval"];
     assert!(interval[0].as_f64() < Some(share) && interval[1].as_f64() >= Some(share));
+    for figure in ["sources.svg", "histogram-critical-force-N.svg"] {
+        let svg = place.read(&format!("results/skin/tolerance/{figure}"));
+        assert!(svg.contains("<svg") && svg.contains("skin design 0002"), "{figure}");
+    }
     // Derivatives alone.
     let text = place.prints("tolerance x.toml --samples 0 --out linear");
     assert!(text.contains("2 designs of 2"), "{text}");
@@ -80,6 +84,7 @@ fn bad_input_is_one_line() {
         "tolerance x.toml --set tolerance.gap=3",
         "tolerance x.toml --require critical_forc_N>=1",
         "tolerance x.toml --require puncture_status>=1",
+        "tolerance x.toml --require compliance>=1",
         "tolerance x.toml --require critical_force=>1",
         "tolerance x.toml --design 3",
         "tolerance x.toml --samples 1",

@@ -2,7 +2,7 @@
 
 use super::{FigureQuantity, columns, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, NAME, mark, slant_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, NAME, fold_legend, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label, upright};
 use crate::palette::{INK, SlantPalette};
@@ -62,6 +62,7 @@ pub(super) fn figure(
     let palette = designs.palette();
     let mut inside = vec![slant_legend(&palette, [LEFT, 50.0])];
     inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 470.0, 50.0])));
+    inside.extend(designs.any_folded().then(|| fold_legend(&palette, [LEFT + 735.0, 50.0])));
     for (k, &value) in values.iter().enumerate() {
         let title = format!("{} = {value}", lengths.across_symbol);
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
@@ -137,7 +138,8 @@ impl PanelSeries<'_> {
             }
         }
         for (_, at, row) in points {
-            series.add(mark(self.palette, slant, at, 3.2, self.is_filled(row)));
+            let look = MarkLook { filled: self.is_filled(row), folded: self.designs.folded(row) };
+            series.add(mark(self.palette, slant, at, 3.2, look));
         }
         series
     }
@@ -154,10 +156,10 @@ fn is_true(text: &str) -> bool {
 fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
     let slant = palette.slants().first().copied().unwrap_or(0.0);
     Element::group("legend").containing([
-        mark(palette, slant, [x, y], 4.5, true),
+        mark(palette, slant, [x, y], 4.5, MarkLook::FILLED),
         label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
-        mark(palette, slant, [x + 76.0, y], 4.5, false),
-        label("no contact: the same for all slants", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
+        mark(palette, slant, [x + 76.0, y], 4.5, MarkLook::OPEN),
+        label("no contact: slants alike", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
             .with("fill", INK),
     ])
 }

@@ -4,7 +4,7 @@ use ranking::{RankedDesign, Ranking, Weights};
 
 use super::{COVERAGE, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, mark, slant_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, fold_legend, mark, slant_legend};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
 use crate::palette::{FAINT, INK, SlantPalette};
@@ -36,6 +36,7 @@ fn draw(name: &str, designs: &Designs, all: &[RankedDesign<'_>]) -> String {
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let palette = designs.palette();
     let mut inside = vec![slant_legend(&palette, [LEFT, 50.0]), legend()];
+    inside.extend(designs.any_folded().then(|| fold_legend(&palette, [LEFT + 740.0, 50.0])));
     let pairs = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
     for (k, (i, j)) in pairs.into_iter().enumerate() {
         let area = Area {
@@ -81,7 +82,8 @@ fn dots(points: &[Point], designs: &Designs, palette: &SlantPalette) -> [Element
     front.sort_by(|a, b| a.criteria[0].total_cmp(&b.criteria[0]));
     let spots: Vec<Spot> = front.iter().map(|point| point.spot).collect();
     let marked = |point: &&Point| {
-        Some(mark(palette, designs.number("slant_deg", point.row)?, point.spot, 3.4, true))
+        let look = MarkLook { filled: true, folded: designs.folded(point.row) };
+        Some(mark(palette, designs.number("slant_deg", point.row)?, point.spot, 3.4, look))
     };
     [
         Element::group("beaten").containing(beaten),
@@ -91,6 +93,6 @@ fn dots(points: &[Point], designs: &Designs, palette: &SlantPalette) -> [Element
 }
 
 fn legend() -> Element {
-    let text = "on the line: designs that no other beats in both criteria; grey: the others";
-    label(text, [LEFT + 450.0, 54.0], 12.0, Anchor::Start).with("fill", INK)
+    let text = "on the line: no other is better in both; grey: the others";
+    label(text, [LEFT + 420.0, 54.0], 12.0, Anchor::Start).with("fill", INK)
 }

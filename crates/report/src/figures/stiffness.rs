@@ -2,7 +2,7 @@
 
 use super::{FORCE, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, mark, slant_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, fold_legend, mark, slant_legend};
 use crate::designs::Designs;
 
 const WIDTH: f64 = 1000.0;
@@ -25,6 +25,7 @@ const STIFFNESSES: [(&str, &str, &str); 2] = [
 pub(super) fn figure(name: &str, designs: &Designs) -> String {
     let palette = designs.palette();
     let mut inside = vec![slant_legend(&palette, [78.0, 50.0])];
+    inside.extend(designs.any_folded().then(|| fold_legend(&palette, [738.0, 50.0])));
     let x = ChartAxis::fit(FORCE.label, designs.numbers(FORCE.column));
     let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
     for (k, (column, title, label)) in STIFFNESSES.into_iter().enumerate() {
@@ -46,7 +47,8 @@ pub(super) fn figure(name: &str, designs: &Designs) -> String {
         inside.extend((0..designs.count()).filter_map(|row| {
             let at =
                 panel.place(designs.number(FORCE.column, row)?, designs.number(column, row)?)?;
-            Some(mark(&palette, designs.number("slant_deg", row)?, at, 3.4, true))
+            let look = MarkLook { filled: true, folded: designs.folded(row) };
+            Some(mark(&palette, designs.number("slant_deg", row)?, at, 3.4, look))
         }));
     }
     let title = format!("{name}: puncture stiffness against critical force");

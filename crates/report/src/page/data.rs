@@ -1,23 +1,33 @@
 //! The data of a page, as its scripts read them.
 
+use ranking::yardsticks;
 use results::shell_word;
 use serde_json::{Map, Value, json};
 use sweep::visible;
 
-use super::{Fact, Page, PageDesign};
+use super::simplified::simplified;
+use super::{Fact, GapFactors, Page, PageDesign};
 use crate::axis::ChartAxis;
 use crate::palette::{SlantPalette, map_color};
 
 /// Colours of the scale of a map.
 const SHADES: u32 = 64;
 /// Digits of the points of curves.
-const DIGITS: usize = 5;
+const DIGITS: usize = 4;
+/// The highest value of a curve over the lowest that a logarithmic axis shows of it.
+const LOWEST: f64 = 1000.0;
+/// Labelled ticks of a logarithmic axis of curves, about: charts show a part of it.
+const LOG_TICKS: usize = 12;
 
 /// Returns the data of a page.
 pub(super) fn of(page: &Page) -> Value {
     let headers = page.designs.headers();
     let columns = headers.iter().zip(&page.columns);
-    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning});
+    let varied = page.designs.varied();
+    let measured_by = |name: &str| -> Vec<_> {
+        yardsticks(name).into_iter().filter(|parameter| varied.contains(parameter)).collect()
+    };
+    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "measuredBy": measured_by(name)});
     let fact = |(name, value): &Fact| json!({"name": name, "value": value});
     let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
     let shade = |k: u32| map_color((f64::from(k) + 0.5) / f64::from(SHADES));
@@ -34,6 +44,7 @@ pub(super) fn of(page: &Page) -> Value {
         "run": page.run.iter().map(fact).collect::<Vec<_>>(),
         "shared": page.shared.iter().map(shared).collect::<Vec<_>>(),
         "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
+        "logarithmic": logarithmic(&page.solved),
     })
 }
 
@@ -75,19 +86,45 @@ fn slants(values: Vec<f64>) -> Vec<Value> {
 }
 
 fn solved(design: &PageDesign) -> Value {
-    let curves = [("puncture", &design.puncture), ("flexure", &design.flexure)];
-    let curves: Map<String, Value> = curves
+    let curves: Map<String, Value> = paths(design)
         .into_iter()
         .filter(|(_, points)| points.len() > 1)
         .map(|(measure, points)| (measure.to_owned(), curve(points)))
         .collect();
-    json!({"design": design.number, "svg": design.svg, "curves": curves})
+    let change =
+        |GapFactors { column, factors }: &GapFactors| json!({"column": column, "factors": factors});
+    let changes: Vec<_> = design.gap_factors.iter().map(change).collect();
+    json!({"design": design.number, "svg": design.svg, "curves": curves, "gapFactors": changes})
+}
+
+/// The paths of a design, each by the name of what is measured.
+fn paths(design: &PageDesign) -> [(&'static str, &Vec<[f64; 2]>); 2] {
+    [("puncture", &design.puncture), ("flexure", &design.flexure)]
 }
 
 /// Returns a curve with axes that it fits on.
 fn curve(points: &[[f64; 2]]) -> Value {
     let axis = |k: usize| ChartAxis::spanning("", points.iter().map(|point| point[k])).to_json();
     let short = |value: f64| format!("{value:.DIGITS$e}").parse().unwrap_or(value);
-    let points: Vec<_> = points.iter().map(|point| point.map(short)).collect();
+    let points: Vec<_> = simplified(points).into_iter().map(|point| point.map(short)).collect();
     json!({"points": points, "x": axis(0), "y": axis(1)})
+}
+
+/// Returns a logarithmic axis for the curves of each measure, on which every curve is seen where it is highest.
+fn logarithmic(solved: &[PageDesign]) -> Map<String, Value> {
+    let mut axes = Map::new();
+    for (k, measure) in ["puncture", "flexure"].into_iter().enumerate() {
+        let highest = solved.iter().filter_map(|design| {
+            let highest = paths(design)[k].1.iter().map(|point| point[1]).fold(0.0, f64::max);
+            (highest > 0.0).then_some(highest)
+        });
+        let highest: Vec<f64> = highest.collect();
+        if highest.is_empty() {
+            continue;
+        }
+        let (low, high) = crate::axis::ends(highest.into_iter());
+        let axis = ChartAxis::logarithmic("", low / LOWEST, high);
+        axes.insert(measure.to_owned(), axis.to_json_with(LOG_TICKS));
+    }
+    axes
 }

@@ -5,8 +5,9 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use results::columns::design_columns;
-use run::Evaluator;
-use sweep::Sweep;
+use run::{Evaluator, GapChange};
+use skin::Design;
+use sweep::{Case, Sweep};
 
 /// The axes of a small grid.
 fn axes() -> Vec<(&'static str, Vec<f64>)> {
@@ -48,4 +49,41 @@ proptest! {
         prop_assert_eq!(ROWS.len(), 12);
         prop_assert_eq!(rows(&axes), ROWS.clone());
     }
+}
+
+/// The coverage of slanted scales in closed form tells how it moves with the gap; what is not measured is left out.
+#[test]
+fn measures_move_with_the_gap_as_their_closed_form_says() {
+    let text = "name = 'x'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.4]\nlength_over_t = 0.5\nslant_deg = 60";
+    let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+    let change = GapChange::of(&sweep, "0002", &["critical_force", "coverage"]).expect("a design");
+    assert_eq!((change.design.as_str(), change.gap), ("0002", 0.4));
+    let [coverage] = change.measures.as_slice() else { panic!("{change:?}") };
+    let expected = |gap: f64| {
+        let case = Case {
+            design: Design { gap, length: 0.5, slant_deg: 60.0, ..Case::default().design },
+            ..Case::default()
+        };
+        case.design.row().expect("a row").coverage()
+    };
+    assert_eq!(coverage.value, expected(0.4));
+    assert_eq!(coverage.changed, [Some(expected(0.9 * 0.4)), Some(expected(1.1 * 0.4))]);
+    assert!(coverage.changed[0] > Some(coverage.value));
+    assert_eq!(GapChange::of(&sweep, "0003", &["coverage"]), None);
+}
+
+#[test]
+fn no_one_waits_for_the_gaps_of_long_chains() {
+    let change = |gaps: u32| {
+        let text = format!(
+            "name = 'x'\nmeasures = ['coverage', 'flexure']\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 0\n[flexure]\nmethod = 'chain'\ngaps = {gaps}"
+        );
+        GapChange::of(
+            &Sweep::parse(&text, "x.toml", &[]).expect("a valid sweep"),
+            "1",
+            &["coverage"],
+        )
+    };
+    assert!(change(20).is_some());
+    assert_eq!(change(20_000), None);
 }

@@ -5,7 +5,9 @@ use std::fmt::Write as _;
 use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, Weights};
 use results::Results;
 use results::columns::parameter_of;
+use run::GapChange;
 
+use super::gap_changes::gap_changes_report;
 use crate::print::{aligned, counted, digits, shortfall};
 
 /// Designs that are listed before a list is cut short.
@@ -17,6 +19,8 @@ pub struct RankReport<'a> {
     pub ranking: &'a Ranking<'a>,
     /// Designs that are listed by fitness.
     pub top: usize,
+    /// How far the measures of the best designs move with their gaps.
+    pub changes: &'a [GapChange],
 }
 
 impl RankReport<'_> {
@@ -27,6 +31,7 @@ impl RankReport<'_> {
         if self.preferences().criteria.len() > 1 {
             let _ = write!(text, "\nBest by one criterion alone\n{}", self.corners());
         }
+        text.push_str(&gap_changes_report(self.changes, &self.preferences().requirements));
         if !self.ranking.winners().is_empty() {
             let _ = write!(text, "\n{}", self.winners());
         }
@@ -79,16 +84,9 @@ impl RankReport<'_> {
 
     /// The best of the designs whose surface has not folded over, if that of the winner has.
     fn unfolded(&self) -> String {
-        // Tables of an earlier version do not tell.
-        let Ok(fold) = self.results.column("fold_force") else { return String::new() };
-        let best = self.ranking.by_fitness(self.preferences().weights);
-        let is_open = |design: &&RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
-        if best.first().is_none_or(|winner| is_open(&winner)) {
-            return String::new();
-        }
+        let Some(best) = self.ranking.best_unfolded() else { return String::new() };
         let title = "The surface of the substrate folds over under the best design. Best of those under which it does not";
-        let others: Vec<_> = best.iter().filter(is_open).take(1).collect();
-        format!("\n{title}\n{}", self.table(&others, "fitness", fitness))
+        format!("\n{title}\n{}", self.table(&[&best], "fitness", fitness))
     }
 
     /// The best design by each criterion.

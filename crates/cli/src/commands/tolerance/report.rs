@@ -51,7 +51,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
 }
 
 /// Whether people see a measure: what the tables are about, in all units, and what is required.
-fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
+pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
     let measure = physical_source(name).map_or(name, |(measure, _)| measure);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
     leads || requirements.iter().any(|requirement| requirement.column == name)

@@ -132,12 +132,22 @@ squama.canvas = (canvas, width, height) => {
     seen.observe(chart.area);
   };
 
+  // One chart in each slice of time, so that what answers to the reader is not kept waiting.
+  let waiting = null;
+  const drawNext = () => {
+    waiting = null;
+    const next = squama.charts.find((chart) => chart.stale && chart.seen);
+    if (!next) return;
+    draw(next);
+    later();
+  };
+  const later = () => {
+    if (waiting === null) waiting = requestAnimationFrame(() => { waiting = setTimeout(drawNext); });
+  };
   squama.redraw = () => {
     squama.themeNow = squama.theme();
-    for (const chart of squama.charts) {
-      chart.stale = true;
-      if (chart.seen) draw(chart);
-    }
+    squama.charts.forEach((chart) => { chart.stale = true; });
+    later();
   };
   /** Draws every chart, whether it is in sight or not. */
   squama.drawAll = () => {

@@ -77,6 +77,8 @@
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
     ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
+    // The surface folds over where a gap between two bases has closed.
+    ...(state.sound ? [`--require ${quoted("gap_stretch_min > 0")}`] : []),
     ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
     `--weights ${squama.weights().join(",")}`,
     ...(state.scale === "paper" ? [] : [`--scale ${state.scale}`]),
@@ -108,6 +110,29 @@
       ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
+  /** Says by what designs cannot be compared, because they are not measured alike. */
+  const showIncomparable = () => {
+    const differing = (parameter) => new Set(squama.contest.rows.map((row) => squama.cell(row, parameter))).size > 1;
+    const found = state.criteria.flatMap(({ column }) => squama.columns[squama.place.get(column)].measuredBy.filter(differing).map((parameter) => ({ column, parameter })));
+    const note = squama.at("incomparable");
+    note.hidden = found.length === 0;
+    if (found.length === 0) return;
+    const { column, parameter } = found[0];
+    const values = squama.different(parameter);
+    note.replaceChildren(`⚠ This ranking compares what cannot be compared: ${squama.label(column)} is measured differently for designs of different ${squama.label(parameter)}. Choose one: `,
+      ...values.slice(0, 12).map((value) => squama.element("button", { type: "button", onclick: () => squama.require([...state.requirements, { column: parameter, sign: typeof value === "number" ? "==" : "~", limit: value }]) }, squama.short(value))), ", or other criteria.");
+  };
+
+  /** Says how far the best design moves with its gap, where that is known. */
+  const showGap = (best) => {
+    const note = squama.at("best-gap"), isKnown = best && squama.gap.known(best.row).length > 0;
+    note.hidden = !isKnown;
+    if (!isKnown) return;
+    const isCliff = squama.gap.cliffs(best.row).length > 0;
+    note.className = isCliff ? "doubt" : "note";
+    note.textContent = `${isCliff ? "⚠ The best design stands at a cliff. " : ""}${squama.gap.sentence(best.row)}`;
+  };
+
   const show = () => {
     const weights = squama.weights();
     sliders.forEach(({ input, output }, k) => {
@@ -119,11 +144,13 @@
     const best = ranking.order(squama.contest, weights, LISTED);
     body.replaceChildren(...best.map(entry));
     showSound(best[0]);
+    showGap(best[0]);
   };
 
   squama.listen("selection", () => {
     showCriteria();
     showHead();
+    showIncomparable();
     const { length } = squama.contest.rows;
     squama.at("ranking-count").textContent = `${length} designs take part; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}lack coverage or a value.`;
     show();

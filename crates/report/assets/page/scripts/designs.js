@@ -48,6 +48,12 @@ squama.rowOf = (number) => {
   return row < 0 ? null : row;
 };
 
+/** What the page holds of a design that was solved again: drawing, curves; nothing of others. */
+squama.solved = (() => {
+  const known = new Map(squama.drawings.map((own) => [own.design, own]));
+  return (row) => known.get(squama.number(row));
+})();
+
 /** The different values of a column, sorted. */
 squama.different = (() => {
   const known = new Map();

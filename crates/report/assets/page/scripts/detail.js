@@ -20,7 +20,7 @@
 
   /** A button that shows the drawing of a solved design, and enlarges it; nothing if there is none. */
   squama.solvedDrawing = (row) => {
-    const number = squama.number(row), solved = squama.drawings.find(({ design }) => design === number);
+    const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
     const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(solved.svg) });
     button.innerHTML = solved.svg;
@@ -83,6 +83,11 @@
     const isFirst = ({ name }) => squama.physical(name) || ["coverage", "critical_force", "sound_force", "fold_force", "penetration", "compliance"].includes(name);
     const values = columns.filter((column) => !isAxis(column));
     squama.at("detail-doubts").replaceChildren(...squama.doubts(row).map((text) => squama.element("p", { class: "doubt" }, `⚠ ${text}`)));
+    const moves = squama.gap.known(row);
+    squama.at("detail-gap").replaceChildren(...(moves.length === 0 ? [] : [
+      squama.element("h3", {}, "Gap 10 % smaller / larger"), ...squama.gap.warning(row).map((text) => squama.element("p", { class: "doubt" }, `⚠ ${text}`)),
+      squama.element("dl", { class: "facts" }, ...moves.flatMap(({ column, factors }) => [squama.element("dt", {}, squama.label(column)), squama.element("dd", {}, squama.gap.both(factors))])),
+    ]));
     squama.at("detail-parameters").replaceChildren(...columns.filter(isAxis).flatMap((column) => fact(column, row)));
     squama.at("detail-values").replaceChildren(...[...values.filter(isFirst), ...values.filter((column) => !isFirst(column))].flatMap((column) => fact(column, row)));
     squama.at("detail-commands").replaceChildren(...commands(number));

@@ -82,7 +82,7 @@
   const fronts = (rows, a, b) => squama.ranking.front(squama.ranking.contest(squama, rows, [a, b], "linear"));
   const line = (best, x, y) => ({ color: squama.themeNow.faint, width: 1.4, points: [...best].sort((p, q) => x[p] - x[q] || y[p] - y[q]).map((row) => [x[row], y[row]]) });
 
-  const shade = (value) => squama.shades[Math.min(squama.shades.length - 1, Math.floor(value * squama.shades.length))];
+  const shade = (value) => squama.shades[Math.max(0, Math.min(squama.shades.length - 1, Math.floor(value * squama.shades.length)))];
 
   /** An axis on which every value has a place of its own; labels as many as there is room for. */
   const placesAxis = (all, room) => {
@@ -90,29 +90,81 @@
     return { scale: "places", low: -0.5, high: all.length - 0.5, ticks: all.map((value, k) => ({ value: k, label: k % every === 0 ? squama.short(value) : null })).filter(({ label }) => label !== null) };
   };
 
-  const coverageMaps = () => {
-    const free = ["gap_over_t", "length_over_t", "slant_deg"];
-    const [lengths, gaps] = [squama.different("length_over_t"), squama.different("gap_over_t")];
-    const [across, up] = [lengths, gaps].map((all) => new Map(all.map((value, k) => [value, k])));
+  /** Cells of one map, with the lines along which its column has the values of the ticks of its scale. */
+  const mapped = (rows, name, [x, y], scale, blank) => {
+    const [across, up] = [x, y].map((axis) => new Map(squama.different(axis).map((value, k) => [value, k])));
+    const cells = new Map();
+    const marks = rows.map((row) => {
+      const value = squama.cell(row, name), at = [across.get(squama.cell(row, x)), up.get(squama.cell(row, y))];
+      cells.set(at.join(), squama.panel.along(scale, value));
+      const fill = blank(value) ? squama.themeNow.paper : squama.passes[row] ? shade(squama.panel.along(scale, value)) : squama.themeNow.line;
+      return { row, x: at[0], y: at[1], fill, folded: name !== "coverage" && squama.folded(row), silent: !squama.passes[row] };
+    });
+    const levels = scale.ticks.filter(({ label }) => label !== null).map(({ value }) => squama.panel.along(scale, value));
+    const value = (i, j) => cells.get(`${i},${j}`) ?? null;
+    const pieces = levels.flatMap((level) => squama.contours([across.size, up.size], value, level));
+    return { marks, lines: pieces.flatMap((points) => [{ points, color: "#ffffff", width: 2.6 }, { points, color: "#222222", width: 1.2 }]) };
+  };
+
+  /** A column over two parameters, a map for each value of a third; `axes()` names the three, `name()` the column. */
+  const maps = (id, title, description, { axes, name, scale, blank = () => false, controls, shown = () => {} }) => {
     const make = (width) => {
-      const rows = view.slice(free).filter(isNumber("coverage", ...free));
+      const [x, y, across] = axes(), free = [x, y, across].filter(Boolean), own = scale();
+      const rows = view.slice(free).filter(isNumber(name(), ...free));
+      const all = across ? spread(squama.different(across)) : [null];
       const margin = { left: 70, right: 12, top: 26, bottom: 48 };
-      const { places, height } = squama.panel.grid(rows.length > 0 ? squama.slants.length : 0, width, { least: 190, height: 190, gaps: [14, 34], margin });
+      const { places, height } = squama.panel.grid(rows.length > 0 ? all.length : 0, width, { least: 190, height: all.length > 1 ? 190 : 320, gaps: [14, 34], margin });
+      const [xs, ys] = [x, y].map(squama.different);
       const panels = places.map((place, k) => {
-        const cell = [place.width / lengths.length + 0.4, place.height / gaps.length + 0.4];
-        const own = rows.filter((row) => squama.slant(row) === squama.slants[k]);
-        const marks = own.map((row) => {
-          const value = squama.cell(row, "coverage");
-          const fill = value <= 0 ? squama.themeNow.paper : squama.passes[row] ? shade(value) : squama.themeNow.line;
-          return { row, x: across.get(squama.cell(row, "length_over_t")), y: up.get(squama.cell(row, "gap_over_t")), cell, fill, silent: !squama.passes[row] };
-        });
-        return { ...place, x: placesAxis(lengths, place.width / 36), y: placesAxis(gaps, place.height / 18), title: `$α$ = ${squama.slants[k].degrees}°`, marks, lines: [] };
+        const cell = [place.width / xs.length + 0.4, place.height / ys.length + 0.4];
+        const { marks, lines } = mapped(rows.filter((row) => !across || squama.cell(row, across) === all[k]), name(), [x, y], own, blank);
+        const part = across ? `${squama.axisName(across).replace(/,.*/, "")} = ${squama.short(all[k])}${across.endsWith("_deg") ? "°" : ""}` : "";
+        return { ...place, x: placesAxis(xs, place.width / 36), y: placesAxis(ys, place.height / 18), title: part, marks: marks.map((mark) => ({ ...mark, cell })), lines, linesOnTop: true };
       });
+      shown(own);
       const held = view.fixed(free);
-      return { panels, height, rows, note: held.length > 0 ? `Shown: ${view.words(held)}.` : "", names: sharedNames(squama.axisName("length_over_t"), squama.axisName("gap_over_t"), width, height, margin) };
+      const note = [held.length > 0 ? `Shown: ${view.words(held)}.` : "", across && all.length < squama.different(across).length ? `${all.length} of ${squama.different(across).length} maps.` : ""].filter(Boolean).join(" ");
+      return { panels, height, rows, note, names: sharedNames(squama.axisName(x), squama.axisName(y), width, height, margin) };
     };
-    const bar = squama.element("span", { class: "shades" }, "0", squama.element("span", { style: `background: linear-gradient(to right, ${squama.shades.join(", ")})` }), "1");
-    squama.addChart({ id: "coverage", title: "Coverage", description: "Coverage by gap, aspect ratio and slant; empty: none; grey: does not meet the requirements.", controls: [bar], make, says: (row) => values(row, ["coverage"]) });
+    squama.addChart({ id, title, description, controls, make, says: (row) => values(row, [name()]) });
+  };
+
+  /** A scale of colours with its ends, which `show` sets. */
+  const colorBar = () => {
+    const [low, high] = [squama.element("span", { class: "end" }), squama.element("span", { class: "end" })];
+    const bar = squama.element("span", { class: "shades" }, low, squama.element("span", { style: `background: linear-gradient(to right, ${squama.shades.join(", ")})` }), high);
+    const show = (scale) => {
+      low.textContent = squama.short(Number(scale.low.toPrecision(2)));
+      high.textContent = `${squama.short(Number(scale.high.toPrecision(2)))}${scale.scale === "log" ? ", logarithmic" : ""}`;
+    };
+    return { bar, show };
+  };
+
+  const coverageMaps = () => {
+    const { bar, show } = colorBar();
+    const scale = { scale: "linear", low: 0, high: 1, ticks: [0.2, 0.4, 0.6, 0.8].map((value) => ({ value, label: String(value) })) };
+    maps("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours at 0.2, 0.4, 0.6 and 0.8; empty: none; grey: does not meet the requirements.", {
+      axes: () => ["length_over_t", "gap_over_t", "slant_deg"], name: () => "coverage", scale: () => scale, blank: (value) => value <= 0, controls: [bar], shown: show,
+    });
+  };
+
+  /** A map of any column over any two parameters, a map for each value of a third. */
+  const anyMap = () => {
+    const choices = squama.varied.filter((name) => squama.numeric.includes(name));
+    if (choices.length < 2 || measures.length === 0) return;
+    const or = (chosen, others) => (choices.includes(chosen) ? chosen : others.find((name) => choices.includes(name)) ?? choices[0]);
+    const x = () => or(state.mapX, ["gap_over_t"]);
+    const y = () => (state.mapY !== x() && choices.includes(state.mapY) ? state.mapY : or(null, ["slant_deg", "length_over_t", ...choices].filter((name) => name !== x())));
+    const across = () => ["length_over_t", "slant_deg", "gap_over_t", ...choices].find((name) => choices.includes(name) && name !== x() && name !== y());
+    const name = () => (measures.includes(state.mapOf) ? state.mapOf : measures.includes("critical_force") ? "critical_force" : measures[0]);
+    const { bar, show } = colorBar();
+    const chooser = (key, label, options, chosen) => squama.dropdown({ id: key, "aria-label": label, onchange: (event) => { state[key] = event.target.value; squama.tell("view"); } }, options.map((one) => [one, squama.label(one)]), chosen());
+    const all = [["mapOf", "Column", measures, name], ["mapX", "Parameter across", choices, x], ["mapY", "Parameter upwards", choices, y]];
+    const [of, over, and] = all.map((one) => chooser(...one));
+    squama.listen("view", () => all.forEach(([key, , , chosen]) => { squama.at(key).value = chosen(); }));
+    maps("map", "Map: ", "Colours and contours; where contours crowd, a small change of a parameter changes much: a cliff. Struck through: the surface folds; grey: does not meet the requirements.", {
+      axes: () => [x(), y(), across()], name, scale: () => axisOf(name()), controls: [of, " over ", over, " and ", and, bar], shown: show,
+    });
   };
 
   const measures = squama.numeric.filter((name) => name !== "design" && !squama.axes.includes(name));
@@ -133,6 +185,7 @@
     if (stiffnesses.length > 0) scatter("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", () => stiffnesses.map((name) => [column("critical_force"), column(name)]));
     others.forEach(put);
     if (["coverage", "length_over_t", "gap_over_t", "slant_deg"].every((name) => squama.numeric.includes(name))) coverageMaps();
+    anyMap();
     const first4 = () => state.criteria.slice(0, 4);
     const pairs = () => first4().flatMap((a, i) => first4().slice(i + 1).map((b) => [a, b]));
     scatter("pareto", "Pareto fronts of two criteria", "In colour, on a line: designs that no other beats in both criteria, of those that meet the requirements.", pairs, { front: true });

@@ -101,12 +101,13 @@ squama.panel = (() => {
   };
 
   const marks = (context, panel, theme, spots) => {
-    for (const { row, x, y, fill, cell, ...style } of panel.marks) {
+    for (const { row, x, y, fill, cell, folded, ...style } of panel.marks) {
       if (!within(along(panel.x, x)) || !within(along(panel.y, y))) continue;
       const at = [across(panel, x), down(panel, y)];
       if (cell) {
         context.fillStyle = fill;
         context.fillRect(at[0] - cell[0] / 2, at[1] - cell[1] / 2, cell[0], cell[1]);
+        if (folded) stroke(context, theme.warning, 1.4, [[at[0] - cell[0] / 2, at[1] + cell[1] / 2], [at[0] + cell[0] / 2, at[1] - cell[1] / 2]]);
       } else {
         const { canvas, side } = stamp(style, theme);
         context.drawImage(canvas, at[0] - side / 2, at[1] - side / 2, side, side);
@@ -118,8 +119,9 @@ squama.panel = (() => {
   /** Draws a panel; adds to `spots` where each design stands. */
   const draw = (context, panel, theme, spots) => {
     frame(context, panel, theme);
-    lines(context, panel);
+    if (!panel.linesOnTop) lines(context, panel);
     marks(context, panel, theme, spots);
+    if (panel.linesOnTop) lines(context, panel);
   };
 
   /**
@@ -137,5 +139,5 @@ squama.panel = (() => {
     return { places, height: margin.top + rows * height + (rows - 1) * gaps[1] + margin.bottom };
   };
 
-  return { draw, grid };
+  return { along, draw, grid };
 })();

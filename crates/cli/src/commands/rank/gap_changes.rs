@@ -1,0 +1,142 @@
+//! How far the measures of the best designs move with their gaps, for people and for programs.
+
+use ranking::{Preferences, RankedDesign, Ranking, Requirement, Weights};
+use rayon::prelude::*;
+use results::Results;
+use results::columns::parameter_of;
+use run::{GapChange, MeasureChange};
+use serde_json::{Value, json};
+
+use crate::print::aligned;
+
+/// A measure that moves by this factor, or its inverse, where the gap moves by a tenth, stands at a cliff.
+const CLIFF: f64 = 1.5;
+/// Changes by this factor, or its inverse, are told as factors.
+const LARGE: f64 = 2.0;
+
+/// The changes of the best design by the weights, the best of those that are not folded, and the best by each criterion alone;
+/// none where the sweep is not at hand.
+pub fn gap_changes(results: &Results, ranking: &Ranking<'_>) -> Vec<GapChange> {
+    let Some(sweep) = results.definition() else { return Vec::new() };
+    let criteria = &ranking.preferences().criteria;
+    let columns = measured_columns(ranking.preferences());
+    let alone = Weights::alone_among(criteria.len()).map(|weights| ranking.winner(weights));
+    let best = [Some(ranking.winner(ranking.preferences().weights)), ranking.best_unfolded()];
+    let mut numbers: Vec<&str> = Vec::new();
+    for number in best.iter().flatten().chain(&alone.collect::<Vec<_>>()).map(RankedDesign::design)
+    {
+        if !numbers.contains(&number) {
+            numbers.push(number);
+        }
+    }
+    numbers.par_iter().filter_map(|number| GapChange::of(sweep, number, &columns)).collect()
+}
+
+/// The columns of the criteria and of the requirements that are measured, each once.
+fn measured_columns(preferences: &Preferences) -> Vec<&str> {
+    let criteria = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
+    let required = preferences.requirements.iter().map(|requirement| requirement.column.as_str());
+    let mut columns: Vec<&str> = Vec::new();
+    for column in criteria.chain(required) {
+        if parameter_of(column).is_none() && !columns.contains(&column) {
+            columns.push(column);
+        }
+    }
+    columns
+}
+
+/// A table of the changes, and a sentence for each design at a cliff and each requirement that is missed.
+pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -> String {
+    let Some(first) = changes.first().filter(|first| !first.measures.is_empty()) else {
+        return String::new();
+    };
+    let mut header = vec!["design".to_owned(), "gap_over_t".to_owned()];
+    header.extend(first.measures.iter().map(|measure| measure.column.clone()));
+    let row = |change: &GapChange| {
+        let cells = change.measures.iter().map(cell);
+        [change.design.clone(), change.gap.to_string()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = std::iter::once(header).chain(changes.iter().map(row)).collect();
+    let cliffs: String = changes.iter().flat_map(cliffs).collect();
+    let missed: String = changes.iter().flat_map(|change| missed(change, requirements)).collect();
+    let title = "Where the gap comes out 10 % smaller / 10 % larger";
+    format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
+}
+
+/// The changes for programs.
+pub fn gap_changes_record(changes: &[GapChange]) -> Vec<Value> {
+    let measure = |measure: &MeasureChange| {
+        let [smaller, larger] = measure.changed;
+        json!({ "column": measure.column, "value": measure.value, "gap_10_percent_smaller": smaller, "gap_10_percent_larger": larger })
+    };
+    let change = |change: &GapChange| {
+        let measures: Vec<_> = change.measures.iter().map(measure).collect();
+        json!({ "design": change.design, "gap_over_t": change.gap, "measures": measures })
+    };
+    changes.iter().map(change).collect()
+}
+
+/// Both changes of a measure.
+fn cell(measure: &MeasureChange) -> String {
+    let [smaller, larger] = measure.changed.map(|changed| words(measure.value, changed));
+    format!("{smaller} / {larger}")
+}
+
+/// A change in per cent, or where it is larger as a factor.
+fn words(value: f64, changed: Option<f64>) -> String {
+    let Some(changed) = changed else { return "no value".to_owned() };
+    let ratio = changed / value;
+    match ratio {
+        _ if (ratio - 1.0).abs() < 5e-4 => "as is".to_owned(),
+        _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
+        _ if ratio >= LARGE => format!("× {ratio:.1}"),
+        _ if ratio > 0.0 && ratio <= LARGE.recip() => format!("÷ {:.1}", ratio.recip()),
+        _ => format!("{:+.1} %", 100.0 * (ratio - 1.0)),
+    }
+}
+
+/// A sentence for each measure of a design at a cliff.
+fn cliffs(change: &GapChange) -> Vec<String> {
+    let sentence = |measure: &MeasureChange, side: &str, changed: Option<f64>| {
+        let ratio = changed? / measure.value;
+        let is_cliff = ratio.is_finite() && ratio > 0.0 && ratio.max(ratio.recip()) >= CLIFF;
+        let (design, column) = (&change.design, &measure.column);
+        let moved = moved(ratio);
+        is_cliff.then(|| {
+            format!(
+                "  {design} stands at a cliff: where its gap is 10 % {side}, {column} {moved}\n"
+            )
+        })
+    };
+    let both = |measure: &MeasureChange| {
+        let [smaller, larger] = measure.changed;
+        [sentence(measure, "smaller", smaller), sentence(measure, "larger", larger)]
+    };
+    change.measures.iter().flat_map(both).flatten().collect()
+}
+
+/// A sentence for each requirement that a design misses with another gap.
+fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
+    let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
+        let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
+        is_missed.then(|| {
+            format!("  {} misses {requirement} where its gap is 10 % {side}\n", change.design)
+        })
+    };
+    let both = |requirement: &Requirement| {
+        let measure = change.measures.iter().find(|measure| measure.column == requirement.column);
+        let [smaller, larger] = measure?.changed;
+        Some([sentence(requirement, "smaller", smaller), sentence(requirement, "larger", larger)])
+    };
+    requirements.iter().filter_map(both).flatten().flatten().collect()
+}
+
+/// How a measure moves by a factor, in words.
+fn moved(ratio: f64) -> String {
+    match ratio {
+        _ if ratio >= LARGE => format!("is {ratio:.1} times as large"),
+        _ if ratio >= 1.0 => format!("rises by {:.0} %", 100.0 * (ratio - 1.0)),
+        _ if ratio > LARGE.recip() => format!("falls by {:.0} %", 100.0 * (1.0 - ratio)),
+        _ => format!("falls to one part in {:.1}", ratio.recip()),
+    }
+}

@@ -1,0 +1,100 @@
+//! What a small change of a parameter changes: `squama rank` tells it of the best designs, `squama plot map` shows it.
+
+use serde_json::Value;
+
+use crate::{FEW, Place};
+
+/// Designs of which (0.1, 0.2, 60°) loses half of its critical force where its gap is a tenth larger.
+const STEEP: &str = "name = 'steep'\n[designs]\ngap_over_t = [0.1, 0.2, 0.4]\nlength_over_t = [0.1, 0.2]\nslant_deg = [45, 60, 75]\n";
+
+fn ranked(definition: &str, arguments: &str) -> (Place, String) {
+    let place = Place::with(definition);
+    place.squama("run x.toml -q").assert().code(0);
+    let printed = place.prints(&format!("rank x.toml {arguments}"));
+    (place, printed)
+}
+
+#[test]
+fn the_best_designs_are_solved_again_with_other_gaps() {
+    let (place, printed) = ranked(FEW, "--json");
+    let ranking: Value = serde_json::from_str(&printed).expect("JSON");
+    let changes = ranking["gap_changes"].as_array().expect("changes");
+    let best = [&ranking["best"][0], &ranking["best_by_one_criterion"][1]];
+    for winner in best {
+        let change = changes.iter().find(|change| change["design"] == winner["design"]);
+        let change = change.expect("changes of a winner");
+        assert_eq!(change["measures"].as_array().map(Vec::len), Some(4));
+        for (key, gap) in [("gap_10_percent_smaller", 0.09), ("gap_10_percent_larger", 0.11)] {
+            assert_eq!(change["gap_over_t"], 0.1);
+            let length = if winner["design"] == "0004" { 1.0 } else { 0.2 };
+            let solved = place.prints(&format!(
+                "design x.toml --gap {gap} --length {length} --slant 45 --json --out y"
+            ));
+            let solved: Value = serde_json::from_str(&solved).expect("JSON");
+            for measure in change["measures"].as_array().expect("measures") {
+                let column = measure["column"].as_str().expect("a column");
+                let [told, own] = [&measure[key], &solved["measures"][column]]
+                    .map(|v| v.as_f64().expect("a number"));
+                assert!((told / own - 1.0).abs() < 1e-9, "{column} at {gap}: {told} {own}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_cliff_is_told_in_words() {
+    let (_, printed) = ranked(
+        STEEP,
+        "--require length_over_t==0.2 --require slant_deg==60 --require gap_over_t==0.1",
+    );
+    let (_, told) = printed.split_once("Where the gap comes out").expect("changes");
+    let told = told.split("\n\n").next().expect("a part");
+    insta::assert_snapshot!(told);
+}
+
+#[test]
+fn without_a_definition_nothing_is_said_of_gaps() {
+    let (place, _) = ranked(FEW, "");
+    std::fs::create_dir(place.path("alone")).expect("a folder");
+    std::fs::copy(place.path("results/few/designs.csv"), place.path("alone/designs.csv"))
+        .expect("a table");
+    assert!(!place.prints("rank alone").contains("gap comes out"));
+}
+
+#[test]
+fn a_map_is_drawn_over_any_two_parameters() {
+    let (place, _) = ranked(STEEP, "");
+    let printed =
+        place.prints("plot map x.toml --x gap_over_t --y slant_deg --of critical_force --out y");
+    assert_eq!(printed, "y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg\n");
+    let map = place.read("y/map-of-critical-force-over-gap-over-t-and-slant-deg.svg");
+    // Two maps of nine designs, and the 60 steps of the scale of colours.
+    assert_eq!(map.matches("<g class=\"map\">").count(), 2);
+    assert_eq!(map.matches("<rect").count(), 2 * 9 + 2 + 60 + 1, "{map}");
+    assert!(map.contains("<g class=\"contours\""), "{map}");
+    let held = place.prints("plot map x.toml --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.2 --no-title --out y");
+    assert_eq!(held, "y/map-of-compliance-over-gap-over-t-and-slant-deg-length-over-t-0.2.svg\n");
+    let held = place.read(held.trim());
+    assert_eq!(
+        (held.matches("<g class=\"map\">").count(), held.matches("class=\"title\"").count()),
+        (1, 0)
+    );
+}
+
+#[test]
+fn a_map_that_makes_no_sense_is_refused() {
+    let (place, _) = ranked(STEEP, "");
+    let refused = [
+        "--x gap --y slant_deg --of critical_force",
+        "--x gap_over_t --y gap_over_t --of critical_force",
+        "--x gap_over_t --y width_over_t --of critical_force",
+        "--x gap_over_t --y slant_deg --of puncture_status",
+        "--x gap_over_t --y slant_deg --of compliance --at length_over_t",
+        "--x gap_over_t --y slant_deg --of compliance --at length_over_t=3",
+        "--x gap_over_t --y slant_deg --of compliance --dpi 0",
+    ];
+    let messages =
+        refused.map(|arguments| place.refused(&format!("plot map x.toml {arguments} --out y")));
+    insta::assert_snapshot!(messages.concat());
+    assert!(!place.path("y").exists(), "nothing is written");
+}

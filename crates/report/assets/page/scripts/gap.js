@@ -1,0 +1,38 @@
+"use strict";
+// How far the measures of a design move with its gap: known of designs that were solved again with a gap 10 % smaller and larger.
+
+squama.gap = (() => {
+  // A measure that moves by this factor where the gap moves by a tenth stands at a cliff.
+  const CLIFF = 1.5;
+  const LARGE = 2;
+
+  /** What is known of a row: `{ column, factors }` for the smaller and the larger gap. */
+  const known = (row) => squama.solved(row)?.gapFactors ?? [];
+
+  /** A factor in words. */
+  const words = (factor) => {
+    if (factor === null) return "no value";
+    if (Math.abs(factor - 1) < 5e-4) return "as is";
+    if (factor >= LARGE) return `× ${squama.short(Number(factor.toPrecision(2)))}`;
+    if (factor > 0 && factor <= 1 / LARGE) return `÷ ${squama.short(Number((1 / factor).toPrecision(2)))}`;
+    return `${factor < 1 ? "−" : "+"}${Math.abs(100 * (factor - 1)).toFixed(1)} %`;
+  };
+
+  const isSteep = (factor) => factor !== null && factor > 0 && Math.max(factor, 1 / factor) >= CLIFF;
+
+  /** Columns of a row in which it stands at a cliff. */
+  const cliffs = (row) => known(row).filter(({ factors }) => factors.some(isSteep)).map(({ column }) => column);
+
+  const both = (factors) => factors.map(words).join(" / ");
+
+  /** A sentence on the cliff at which a row stands; nothing if it stands at none. */
+  const warning = (row) => {
+    const steep = known(row).filter(({ factors }) => factors.some(isSteep));
+    return steep.length === 0 ? [] : [`This design stands at a cliff: where its gap comes out 10 % smaller / larger, ${steep.map(({ column, factors }) => `${squama.label(column)} changes by ${both(factors)}`).join(", ")}.`];
+  };
+
+  /** All that is known of a row, in one sentence. */
+  const sentence = (row) => `Where the gap of ${squama.number(row)} comes out 10 % smaller / larger: ${known(row).map(({ column, factors }) => `${squama.label(column)} ${both(factors)}`).join(", ")}.`;
+
+  return { known, both, cliffs, warning, sentence };
+})();

@@ -1,0 +1,92 @@
+//! Contours of values on a grid, by marching squares.
+
+/// A place on the grid: whole numbers at its nodes.
+type Place = [f64; 2];
+
+/// Returns the pieces of the line along which values on a grid of `size` nodes are `level`, straight within each square of four
+/// nodes; none in a square with a node that has no value.
+pub(super) fn contours(
+    size: [usize; 2],
+    value: &impl Fn(usize, usize) -> Option<f64>,
+    level: f64,
+) -> Vec<[Place; 2]> {
+    let squares = |i| (0..size[1].saturating_sub(1)).map(move |j| (i, j));
+    let squares = (0..size[0].saturating_sub(1)).flat_map(squares);
+    squares.flat_map(|(i, j)| square([i, j], value, level).unwrap_or_default()).collect()
+}
+
+/// Returns the pieces within one square.
+fn square(
+    [i, j]: [usize; 2],
+    value: &impl Fn(usize, usize) -> Option<f64>,
+    level: f64,
+) -> Option<Vec<[Place; 2]>> {
+    // Around the square, so that every edge joins a corner and the next.
+    let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+    let mut values = [0.0; 4];
+    for (own, [i, j]) in values.iter_mut().zip(corners) {
+        *own = value(i, j)?;
+    }
+    let edges = (0..4).filter_map(|k| {
+        let next = (k + 1) % 4;
+        let is_crossed = (values[k] < level) != (values[next] < level);
+        let part = (level - values[k]) / (values[next] - values[k]);
+        is_crossed.then(|| between(corners[k], corners[next], part))
+    });
+    let edges: Vec<Place> = edges.collect();
+    Some(match *edges.as_slice() {
+        [a, b] => vec![[a, b]],
+        [a, b, c, d] => {
+            // The middle tells which two corners belong together.
+            let middle = values.iter().sum::<f64>() / 4.0;
+            if (middle < level) == (values[0] < level) {
+                vec![[a, b], [c, d]]
+            } else {
+                vec![[d, a], [b, c]]
+            }
+        }
+        _ => vec![],
+    })
+}
+
+/// Returns the place on the way from one node to another.
+fn between(from: [usize; 2], to: [usize; 2], part: f64) -> Place {
+    [0, 1].map(|k| (1.0 - part) * from[k] as f64 + part * to[k] as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::contours;
+
+    #[test]
+    fn contours_of_a_plane_are_where_it_has_their_level() {
+        let plane = |i: usize, j: usize| Some(i as f64 + 2.0 * j as f64);
+        let pieces = contours([5, 4], &plane, 3.3);
+        assert!(pieces.len() >= 4);
+        for [x, y] in pieces.into_iter().flatten() {
+            assert!((x + 2.0 * y - 3.3).abs() < 1e-12, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn a_saddle_is_cut_on_the_side_of_its_middle() {
+        // High at two opposite corners, and in the middle or not.
+        let saddle = |high: f64| move |i: usize, j: usize| Some(if i == j { high } else { 0.0 });
+        for (high, cuts_off_the_low) in [(3.0, true), (1.5, false)] {
+            let pieces = contours([2, 2], &saddle(high), 1.0);
+            assert_eq!(pieces.len(), 2);
+            let [from, to] = pieces[0];
+            let near = |corner: [f64; 2]| {
+                [from, to].iter().all(|p| p[0] == corner[0] || p[1] == corner[1])
+            };
+            assert_eq!(near([1.0, 0.0]), cuts_off_the_low, "{pieces:?}");
+        }
+    }
+
+    #[test]
+    fn there_is_no_line_beside_a_node_without_value() {
+        let holed = |i: usize, j: usize| (i != 1 || j != 1).then_some(i as f64);
+        assert!(contours([3, 3], &holed, 0.5).is_empty());
+        assert!(contours([1, 3], &|_, j| Some(j as f64), 0.5).is_empty());
+    }
+}

@@ -1,0 +1,394 @@
+//! A column over two parameters: a map for each value of the others, with contours.
+
+use std::collections::HashMap;
+
+use results::columns::{explain_value, parameter_of};
+
+use super::contours::contours;
+use super::{COMPLIANCE, COVERAGE, FORCE, Figure, PENETRATION, columns, in_words, sheet};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, NAME};
+use crate::designs::{AxisValues, Designs};
+use crate::label::{Anchor, label, upright};
+use crate::palette::{FAINT, INK, RED, map_color};
+use crate::svg::{Element, line};
+
+const WIDTH: f64 = 1000.0;
+const LEFT: f64 = 74.0;
+const RIGHT: f64 = 118.0;
+const TOP: f64 = 74.0;
+const BETWEEN: [f64; 2] = [16.0, 34.0];
+/// Heights of a map: of several, and of one alone.
+const HEIGHTS: [f64; 2] = [200.0, 420.0];
+/// Maps of one figure, at most.
+const MAPS: usize = 24;
+/// Colours of the scale.
+const STEPS: u32 = 60;
+
+/// A map that is asked for: a column over two parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapRequest {
+    /// Parameter across, by its column.
+    pub x: String,
+    /// Parameter upwards, by its column.
+    pub y: String,
+    /// Column that is shown.
+    pub of: String,
+    /// Values that other parameters are held at, each by its column; of the rest there is a map for each value.
+    pub at: Vec<(String, String)>,
+}
+
+/// A map that cannot be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InvalidMap {
+    /// An axis is no parameter that varies.
+    #[error("{option} {found}: is no parameter that varies, expected one of {}", known.join(", "))]
+    NoAxis {
+        /// Option that names the axis.
+        option: &'static str,
+        /// Name that was given.
+        found: String,
+        /// Parameters that vary.
+        known: Vec<String>,
+    },
+    /// Both axes are the same.
+    #[error("--y {0}: is the axis across already, expected another parameter")]
+    Twice(String),
+    /// The column has no numbers.
+    #[error(
+        "--of {0}: there is no number in such a column, expected a column of numbers of designs.csv"
+    )]
+    NoNumbers(String),
+    /// No design has the values that are held.
+    #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]
+    NoValue {
+        /// What is held.
+        found: String,
+        /// What may be held.
+        known: Vec<String>,
+    },
+    /// There are too many maps.
+    #[error("{count} maps, one for each value of {}, expected at most {MAPS}: hold a parameter with --at, e.g. --at {example}", axes.join(" and "))]
+    TooMany {
+        /// Number of maps.
+        count: usize,
+        /// Parameters that are neither axes nor held.
+        axes: Vec<String>,
+        /// A value that one of them may be held at.
+        example: String,
+    },
+}
+
+/// Draws a column over two parameters, a map for each value of those that are neither axes nor held.
+///
+/// # Errors
+/// If an axis does not vary, the column has no numbers, no design has the values that are held, or there are too many maps.
+pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure, InvalidMap> {
+    let known = designs.varied();
+    for (option, axis) in [("--x", &request.x), ("--y", &request.y)] {
+        let is_axis = known.contains(&axis.as_str()) && designs.has(axis);
+        let numeric =
+            || known.iter().filter(|axis| designs.has(axis)).map(|axis| (*axis).to_owned());
+        let error =
+            || InvalidMap::NoAxis { option, found: axis.clone(), known: numeric().collect() };
+        is_axis.then_some(()).ok_or_else(error)?;
+    }
+    if request.x == request.y {
+        return Err(InvalidMap::Twice(request.y.clone()));
+    }
+    if !designs.has(&request.of) || request.of == "design" {
+        return Err(InvalidMap::NoNumbers(request.of.clone()));
+    }
+    let held = held(designs, &request.at)?;
+    let (x, y, of) = (request.x.as_str(), request.y.as_str(), request.of.as_str());
+    let parts = held.parts_by(&[x, y]);
+    if parts.len() > MAPS {
+        return Err(too_many(&parts));
+    }
+    let label = measure_label(of);
+    let scale = ChartAxis::fit(&label, held.numbers(of));
+    let subject = MapSubject { x, y, of, scale };
+    let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str()));
+    let at: AxisValues<'_> = at.collect();
+    let title = super::title(
+        &format!("{name}: {} over {} and {}", in_words(of), in_words(x), in_words(y)),
+        &at,
+    );
+    let file = format!("map-of-{of}-over-{x}-and-{y}").replace('_', "-");
+    Ok(Figure { name: super::file_name(&file, &at), svg: subject.figure(&title, &parts) })
+}
+
+/// Draws the coverage over gap and aspect ratio, a map for each slant.
+pub(super) fn coverage(name: &str, designs: &Designs) -> String {
+    let (x, y, of) = ("length_over_t", "gap_over_t", COVERAGE.column);
+    let scale = ChartAxis::exact(&format!("{}; white: none", COVERAGE.label), 0.0, 1.0);
+    let title = format!("{name}: coverage by gap, aspect ratio and slant");
+    MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
+}
+
+/// Returns the designs that have all values that are held.
+fn held(designs: &Designs, at: &[(String, String)]) -> Result<Designs, InvalidMap> {
+    let mut held = designs.clone();
+    for (axis, value) in at {
+        let rows: Vec<usize> =
+            (0..held.count()).filter(|&row| is_at(&held, axis, value, row)).collect();
+        if rows.is_empty() {
+            let known: Vec<&str> =
+                if designs.texts(axis).len() > 1 { vec![axis.as_str()] } else { designs.varied() };
+            let all = known.into_iter().flat_map(|axis| {
+                designs.texts(axis).into_iter().map(move |value| format!("{axis}={value}"))
+            });
+            return Err(InvalidMap::NoValue {
+                found: format!("{axis}={value}"),
+                known: all.collect(),
+            });
+        }
+        held = held.only(&rows);
+    }
+    Ok(held)
+}
+
+fn is_at(designs: &Designs, axis: &str, value: &str, row: usize) -> bool {
+    let number = || Some(designs.number(axis, row)? == value.parse::<f64>().ok()?);
+    designs.text(axis, row) == value || number() == Some(true)
+}
+
+fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
+    let first: &[(&str, &str)] = parts.first().map_or(&[], |(values, _)| values);
+    let axes = first.iter().map(|(axis, _)| (*axis).to_owned()).collect();
+    let example = first.first().map_or_else(String::new, |(axis, value)| format!("{axis}={value}"));
+    InvalidMap::TooMany { count: parts.len(), axes, example }
+}
+
+/// Returns the label of a column that is shown.
+fn measure_label(of: &str) -> String {
+    let known = [COVERAGE, FORCE, PENETRATION, COMPLIANCE].into_iter().find(|q| q.column == of);
+    let unit = explain_value(of).map_or("-", |(unit, _)| unit);
+    let unit = if unit == "-" { "dimensionless" } else { unit };
+    known.map_or_else(|| format!("{}, {unit}", in_words(of)), |quantity| quantity.label.to_owned())
+}
+
+/// Returns the label of a parameter, with its symbol where it has one.
+fn axis_label(axis: &str) -> String {
+    let symbol = match axis {
+        "gap_over_t" => "gap $d/t$",
+        "length_over_t" => "aspect ratio $L/t$",
+        "width_over_t" => "width $b/t$",
+        "slant_deg" => "slant $α$, degrees",
+        _ => return in_words(axis),
+    };
+    let unit = if axis.ends_with("_deg") { "" } else { ", dimensionless" };
+    format!("{symbol}{unit}")
+}
+
+/// Returns the value of a parameter as the title of a map has it.
+fn value_label((axis, value): &(&str, &str)) -> String {
+    match *axis {
+        "gap_over_t" => format!("$d/t$ = {value}"),
+        "length_over_t" => format!("$L/t$ = {value}"),
+        "slant_deg" => format!("$α$ = {value}°"),
+        axis => format!("{} = {value}", parameter_of(axis).map_or(axis.into(), |_| in_words(axis))),
+    }
+}
+
+/// What a map shows, over which parameters.
+struct MapSubject<'a> {
+    x: &'a str,
+    y: &'a str,
+    of: &'a str,
+    /// The scale of its colours.
+    scale: ChartAxis,
+}
+
+impl MapSubject<'_> {
+    fn figure(&self, title: &str, parts: &[(AxisValues<'_>, Designs)]) -> String {
+        let count = columns(parts.len());
+        let rows = parts.len().div_ceil(count);
+        let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (count - 1) as f64) / count as f64;
+        let height = HEIGHTS[usize::from(parts.len() == 1)];
+        let mut inside = Vec::new();
+        for (k, (values, designs)) in parts.iter().enumerate() {
+            let [column, row] = [(k % count) as f64, (k / count) as f64];
+            let (left, top) =
+                (LEFT + column * (width + BETWEEN[0]), TOP + row * (height + BETWEEN[1]));
+            let map = Map {
+                subject: self,
+                designs,
+                area: Area { left, top, width, height },
+                x: designs.values(self.x),
+                y: designs.values(self.y),
+            };
+            let title = values.iter().map(value_label).collect::<Vec<_>>().join(", ");
+            inside.extend(map.drawn(&title, k + count >= parts.len(), k % count == 0));
+        }
+        let bottom = TOP + rows as f64 * (height + BETWEEN[1]) - BETWEEN[1];
+        let middle = 0.5 * (LEFT + WIDTH - RIGHT);
+        let across = axis_label(self.x);
+        inside
+            .push(label(&across, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
+        let up = axis_label(self.y);
+        inside.push(upright(&up, [20.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
+        inside.push(self.bar(bottom - TOP));
+        if self.marks_folds() && parts.iter().any(|(_, part)| part.any_folded()) {
+            inside.push(label("struck through: the surface folds over, so that the force is not to be trusted", [LEFT, 46.0], 12.0, Anchor::Start).with("fill", INK));
+        }
+        sheet(WIDTH, bottom + 54.0, title, inside)
+    }
+
+    /// Whether the column depends on the substrate that may have folded over.
+    fn marks_folds(&self) -> bool {
+        self.of != COVERAGE.column
+    }
+
+    fn color(&self, value: f64) -> Option<String> {
+        if self.of == COVERAGE.column && value <= 0.0 {
+            return Some("#fff".to_owned());
+        }
+        self.scale.place(value).map(map_color)
+    }
+
+    /// Returns the places of the contours along the scale.
+    fn levels(&self) -> Vec<f64> {
+        let ticks = self.scale.ticks(6).into_iter().filter(|tick| tick.label.is_some());
+        ticks
+            .filter_map(|tick| self.scale.place(tick.value))
+            .filter(|place| (0.01..0.99).contains(place))
+            .collect()
+    }
+
+    /// Returns the scale of colours, with the values at which contours stand.
+    fn bar(&self, height: f64) -> Element {
+        let (left, width) = (WIDTH - RIGHT + 22.0, 16.0);
+        let step = height / f64::from(STEPS);
+        let cells = (0..STEPS).map(|k| {
+            Element::new("rect")
+                .at("x", left)
+                .at("y", TOP + height - f64::from(k + 1) * step)
+                .at("width", width)
+                .at("height", step + 0.3)
+                .with("fill", map_color((f64::from(k) + 0.5) / f64::from(STEPS)))
+        });
+        let ticks = self.scale.ticks(6).into_iter().filter_map(|tick| {
+            let y = TOP + height * (1.0 - self.scale.place(tick.value)?);
+            let text = label(&tick.label?, [left + width + 7.0, y + 4.0], 11.0, Anchor::Start);
+            Some([line([left, y], [left + width + 4.0, y], FAINT, 0.8), text.with("fill", INK)])
+        });
+        let name = upright(&self.scale.label, [WIDTH - 12.0, TOP + 0.5 * height], 12.0);
+        Element::group("scale")
+            .containing(cells)
+            .containing(ticks.flatten())
+            .containing([name.with("fill", INK)])
+    }
+}
+
+/// One map: a cell for each pair of values.
+struct Map<'a> {
+    subject: &'a MapSubject<'a>,
+    designs: &'a Designs,
+    area: Area,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl Map<'_> {
+    fn drawn(&self, title: &str, x_labels: bool, y_labels: bool) -> [Element; 3] {
+        let at = self.rows();
+        [self.cells(&at), self.contours(&at), self.frame(title, x_labels, y_labels)]
+    }
+
+    fn cell(&self) -> [f64; 2] {
+        [self.area.width / self.x.len() as f64, self.area.height / self.y.len() as f64]
+    }
+
+    /// Returns the row of the design in each cell.
+    fn rows(&self) -> HashMap<[usize; 2], usize> {
+        let position = |values: &[f64], column, row| {
+            let value = self.designs.number(column, row)?;
+            values.iter().position(|&other| other == value)
+        };
+        let cell = |row| {
+            Some((
+                [position(&self.x, self.subject.x, row)?, position(&self.y, self.subject.y, row)?],
+                row,
+            ))
+        };
+        (0..self.designs.count()).filter_map(cell).collect()
+    }
+
+    fn cells(&self, at: &HashMap<[usize; 2], usize>) -> Element {
+        let [width, height] = self.cell();
+        let mut map = Element::group("map");
+        // In one order, whatever the order of a hash map.
+        for (i, j) in (0..self.x.len()).flat_map(|i| (0..self.y.len()).map(move |j| (i, j))) {
+            let Some(&row) = at.get(&[i, j]) else { continue };
+            let value = self.designs.number(self.subject.of, row);
+            let Some(color) = value.and_then(|value| self.subject.color(value)) else { continue };
+            let [left, top] =
+                [self.area.left + i as f64 * width, self.area.bottom() - (j + 1) as f64 * height];
+            // A hair wider than its place, so that no seam shows.
+            map.add(
+                Element::new("rect")
+                    .at("x", left)
+                    .at("y", top)
+                    .at("width", width + 0.3)
+                    .at("height", height + 0.3)
+                    .with("fill", color),
+            );
+            if self.subject.marks_folds() && self.designs.folded(row) {
+                map.add(line([left, top + height], [left + width, top], RED, 1.4));
+            }
+        }
+        map
+    }
+
+    /// Returns the lines along which the column has the values of the ticks of its scale.
+    fn contours(&self, at: &HashMap<[usize; 2], usize>) -> Element {
+        let value = |i, j| {
+            let value = self.designs.number(self.subject.of, *at.get(&[i, j])?)?;
+            self.subject.scale.place(value)
+        };
+        let [width, height] = self.cell();
+        let place = |[i, j]: [f64; 2]| {
+            [self.area.left + (i + 0.5) * width, self.area.bottom() - (j + 0.5) * height]
+        };
+        let size = [self.x.len(), self.y.len()];
+        let lines =
+            self.subject.levels().into_iter().flat_map(|level| contours(size, &value, level));
+        let drawn = lines.flat_map(|[from, to]| {
+            // Dark on light and light on dark.
+            [("#fff", 2.8), (INK, 1.4)]
+                .map(|(color, width)| line(place(from), place(to), color, width))
+        });
+        Element::group("contours").with("stroke-linecap", "round").containing(drawn)
+    }
+
+    fn frame(&self, title: &str, x_labels: bool, y_labels: bool) -> Element {
+        let Area { left, top, width, height } = self.area;
+        let border = Element::new("rect")
+            .at("x", left)
+            .at("y", top)
+            .at("width", width)
+            .at("height", height)
+            .with("fill", "none")
+            .with("stroke", FAINT);
+        let title = label(title, [left + 0.5 * width, top - 7.0], 12.0, Anchor::Middle);
+        let mut frame = Element::group("frame").containing([border, title.with("fill", INK)]);
+        let [w, h] = self.cell();
+        if x_labels {
+            // Every label has room for five characters.
+            let every = (34.0 / w).ceil() as usize;
+            for (i, value) in self.x.iter().enumerate().step_by(every.max(1)) {
+                let spot = [left + (i as f64 + 0.5) * w, top + height + 15.0];
+                frame.add(label(&value.to_string(), spot, 11.0, Anchor::Middle).with("fill", INK));
+            }
+        }
+        if y_labels {
+            let every = (15.0 / h).ceil() as usize;
+            for (j, value) in self.y.iter().enumerate().step_by(every.max(1)) {
+                let spot = [left - 6.0, top + height - (j as f64 + 0.5) * h + 4.0];
+                frame.add(label(&value.to_string(), spot, 11.0, Anchor::End).with("fill", INK));
+            }
+        }
+        frame
+    }
+}

@@ -1,0 +1,194 @@
+//! Figures of tolerances: a histogram of samples, and where a spread comes from.
+
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel};
+use crate::figures::{in_words, sheet};
+use crate::label::{Anchor, label, width};
+use crate::palette::{INK, RED, map_color};
+use crate::svg::{Element, line};
+
+const WIDTH: f64 = 760.0;
+const HISTOGRAM_HEIGHT: f64 = 420.0;
+
+/// Bars of a histogram, at least and at most.
+const BARS: [usize; 2] = [8, 40];
+
+/// The samples of a measure, with the value as drawn and the bounds that samples must keep.
+#[derive(Clone, Copy, Debug)]
+pub struct Histogram<'a> {
+    /// Name of the design.
+    pub name: &'a str,
+    /// The measure with its unit.
+    pub measure: &'a str,
+    /// The samples, at least one.
+    pub values: &'a [f64],
+    /// The value of the design as it is drawn.
+    pub drawn: Option<f64>,
+    /// The bounds, each with its text.
+    pub bounds: &'a [(String, f64)],
+}
+
+impl Histogram<'_> {
+    /// Draws the histogram: a bar for each range of values, a red line for each bound, a dark one for the value as drawn.
+    pub fn svg(&self) -> String {
+        let shown = self.values.iter().copied().chain(self.drawn);
+        let shown: Vec<f64> = shown.chain(self.bounds.iter().map(|(_, at)| *at)).collect();
+        let low = shown.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = shown.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let x = ChartAxis::linear(&in_words(self.measure), low, high);
+        let bars = self.bars();
+        let y = ChartAxis::spanning("samples", bars.iter().map(|(.., count)| *count));
+        let height = HISTOGRAM_HEIGHT - 150.0;
+        let area = Area { left: 74.0, top: 90.0, width: WIDTH - 110.0, height };
+        let title = String::new();
+        let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
+        let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(52.0)];
+        inside.extend(bars.iter().filter_map(|bar| Self::bar(&panel, *bar)));
+        inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
+        let bounds = self.bounds.iter().enumerate();
+        inside.extend(
+            bounds.filter_map(|(k, (text, at))| {
+                marked(&panel, text, *at, RED, 14.0 * (k + 1) as f64)
+            }),
+        );
+        let title = format!("{}: {} samples", self.name, self.values.len());
+        sheet(WIDTH, HISTOGRAM_HEIGHT, &title, inside)
+    }
+
+    /// The bars, each from one value to another, with its count.
+    fn bars(&self) -> Vec<(f64, f64, f64)> {
+        let low = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = self.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let count = ((self.values.len() as f64).sqrt() as usize).clamp(BARS[0], BARS[1]);
+        let step = (high - low) / count as f64;
+        let mut counts = vec![0.0; count];
+        for value in self.values {
+            // A division by zero, where all values are equal, is the first bar.
+            let bar = ((value - low) / step) as usize;
+            counts[bar.min(count - 1)] += 1.0;
+        }
+        let bar = |(k, count)| (low + k as f64 * step, low + (k + 1) as f64 * step, count);
+        counts.into_iter().enumerate().map(bar).collect()
+    }
+
+    fn bar(panel: &ChartPanel<'_>, (from, to, count): (f64, f64, f64)) -> Option<Element> {
+        let ([left, top], [right, bottom]) = (panel.place(from, count)?, panel.place(to, 0.0)?);
+        let bar = Element::new("rect").at("x", left).at("y", top);
+        let wide = (right - left - 1.0).max(1.0);
+        Some(bar.at("width", wide).at("height", bottom - top).with("fill", map_color(0.45)))
+    }
+}
+
+/// A line across the panel at a value, with its text above.
+fn marked(
+    panel: &ChartPanel<'_>,
+    text: &str,
+    at: f64,
+    color: &'static str,
+    above: f64,
+) -> Option<Element> {
+    let [x, bottom] = panel.place(at, 0.0)?;
+    let top = panel.area.top;
+    let is_right = x > panel.area.center()[0];
+    let anchor = if is_right { Anchor::End } else { Anchor::Start };
+    let text = label(&in_words(text), [x, top - 8.0 - above], 12.0, anchor).with("fill", color);
+    Some(
+        Element::group("mark")
+            .containing([line([x, top - 4.0 - above], [x, bottom], color, 1.6), text]),
+    )
+}
+
+/// A measure with the shares of its sources, each by its name.
+pub type Shares = (String, Vec<(String, f64)>);
+
+const ROW: f64 = 30.0;
+const NAMES: f64 = 230.0;
+
+/// Draws a bar for each measure, in the parts that its sources have in its variance.
+pub fn share_bars(name: &str, measures: &[Shares]) -> String {
+    let mut sources: Vec<&str> = Vec::new();
+    for (source, _) in measures.iter().flat_map(|(_, shares)| shares) {
+        if !sources.contains(&source.as_str()) {
+            sources.push(source);
+        }
+    }
+    let mut inside: Vec<Element> =
+        sources.iter().enumerate().flat_map(|(k, source)| legend(k, source, &sources)).collect();
+    let top = 62.0 + 18.0 * sources.len().div_ceil(2) as f64;
+    for (row, (measure, shares)) in measures.iter().enumerate() {
+        let y = top + ROW * row as f64;
+        let name = label(&in_words(measure), [NAMES - 8.0, y + 16.0], 12.0, Anchor::End);
+        inside.push(name.with("fill", INK));
+        inside.extend(parts(shares, &sources, y));
+    }
+    let title = format!("{name}: where the spread comes from, share of the variance");
+    sheet(WIDTH, top + ROW * measures.len() as f64 + 16.0, &title, inside)
+}
+
+/// The colour of source `k` and its name.
+fn legend(k: usize, source: &str, sources: &[&str]) -> [Element; 2] {
+    let [x, y] = [24.0 + 360.0 * (k % 2) as f64, 50.0 + 18.0 * (k / 2) as f64];
+    let name = label(&in_words(source), [x + 18.0, y + 2.0], 12.0, Anchor::Start);
+    [block([x, y - 9.0], [12.0, 12.0], &color(k, sources)), name.with("fill", INK)]
+}
+
+fn color(k: usize, sources: &[&str]) -> String {
+    map_color((k as f64 + 0.5) / sources.len() as f64)
+}
+
+/// The parts of one bar, from the left.
+fn parts(shares: &[(String, f64)], sources: &[&str], y: f64) -> Vec<Element> {
+    let full = WIDTH - NAMES - 24.0;
+    let (mut left, mut drawn) = (NAMES, Vec::new());
+    for (k, source) in sources.iter().enumerate() {
+        let share = shares.iter().find(|(of, _)| of == source).map_or(0.0, |(_, share)| *share);
+        let wide = full * share;
+        drawn.push(block([left, y], [wide, ROW - 8.0], &color(k, sources)));
+        let text = format!("{:.0} %", 100.0 * share);
+        if width(&text, 12.0) + 8.0 < wide {
+            drawn.push(on_bar(&text, [left + 0.5 * wide, y + 15.0]));
+        }
+        left += wide;
+    }
+    drawn
+}
+
+fn block([x, y]: [f64; 2], [wide, high]: [f64; 2], color: &str) -> Element {
+    let block = Element::new("rect").at("x", x).at("y", y).at("width", wide).at("height", high);
+    block.with("fill", color).with("stroke", "#fff").at("stroke-width", 0.8)
+}
+
+/// A text that can be read on a bar of any colour.
+fn on_bar(text: &str, at: [f64; 2]) -> Element {
+    let text = label(text, at, 12.0, Anchor::Middle).with("fill", INK);
+    text.with("stroke", "#fff").at("stroke-width", 3.0).with("paint-order", "stroke")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sample_stands_in_one_bar() {
+        let all = |values: &[f64]| {
+            let histogram = Histogram { name: "x", measure: "y", values, drawn: None, bounds: &[] };
+            histogram.bars()
+        };
+        let values: Vec<f64> = (0..100).map(|k| f64::from(k).sqrt()).collect();
+        let bars = all(&values);
+        assert_eq!((bars.len(), bars.iter().map(|(.., count)| count).sum::<f64>()), (10, 100.0));
+        // Of 0 to √99, those up to a tenth are 0 alone.
+        assert_eq!((bars[0].0, bars[0].2), (0.0, 1.0));
+        let equal = all(&[2.0; 3]);
+        assert_eq!(equal.iter().map(|(.., count)| count).sum::<f64>(), 3.0);
+    }
+
+    #[test]
+    fn shares_fill_their_bar() {
+        let shares = vec![("gap_mm".to_owned(), 0.75), ("slant_deg".to_owned(), 0.25)];
+        let svg = share_bars("x", &[("force".to_owned(), shares)]);
+        for text in ["75 %", "25 %", "gap mm", "slant deg"] {
+            assert!(svg.contains(text), "{text}: {svg}");
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! How far the measures of a design move with its gap, found by solving it again.
+
+use results::columns::design_columns;
+use results::{Cell, Column, DesignRow};
+use skin::Imperfection;
+use substrate::Coupling;
+use sweep::{Case, Measure, Sweep};
+
+use crate::solve::evaluator::Evaluator;
+use crate::solve::work::work_of;
+
+/// The gap of a design that comes out smaller and larger, over the gap that was meant.
+const PARTS: [f64; 2] = [0.9, 1.1];
+
+/// The paths that a design may take, in puncture and bending: more would have people wait.
+const MOST_WORK: u64 = 500;
+
+/// The measures of one design where its gap is 10 % smaller and 10 % larger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GapChange {
+    /// The number of the design.
+    pub design: String,
+    /// The gap over the thickness that was meant.
+    pub gap: f64,
+    /// The measures, in the order of the columns that were asked for.
+    pub measures: Vec<MeasureChange>,
+}
+
+/// One measure of a design where its gap is 10 % smaller and 10 % larger.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasureChange {
+    /// The column of the measure.
+    pub column: String,
+    /// The measure of the design as it is meant.
+    pub value: f64,
+    /// The measure with the smaller and with the larger gap; `None` where it has no value.
+    pub changed: [Option<f64>; 2],
+}
+
+impl GapChange {
+    /// The changes of the measures in `columns` of design `number` of `sweep`; columns without a number are left out. `None` if
+    /// there is no such design, or solving it again would take long. Samples of imperfect rows are not solved.
+    pub fn of(sweep: &Sweep, number: &str, columns: &[&str]) -> Option<Self> {
+        let grid = sweep.grid();
+        let index = grid.parse_number(number).ok()?;
+        let mut case = grid.case(index);
+        case.imperfection = Imperfection::default();
+        is_quick(sweep, &case).then_some(())?;
+        let meant = case.design.gap;
+        let evaluator = Evaluator::new(&without_derivatives(sweep));
+        let solved = [1.0, PARTS[0], PARTS[1]].map(|part| {
+            let mut case = case;
+            case.design.gap = part * meant;
+            evaluator.solve(grid.number(index), &case).row
+        });
+        let known = design_columns(sweep);
+        let column = |name: &&str| known.iter().find(|column| column.name == **name);
+        let measures = columns.iter().filter_map(column).filter_map(|one| measure(one, &solved));
+        Some(Self { design: number.to_owned(), gap: meant, measures: measures.collect() })
+    }
+}
+
+fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<MeasureChange> {
+    let [value, smaller, larger] = solved.each_ref().map(|row| match column.cell(row) {
+        Cell::Number(number) => Some(number),
+        // A count in a table, far below 2^53.
+        Cell::Count(count) => Some(count as f64),
+        Cell::Empty | Cell::Text(_) => None,
+    });
+    Some(MeasureChange {
+        column: column.name.to_string(),
+        value: value?,
+        changed: [smaller, larger],
+    })
+}
+
+fn without_derivatives(sweep: &Sweep) -> Vec<Measure> {
+    sweep.measures().iter().copied().filter(|measure| *measure != Measure::Sensitivity).collect()
+}
+
+/// Whether a design is solved in milliseconds: full coupling calibrates its substrate for much longer.
+fn is_quick(sweep: &Sweep, case: &Case) -> bool {
+    case.coupling == Coupling::Nearest && work_of(case, sweep.measures()) <= MOST_WORK
+}
