@@ -33,13 +33,17 @@ pub fn contact_curvature(
     design: &Design,
     parameters: &FlexureParameters,
 ) -> Result<Option<f64>, OutOfRange> {
-    let row = design.row()?;
+    Ok(row_contact_curvature(&design.row()?, parameters))
+}
+
+/// As [`contact_curvature`], of a row, whose scales may lean the other way.
+pub(super) fn row_contact_curvature(row: &Row, parameters: &FlexureParameters) -> Option<f64> {
     let gap = BareGap {
-        row: &row,
+        row,
         pair: Pair::new(*row.scale(), row.pitch()),
         offset: parameters.membrane_axis_offset,
     };
-    Ok(gap.closing_rotation().map(|rotation| rotation / row.pitch()))
+    gap.closing_rotation().map(|rotation| rotation / row.pitch())
 }
 
 /// A gap whose membrane carries no force.

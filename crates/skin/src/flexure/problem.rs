@@ -6,7 +6,7 @@ use membrane::{Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
-use super::first_touch::contact_curvature;
+use super::first_touch::row_contact_curvature;
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
@@ -100,8 +100,8 @@ impl<'a> FlexureProblem<'a> {
         solved: usize,
     ) -> Result<Self, OutOfRange> {
         let modulus = parameters.contact_modulus_over_membrane;
-        let contact_curvature = match row {
-            Arrangement::Even(_) => contact_curvature(design, parameters)?,
+        let contact_curvature = match &row {
+            Arrangement::Even(row) => row_contact_curvature(row, parameters),
             Arrangement::Uneven(_) => None,
         };
         Ok(Self {
