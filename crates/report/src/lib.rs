@@ -8,6 +8,7 @@
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | figures of a sweep, from its table |
+//! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`], [`GapFactors`] | figures, ranking, table and drawings on one HTML page |
@@ -55,7 +56,7 @@ pub use designs::Designs;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
-pub use figures::{Figure, InvalidMap, MapRequest, figures, map};
+pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
 pub use page::{Fact, GapFactors, Page, PageDesign};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
