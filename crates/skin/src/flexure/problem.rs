@@ -6,7 +6,7 @@ use membrane::{Section, Span};
 use solver::{Path, Stop};
 
 use super::accuracy::change;
-use super::first_touch::row_contact_curvature;
+use super::first_touch::contact_curvature;
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
