@@ -12,6 +12,7 @@ mod figure_output;
 mod init;
 mod man;
 mod merge;
+mod optimise;
 mod partial;
 mod plot;
 mod rank;
@@ -38,6 +39,7 @@ pub use figure_output::FigureOutput;
 pub use init::InitArguments;
 pub use man::ManArguments;
 pub use merge::MergeArguments;
+pub use optimise::OptimiseArguments;
 pub use partial::Partial;
 pub use plot::{CurvesArguments, MapArguments, PlotArguments, PlotWhat};
 pub use rank::RankArguments;
@@ -104,6 +106,9 @@ pub enum Command {
     Sensitivity(SensitivityArguments),
     /// Find the best designs of a run: by weights, for all weights, and without any
     Rank(RankArguments),
+    /// Find the best designs between the grid points, as a goal asks for them
+    #[command(visible_alias = "optimize")]
+    Optimise(OptimiseArguments),
     /// Say where two runs differ, and by how much
     Compare(CompareArguments),
     /// Draw designs to scale: at rest, punctured, bent

@@ -52,6 +52,7 @@ fn main() -> ExitCode {
         Command::Tolerance(arguments) => commands::tolerance(&arguments, &interrupt),
         Command::Sensitivity(arguments) => commands::sensitivity(&arguments, &interrupt),
         Command::Rank(arguments) => commands::rank(&arguments),
+        Command::Optimise(arguments) => commands::optimise(&arguments, &interrupt),
         Command::Compare(arguments) => commands::compare(&arguments),
         Command::Draw(arguments) => commands::draw(&arguments),
         Command::Plot(arguments) => commands::plot(&arguments),

@@ -45,9 +45,13 @@ impl Unmet {
     ) -> Result<Self, InvalidResults> {
         let filter = RequirementFilter::new(results, requirements)?;
         let rows = (0..results.len()).map(|row| filter.values(row));
-        let values: Vec<Vec<Option<f64>>> = rows.collect::<Result<_, _>>()?;
+        Ok(Self::of_values(&rows.collect::<Result<Vec<_>, _>>()?, requirements))
+    }
+
+    /// The obstacle to the requirements among designs with these `values` in their columns, none of which meets them together.
+    pub fn of_values(values: &[Vec<Option<f64>>], requirements: &[Requirement]) -> Self {
         let sizes: Vec<f64> =
-            requirements.iter().enumerate().map(|(k, r)| size(&values, k, r)).collect();
+            requirements.iter().enumerate().map(|(k, r)| size(values, k, r)).collect();
         let shortfalls = |row: &Vec<Option<f64>>| -> Vec<f64> {
             let one = |(k, value): (usize, &Option<f64>)| {
                 value.map_or(f64::INFINITY, |value| requirements[k].shortfall(value, sizes[k]))
@@ -64,7 +68,7 @@ impl Unmet {
             shortfall: nearest.map_or(f64::INFINITY, |row| all[row][k]),
         };
         let requirements = requirements.iter().enumerate().map(report).collect();
-        Ok(Self { requirements, nearest })
+        Self { requirements, nearest }
     }
 }
 

@@ -5,10 +5,13 @@ mod map;
 mod multiples;
 mod pareto;
 mod quaternary;
+mod search;
 mod stiffness;
 mod weight_slices;
 
 use ranking::Ranking;
+
+pub use search::{SearchFigure, SearchedDesign};
 
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, plain};

@@ -9,6 +9,7 @@
 //! | [`curves()`] | paths of solved designs |
 //! | [`figures()`] | figures of a sweep, from its table |
 //! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
+//! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`], [`GapFactors`] | figures, ranking, table and drawings on one HTML page |
@@ -57,7 +58,7 @@ pub use designs::Designs;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
-pub use figures::{Figure, InvalidMap, MapRequest, figures, map};
+pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
 pub use page::{Fact, GapFactors, Page, PageDesign};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]

@@ -14,7 +14,7 @@ mod values;
 
 use std::borrow::Borrow;
 
-use sweep::{Axis, Parameter, Sweep};
+use sweep::{Axis, Measure, Parameter, Sweep};
 
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
@@ -50,6 +50,14 @@ fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
     let value = measured_value(name).map(|value| (value.unit, value.meaning));
     value.or_else(|| explain_tilt_value(name)).or_else(|| explain_physical(name))
+}
+
+/// The measure that the column `name` belongs to; `None` if it is one of parameters, or of how designs were solved.
+pub fn measure_of(name: &str) -> Option<Measure> {
+    let source = physical_source(name).map_or(name, |(source, _)| source);
+    let tables = measured_value(source)?.tables;
+    let of = |(table, measure): &(&str, Measure)| tables.contains(table).then_some(*measure);
+    MEASURE_TABLES.iter().find_map(of)
 }
 
 /// The layout of a table: the name of its file, and its columns.

@@ -1,6 +1,7 @@
 //! A solved design: how it ended, what it measured, what failed.
 
 pub mod design_result;
+pub mod extrapolated;
 pub mod failure;
 pub mod outcome;
 pub mod parameter_derivative;

@@ -13,6 +13,7 @@
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
+//! | [`SlopeSide`] | which of two one-sided derivatives a neighbouring row is extrapolated by |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
@@ -64,6 +65,7 @@ pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
 pub use design::design_result::{DesignResult, FlexureResult, PunctureResult, SEPARATOR};
+pub use design::extrapolated::SlopeSide;
 pub use design::failure::{Failure, PathEnd, finite};
 pub use design::outcome::Outcome;
 pub use design::parameter_derivative::ParameterDerivative;

@@ -34,7 +34,8 @@ pub use archive::{Archive, LatestSession};
 pub use entry::{JournalEntry, SessionStart};
 pub use error::JournalError;
 pub use header::JournalHeader;
-pub(crate) use seal::{Line, Seal};
+pub(crate) use seal::Line;
+pub use seal::Seal;
 
 use results::{OutputError, RunFolder, sync_folder};
 

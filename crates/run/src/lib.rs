@@ -16,6 +16,7 @@
 //! | [`Evaluator`] | solves one design |
 //! | [`WorkMeter`] | how much of the work is done, within designs too |
 //! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
+//! | [`Seal`] | the checksums that make the lines of one journal differ from those of others |
 //! | [`Archive`] | a journal that was read |
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
 //! | [`RunStatus`] | how far a run is |
@@ -72,7 +73,8 @@ pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use gap_change::{GapChange, MeasureChange};
 pub use journal::{
-    Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, SessionStart, Start,
+    Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, Seal, SessionStart,
+    Start,
 };
 pub use merge::{MergeError, Merged, merge};
 pub use options::{Options, Program};

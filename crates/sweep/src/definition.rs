@@ -14,6 +14,7 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+use crate::case::Case;
 use crate::deviation::Deviation;
 use crate::grid::Grid;
 use crate::parameter::Scalar;
@@ -41,11 +42,7 @@ impl Sweep {
     /// # Errors
     /// If the file cannot be read or does not define a sweep; all that is wrong with it is told at once.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let file = path.display().to_string();
-        match read_text(path) {
-            Ok(text) => Self::parse(&text, &file, settings),
-            Err(reason) => Err(InvalidDefinition::Unreadable { file, reason }),
-        }
+        Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
     }
 
     /// The sweep that `text`, from the file `name`, defines once `settings` are put in its place.
@@ -53,12 +50,16 @@ impl Sweep {
     /// # Errors
     /// If the text does not define a sweep.
     pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        let mut table = definition_of(toml_source::parse(text, name)?);
-        for setting in settings {
-            setting.apply(&mut table);
-        }
+        Self::of_entries(&entries(text, name, settings)?, name)
+    }
+
+    /// The sweep that keys and values of the file `name` define.
+    ///
+    /// # Errors
+    /// If they do not define a sweep.
+    pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         let mut reader = Reader::default();
-        for entry in &table {
+        for entry in entries {
             reader.entry(entry);
         }
         reader.finish(&Place::File { name: name.into(), line: None })
@@ -104,6 +105,13 @@ impl Sweep {
         Self { grid: self.grid.only(index), ..self.clone() }
     }
 
+    /// The sweep with the one design that has the values of `case` on every axis, whether or not they are among those of the axis.
+    /// It has no variables.
+    #[must_use]
+    pub fn at(&self, case: &Case) -> Self {
+        Self { grid: self.grid.at(case), variables: Vec::new(), ..self.clone() }
+    }
+
     /// Whether any of its designs is solved with imperfections too.
     pub fn is_imperfect(&self) -> bool {
         let largest = |key: &str| {
@@ -143,6 +151,34 @@ impl Sweep {
 
 /// Bytes of a definition, at most: a million values of an axis take a third of them.
 const LONGEST: u64 = 1 << 26;
+
+/// The keys and values of the definition in the file at `path` once `settings` are put in its place.
+///
+/// # Errors
+/// If the file cannot be read or is no TOML.
+pub fn read_entries(path: &Path, settings: &[Setting]) -> Result<KeyValues, InvalidDefinition> {
+    let file = path.display().to_string();
+    match read_text(path) {
+        Ok(text) => entries(&text, &file, settings),
+        Err(reason) => Err(InvalidDefinition::Unreadable { file, reason }),
+    }
+}
+
+/// The keys and values of the definition `text`, from the file `name`, once `settings` are put in its place.
+///
+/// # Errors
+/// If the text is no TOML.
+pub fn entries(
+    text: &str,
+    name: &str,
+    settings: &[Setting],
+) -> Result<KeyValues, InvalidDefinition> {
+    let mut table = definition_of(toml_source::parse(text, name)?);
+    for setting in settings {
+        setting.apply(&mut table);
+    }
+    Ok(table)
+}
 
 /// The text of the file at `path`, which may be a pipe but not an endless one.
 fn read_text(path: &Path) -> Result<String, String> {

@@ -140,8 +140,12 @@ impl Grid {
 
     /// The grid of design `index` alone.
     pub(crate) fn only(&self, index: u64) -> Self {
-        let case = self.case(index);
-        let fix = |axis: &Axis| Axis::list(axis.parameter, vec![axis.parameter.get(&case)]);
+        self.at(&self.case(index))
+    }
+
+    /// The grid of the one design that has the values of `case` on every axis.
+    pub(crate) fn at(&self, case: &Case) -> Self {
+        let fix = |axis: &Axis| Axis::list(axis.parameter, vec![axis.parameter.get(case)]);
         Self { axes: self.axes.iter().map(fix).collect(), base: self.base, count: 1 }
     }
 

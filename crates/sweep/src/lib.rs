@@ -54,11 +54,11 @@ mod variable;
 mod visible;
 
 pub use case::{Case, Samples};
-pub use definition::Sweep;
 pub use definition::invalid::{InvalidDefinition, Problem, reason};
 pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;
+pub use definition::{Sweep, entries, read_entries};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use material::Material;

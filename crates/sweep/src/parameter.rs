@@ -269,24 +269,33 @@ impl Parameter {
         is_number && CONTINUOUS.contains(&self.section)
     }
 
+    /// The case in which this parameter has a value that [`Self::read`] gave, or the number that it takes.
+    pub fn put(&self, case: &Case, value: Scalar) -> Case {
+        let mut changed = *case;
+        self.set(&mut changed, value);
+        changed
+    }
+
     /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
-    /// number.
+    /// number, or not given.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
-        let (ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. }) =
-            &self.kind
-        else {
-            return None;
-        };
         let mut moved = *case;
-        *field(&mut moved) += by;
+        match &self.kind {
+            ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
+                *field(&mut moved) += by;
+            }
+            ParameterKind::OptionalNumber { field, .. } => *field(&mut moved).as_mut()? += by,
+            _ => return None,
+        }
         Some(moved)
     }
 
     /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
-    /// is smaller. `None` if the parameter is no number.
+    /// is smaller. `None` if the parameter is no number, or not given.
     pub fn size(&self, case: &Case) -> Option<f64> {
-        let (ParameterKind::Number { range, .. } | ParameterKind::SignedNumber { size: range, .. }) =
-            &self.kind
+        let (ParameterKind::Number { range, .. }
+        | ParameterKind::SignedNumber { size: range, .. }
+        | ParameterKind::OptionalNumber { range, .. }) = &self.kind
         else {
             return None;
         };

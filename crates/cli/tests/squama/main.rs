@@ -13,6 +13,7 @@ mod imperfections;
 mod json;
 mod kills;
 mod materials;
+mod optimising;
 mod output;
 mod process;
 mod rankings;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use optimisation::{DesignGoal, history_columns, optimum_columns};
 use ranking::{
     Preferences, comparison_columns, difference_columns, pareto_columns, quaternary_columns,
     ranking_columns, winner_columns,
@@ -19,6 +20,11 @@ use sweep::{PARAMETERS, Sweep};
 /// The sweep that `text` defines.
 fn sweep(text: &str) -> Sweep {
     Sweep::parse(text, "x.toml", &[]).expect("a valid sweep")
+}
+
+/// The goal that `text` holds.
+fn goal(text: &str) -> DesignGoal {
+    DesignGoal::parse(text, "x.toml", &[]).expect("a goal")
 }
 
 fn root() -> &'static Path {
@@ -59,6 +65,11 @@ fn the_guide_to_the_results_explains_every_column() {
     let in_physical_units = &physical[imperfect.len()..];
     let several = design_columns(&sweep("name = 'x'\npuncture.critical_tilt_deg = [5, 10]"));
     let at_tilts = &several[design_columns(&sweep("name = 'x'")).len()..];
+    let (best, known) =
+        (optimum_columns(&sweep("name = 'x'")), design_columns(&sweep("name = 'x'")).len());
+    let history = history_columns(&goal(
+        "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'",
+    ));
     let expected = [
         ("`designs.csv`", columns(&design_columns(&sweep("name = 'x'")))),
         ("`designs.csv`, with imperfections in addition", columns(with_imperfections)),
@@ -87,6 +98,14 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`pareto.csv`", columns(&pareto_columns(geometry, &paper))),
         ("`winners.csv`", columns(&winner_columns(geometry, &paper))),
         ("`quaternary.csv`", columns(&quaternary_columns(geometry, &paper))),
+        (
+            "`optimum.csv` and `front.csv`, after the columns of `designs.csv`",
+            columns(&best[known..]),
+        ),
+        (
+            "`history.csv`, between `stage` and `shortfall` the variables and the objectives",
+            columns(&history),
+        ),
         ("`compare.csv`", columns(comparison_columns())),
         ("`differences.csv`", columns(&difference_columns(geometry))),
     ];
@@ -124,4 +143,6 @@ fn the_other_sweeps_are_what_they_say() {
     assert_eq!(read("sweeps/imperfection.toml").grid().len(), 18);
     assert!(read("sweeps/imperfection.toml").is_imperfect());
     assert!(!read("sweeps/paper.toml").is_imperfect());
+    let strong = DesignGoal::read(&root().join("sweeps/goals/strong-and-covered.toml"), &[]);
+    assert_eq!(strong.expect("a goal").space.intervals().len(), 3);
 }

@@ -28,15 +28,20 @@ pub(crate) enum Line {
 /// The seal that makes the lines of one journal differ from those of others: the checksums of all lines but
 /// the first cover the first line too, so a line of another journal is as good as damaged.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Seal {
+pub struct Seal {
     hasher: crc32fast::Hasher,
 }
 
 impl Seal {
     /// The seal of the journals with that header, whatever part of the designs they hold.
-    pub fn of(header: &JournalHeader) -> Self {
+    pub(crate) fn of(header: &JournalHeader) -> Self {
+        Self::over(&[&header.definition_sha256, &header.version, &header.revision])
+    }
+
+    /// The seal of the journals whose first line says `texts`.
+    pub fn over(texts: &[&str]) -> Self {
         let mut hasher = crc32fast::Hasher::new();
-        for text in [&header.definition_sha256, &header.version, &header.revision] {
+        for text in texts {
             hasher.update(text.as_bytes());
         }
         Self { hasher }
@@ -49,15 +54,23 @@ impl Seal {
     }
 
     /// The bytes of `line`, its end included.
-    pub fn write(&self, line: &Line) -> Vec<u8> {
+    pub(crate) fn write(&self, line: &Line) -> Vec<u8> {
+        self.seal(line)
+    }
+
+    /// The bytes of a line that holds `content`, a struct or a map, its end included.
+    pub fn seal(&self, content: &impl Serialize) -> Vec<u8> {
         // Text, numbers and lists of them always have a form in JSON.
-        let object = serde_json::to_vec(line).unwrap_or_default();
+        let object = serde_json::to_vec(content).unwrap_or_default();
         let content = object.get(1..).unwrap_or_default();
         [BEFORE, self.checksum(content).as_bytes(), AFTER, content, b"\n"].concat()
     }
 
     /// The JSON object that `bytes`, with the end of the line, hold, once their checksum is
     /// verified. An end of CR LF is an end too: tools that synchronise files write it.
+    ///
+    /// # Errors
+    /// If the line has no end, or its checksum does not match.
     pub fn open<'b>(&self, bytes: &'b mut [u8]) -> Result<&'b [u8], String> {
         let [content @ .., b'\n'] = bytes else {
             return Err("it has no end".to_owned());
@@ -79,7 +92,7 @@ impl Seal {
     }
 
     /// The line that `bytes`, with the end of the line, hold.
-    pub fn read(&self, bytes: &mut [u8]) -> Result<Line, String> {
+    pub(crate) fn read(&self, bytes: &mut [u8]) -> Result<Line, String> {
         Line::parse(self.open(bytes)?)
     }
 }

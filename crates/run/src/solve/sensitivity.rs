@@ -6,7 +6,7 @@ use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
 use skin::{Derivative, Neighbours, Variation};
 use substrate::{OneSided, RowStiffness, StiffnessSlopes};
-use sweep::{Case, PARAMETERS, Parameter};
+use sweep::{Case, Measure, PARAMETERS, Parameter};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
 pub(super) const STEP: f64 = 2e-6;
@@ -14,9 +14,9 @@ pub(super) const STEP: f64 = 2e-6;
 /// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
 const MESH: &str = "the mesh of the substrate is graded by another length";
 
-/// A parameter with the sections of the definition that a measure depends on.
-fn parameters(sections: &[&str]) -> Vec<&'static Parameter> {
-    let belongs = |p: &&Parameter| p.is_continuous() && sections.contains(&p.section);
+/// The continuous parameters that a measure depends on.
+fn parameters(of: Measure) -> Vec<&'static Parameter> {
+    let belongs = |p: &&Parameter| p.is_continuous() && of.sections().contains(&p.section);
     PARAMETERS.iter().filter(belongs).collect()
 }
 
@@ -25,7 +25,7 @@ pub(super) fn puncture(
     case: &Case,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = parameters(&["designs", "scale", "substrate", "contact", "puncture"]);
+    let parameters = parameters(Measure::Puncture);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
@@ -36,7 +36,7 @@ pub(super) fn puncture(
 
 /// Bends the design of `case`, and differentiates its measures.
 pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
-    let mut parameters = parameters(&["designs", "scale", "contact", "flexure"]);
+    let mut parameters = parameters(Measure::Flexure);
     // The length of a strip does not count where its gaps do.
     parameters.retain(|p| p.key != "membrane_length_over_t" || case.flexure.gaps.is_none());
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: None };
@@ -49,7 +49,7 @@ pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>)
 /// The derivatives of the coverage of `case`.
 pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     let Ok(row) = case.design.row() else { return Vec::new() };
-    let parameters = parameters(&["designs"]);
+    let parameters = parameters(Measure::Coverage);
     let half_base = case.design.half_base() / case.design.length;
     let shift = row.scale().slant().cos().powi(-2) * 1.0_f64.to_radians();
     let derivative = |(parameter, key): (usize, &str)| {

@@ -38,6 +38,16 @@ impl Measure {
         }
     }
 
+    /// The sections of the definition whose continuous parameters the values of the measure depend on.
+    pub fn sections(self) -> &'static [&'static str] {
+        match self {
+            Self::Coverage => &["designs"],
+            Self::Puncture => &["designs", "scale", "substrate", "contact", "puncture"],
+            Self::Flexure => &["designs", "scale", "contact", "flexure"],
+            Self::Sensitivity => &[],
+        }
+    }
+
     /// The measures of the list `value`, or of the one word.
     pub(crate) fn read_list(value: &Value) -> Result<Vec<Self>, Problem> {
         let items = match value {

@@ -199,6 +199,16 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
     let folder = results.folder().display();
     let all = designs(results.len());
     let mut text = format!("{folder}: none of {all} meets all requirements\n");
+    let _ = write!(text, "\n{}", obstacle(unmet));
+    if let Some(row) = unmet.nearest {
+        let table = [shown_columns(results, preferences), shown_cells(results, preferences, row)];
+        let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&table));
+    }
+    text
+}
+
+/// How far the nearest design is from each requirement, and which of them stands in the way.
+pub fn obstacle(unmet: &Unmet) -> String {
     let mut rows =
         vec![["requirement", "met by", "without it", "nearest has", "short by"].map(str::to_owned)];
     rows.extend(unmet.requirements.iter().map(|requirement| {
@@ -214,12 +224,7 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
             short,
         ]
     }));
-    let _ = write!(text, "\n{}\n{}", aligned(&rows), binding(unmet));
-    if let Some(row) = unmet.nearest {
-        let table = [shown_columns(results, preferences), shown_cells(results, preferences, row)];
-        let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&table));
-    }
-    text
+    format!("{}\n{}", aligned(&rows), binding(unmet))
 }
 
 /// Which requirement stands in the way.

@@ -1,0 +1,59 @@
+//! Arguments of `squama optimise`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::Format;
+
+/// Arguments of `squama optimise`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama optimise sweeps/goals/strong-and-covered.toml
+  squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
+  squama optimise glove.toml --set goal.seed=1 --fresh
+  squama optimise glove.toml --resume
+
+A goal is a sweep definition with two sections more: [variables] has parameters between two numbers, as
+gap_over_t = { from = 0.1, to = 1 }, or lists of values; [goal] has maximize or minimize (one column gives
+an optimum, two to four a front) and require, bounds that columns must keep. What is not a variable has one
+value. Designs that fail are left out and counted; so are those whose surface has folded, unless sound = false.
+samples = 1024 designs fill the space first, points = 30 stand on a front, seed = 0 shifts the samples.
+Writes optimum.csv and optimum.toml, which is the definition of the best design, or front.csv; history.csv
+with every design that was looked at; and evaluations.jsonl, from which --resume goes on. Nothing depends on
+the number of threads.
+Exit code: 0 done, 1 no design meets the requirements, 2 bad input or disk, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
+pub struct OptimiseArguments {
+    /// Goal in TOML
+    #[arg(value_name = "GOAL.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the goal, e.g. goal.seed=1 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Folder of the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Go on with the results that are there, if there are any
+    #[arg(long, conflicts_with = "fresh")]
+    pub resume: bool,
+
+    /// Throw away the results that are there, if there are any
+    #[arg(long)]
+    pub fresh: bool,
+
+    /// Threads [default: all cores]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub format: Format,
+}

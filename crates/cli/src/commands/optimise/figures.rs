@@ -1,0 +1,66 @@
+//! The figures of a search.
+
+use optimisation::{Answer, BestDesign, DesignGoal, Found, Verdict};
+use ranking::Goal;
+use report::{Figure, SearchFigure, SearchedDesign};
+
+/// How the search went, and the front if it found one.
+pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
+    let mut figures = vec![history(goal, found)];
+    if let Answer::Front(front) = &found.answer {
+        figures.push(self::front(goal, found, front));
+    }
+    figures
+}
+
+/// Every design with the values of two of its numbers.
+fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
+    let design = |(index, candidate): (usize, &optimisation::Candidate)| match &candidate.verdict {
+        Verdict::Judged(worth) => {
+            Some(SearchedDesign { place: place(index, &worth.objectives), met: worth.met })
+        }
+        _ => None,
+    };
+    found.history.iter().enumerate().filter_map(design).collect()
+}
+
+/// The first objective of every design, and the best so far.
+fn history(goal: &DesignGoal, found: &Found) -> Figure {
+    let designs = designs(found, |index, objectives| [(index + 1) as f64, objectives[0]]);
+    let sign = if goal.objectives[0].goal == Goal::Maximize { 1.0 } else { -1.0 };
+    let mut line: Vec<[f64; 2]> = Vec::new();
+    for design in designs.iter().filter(|design| design.met) {
+        if line.last().is_none_or(|best| sign * design.place[1] > sign * best[1]) {
+            line.push(design.place);
+        }
+    }
+    let title = format!("{}: the search", goal.name());
+    let figure = SearchFigure {
+        title: &title,
+        axes: ["evaluation", &goal.objectives[0].column],
+        designs: &designs,
+        line: &line,
+        legend: "the best so far",
+    };
+    Figure { name: "history".to_owned(), svg: figure.svg() }
+}
+
+/// The first two objectives of every design, and the front.
+fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
+    let pair = |objectives: &[f64]| [objectives[0], objectives[1]];
+    let designs = designs(found, |_, objectives| pair(objectives));
+    let place = |best: &BestDesign| match &best.candidate.verdict {
+        Verdict::Judged(worth) => Some(pair(&worth.objectives)),
+        _ => None,
+    };
+    let line: Vec<[f64; 2]> = front.iter().filter_map(place).collect();
+    let title = format!("{}: the front", goal.name());
+    let figure = SearchFigure {
+        title: &title,
+        axes: [&goal.objectives[0].column, &goal.objectives[1].column],
+        designs: &designs,
+        line: &line,
+        legend: "designs that no other beats",
+    };
+    Figure { name: "front".to_owned(), svg: figure.svg() }
+}

@@ -1,0 +1,79 @@
+//! What `squama optimise` prints as JSON.
+
+use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Verdict, Words};
+use ranking::Requirement;
+use results::columns::design_columns;
+use serde_json::{Map, Value, json};
+
+use super::report::unmet;
+use crate::json;
+
+/// What a search found.
+pub fn record(goal: &DesignGoal, found: &Found) -> Value {
+    let words = Words::new(goal);
+    let left_out = &found.left_out;
+    let failed = left_out.failed.iter().map(|(why, count)| (why.to_string(), json!(count)));
+    let mut record = json!({
+        "goal": goal.name(),
+        "designs": found.history.len(),
+        "failed": failed.collect::<Map<_, _>>(),
+        "folded": left_out.folded,
+    });
+    let (key, answer) = match &found.answer {
+        Answer::Optimum(best) => ("optimum", design(goal, &words, best)),
+        Answer::Front(front) => {
+            ("front", front.iter().map(|best| design(goal, &words, best)).collect())
+        }
+        Answer::Infeasible(nearest) => ("infeasible", infeasible(goal, &words, found, *nearest)),
+    };
+    record[key] = answer;
+    record
+}
+
+fn variables(goal: &DesignGoal, candidate: &Candidate) -> Map<String, Value> {
+    let case = goal.space.case(&candidate.point);
+    let variables = goal.space.parameters();
+    variables.map(|p| (p.key.to_owned(), json::scalar(p.get(&case)))).collect()
+}
+
+fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
+    let columns = design_columns(goal.space.sweep());
+    let measures = columns.iter().filter(|column| column.name != "design");
+    let measures = measures.map(|c| (c.name.to_string(), json::cell(&c.cell(&best.row))));
+    let binding = |binding: &optimisation::Binding| {
+        json!({
+            "limit": words.limit(&binding.limit, &best.target),
+            "multiplier": binding.price,
+            "price": words.price(binding, &best.target),
+        })
+    };
+    json!({
+        "variables": variables(goal, &best.candidate),
+        "values": measures.collect::<Map<_, _>>(),
+        "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
+    })
+}
+
+fn infeasible(
+    goal: &DesignGoal,
+    words: &Words<'_>,
+    found: &Found,
+    nearest: Option<usize>,
+) -> Value {
+    let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
+    let unmet = unmet(found, &requirements);
+    let requirement = |r: &ranking::UnmetRequirement| {
+        json!({
+            "requirement": r.requirement.to_string(),
+            "met": r.met,
+            "met_without": r.met_without,
+            "nearest": r.nearest,
+        })
+    };
+    let nearest = nearest.map(|index| &found.history[index]);
+    let is_judged = |c: &&Candidate| matches!(c.verdict, Verdict::Judged(_));
+    json!({
+        "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
+        "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),
+    })
+}

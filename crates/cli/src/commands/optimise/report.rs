@@ -1,0 +1,135 @@
+//! The text that `squama optimise` prints.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Verdict, Words};
+use ranking::{Requirement, Unmet};
+use results::columns::Cell;
+
+use super::super::rank::obstacle;
+use crate::print::{aligned, counted, digits, rounded, time};
+
+/// What a search found, for people.
+pub struct SearchReport<'a> {
+    pub goal: &'a DesignGoal,
+    pub found: &'a Found,
+}
+
+impl SearchReport<'_> {
+    pub fn text(&self, duration: Duration, threads: usize) -> String {
+        let mut text = format!(
+            "{}: {} looked at in {} on {}\n{}",
+            self.goal.name(),
+            counted(self.found.history.len() as u64, "design"),
+            time(duration),
+            counted(threads as u64, "thread"),
+            self.left_out()
+        );
+        let answer = match &self.found.answer {
+            Answer::Optimum(best) => self.optimum(best),
+            Answer::Front(front) => self.front(front),
+            Answer::Infeasible(nearest) => self.infeasible(*nearest),
+        };
+        let _ = write!(text, "\n{answer}");
+        text
+    }
+
+    /// How many designs could not be counted on, and why.
+    fn left_out(&self) -> String {
+        let left_out = &self.found.left_out;
+        let mut rows: Vec<[String; 2]> = Vec::new();
+        let row = |count: usize, why: String| [format!("{count} left out"), why];
+        rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, why.to_string())));
+        rows.extend(left_out.missing.iter().map(|(column, n)| row(*n, format!("no {column}"))));
+        if left_out.folded > 0 {
+            rows.push(row(left_out.folded, "their surface has folded".to_owned()));
+        }
+        aligned(&rows)
+    }
+
+    fn optimum(&self, best: &BestDesign) -> String {
+        let words = Words::new(self.goal);
+        let mut rows: Vec<[String; 2]> = self.variables(&best.candidate);
+        rows.extend(self.values(best));
+        let mut text = format!("The best design\n{}", aligned(&rows));
+        if !best.bindings.is_empty() {
+            let bindings = best.bindings.iter();
+            let row = |binding: &optimisation::Binding| {
+                let price = words.price(binding, &best.target);
+                [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
+            };
+            let rows: Vec<_> = bindings.map(row).collect();
+            let _ = write!(text, "\nIt cannot be better because of\n{}", aligned(&rows));
+        }
+        text
+    }
+
+    fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
+        let case = self.goal.space.case(&candidate.point);
+        let value = |parameter: &sweep::Parameter| match Cell::from(parameter.get(&case)) {
+            Cell::Number(number) => rounded(number),
+            cell => cell.to_string(),
+        };
+        self.goal.space.parameters().map(|p| [p.key.to_owned(), value(p)]).collect()
+    }
+
+    /// Objectives and required columns, each once.
+    fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
+        let Verdict::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
+        let objectives = self.goal.objectives.iter().map(|o| o.column.to_string());
+        let required = self.goal.requirements.iter().map(|r| r.column.clone());
+        let values = worth.objectives.iter().chain(&worth.required);
+        let mut rows: Vec<[String; 2]> = Vec::new();
+        for (column, value) in objectives.chain(required).zip(values) {
+            let is_variable = self.goal.space.parameters().any(|p| p.key == column);
+            if !is_variable && !rows.iter().any(|[known, _]| *known == column) {
+                rows.push([column, digits(*value)]);
+            }
+        }
+        rows
+    }
+
+    fn front(&self, front: &[BestDesign]) -> String {
+        let words = Words::new(self.goal);
+        let title = format!("Beaten by no other: {}\n", counted(front.len() as u64, "design"));
+        let Some(first) = front.first() else { return title };
+        let named =
+            |best: &BestDesign| [self.variables(&best.candidate), self.values(best)].concat();
+        let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
+        header.push("price".to_owned());
+        let mut rows = vec![header];
+        rows.extend(front.iter().map(|best| {
+            let mut row: Vec<String> = named(best).into_iter().map(|[_, value]| value).collect();
+            let floors = best
+                .bindings
+                .iter()
+                .filter(|binding| matches!(binding.limit, optimisation::Limit::Floor(_)));
+            let prices: Vec<_> = floors.filter_map(|b| words.price(b, &best.target)).collect();
+            row.push(prices.join("; "));
+            row
+        }));
+        title + &aligned(&rows)
+    }
+
+    fn infeasible(&self, nearest: Option<usize>) -> String {
+        let words = Words::new(self.goal);
+        let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
+        let unmet = unmet(self.found, &requirements);
+        let mut text = format!("No design meets all requirements\n{}", obstacle(&unmet));
+        if let Some(nearest) = nearest {
+            let rows = self.variables(&self.found.history[nearest]);
+            let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&rows));
+        }
+        text
+    }
+}
+
+/// The obstacle to the requirements among all designs that were looked at.
+pub fn unmet(found: &Found, requirements: &[Requirement]) -> Unmet {
+    let values = |candidate: &Candidate| match &candidate.verdict {
+        Verdict::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
+        _ => vec![None; requirements.len()],
+    };
+    Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), requirements)
+}

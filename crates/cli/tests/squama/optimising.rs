@@ -1,0 +1,132 @@
+//! `squama optimise`: goals, what is printed and written, and bad goals.
+
+use crate::Place;
+
+/// A goal that needs no mechanics.
+const GOAL: &str = "name = 'light'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+    slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[material]\nthickness_mm = 1\n\
+    scale_density_kg_m3 = 1000\n[goal]\nminimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nsamples = 64\n";
+
+#[test]
+fn the_optimum_is_a_design_like_any_other() {
+    let place = Place::with(GOAL);
+    let text = place.prints("optimise x.toml --threads 1");
+    let (_, answer) = text.split_once("\n\n").expect("an answer");
+    insta::assert_snapshot!(answer, @"
+    The best design
+      gap_over_t        0.866025
+      slant_deg         60
+      areal_mass_kg_m2  0.53590
+      coverage          0.50000
+
+    It cannot be better because of
+      coverage >= 0.5                0.01 more coverage adds 0.00497 kg/m^2 of areal_mass_kg_m2
+      slant_deg at its upper end 60  1 more slant_deg would gain 0.01 kg/m^2 of areal_mass_kg_m2
+
+    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
+    ");
+    let design = place.prints("design results/light/optimum.toml --design 1");
+    assert!(design.contains("0.866025"), "{design}");
+    // The goal that was kept is the goal.
+    place.squama("optimise results/light/goal.toml --out again").assert().code(0);
+    for file in ["optimum.csv", "history.csv"] {
+        assert_eq!(
+            place.read(&format!("again/{file}")),
+            place.read(&format!("results/light/{file}"))
+        );
+    }
+}
+
+#[test]
+fn tables_do_not_depend_on_threads_or_interruptions() {
+    let place =
+        Place::with(&GOAL.replace("'coverage >= 0.5'", "[]\nmaximize = 'coverage'\npoints = 5"));
+    place.squama("optimise x.toml --threads 1 --out one").assert().code(0);
+    place.squama("optimise x.toml --threads 3 --out three").assert().code(0);
+    let journal = place.read("three/evaluations.jsonl");
+    std::fs::write(place.path("three/evaluations.jsonl"), &journal[..journal.len() / 2])
+        .expect("writable");
+    assert!(place.refused("optimise x.toml --out three").contains("--resume to go on"));
+    place.squama("optimise x.toml --threads 2 --out three --resume").assert().code(0);
+    for file in ["front.csv", "history.csv", "goal.toml", "front.svg", "history.svg"] {
+        assert_eq!(
+            place.read(&format!("one/{file}")),
+            place.read(&format!("three/{file}")),
+            "{file}"
+        );
+    }
+    let different = place.refused("optimise x.toml --set goal.seed=1 --out three --resume");
+    assert!(different.contains("of another goal"), "{different}");
+}
+
+#[test]
+fn an_answer_for_programs() {
+    let place = Place::with(GOAL);
+    let text = place.prints("optimise x.toml --json");
+    let record: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let best = &record["optimum"];
+    assert_eq!(best["variables"]["slant_deg"], 60.0);
+    assert_eq!(best["binding"][0]["limit"], "coverage >= 0.5");
+    let infeasible = "optimise x.toml --json --out y --set goal.require=['coverage>=0.9','areal_mass_kg_m2<=0.8']";
+    let output = place.squama(infeasible).assert().code(1).get_output().stdout.clone();
+    let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    assert_eq!(record["infeasible"]["requirements"][0]["met"], 0);
+}
+
+#[test]
+fn bad_goals_are_one_line() {
+    let message = |from: &str, to: &str| {
+        assert!(GOAL.contains(from), "{from}");
+        let place = Place::with(&GOAL.replace(from, to));
+        let message = place.refused("optimise x.toml");
+        assert_eq!(place.list("."), "x.toml", "nothing is written");
+        message
+    };
+    let messages = [
+        (
+            "[variables]\ngap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }",
+            "[variables]",
+        ),
+        ("{ from = 0.1, to = 1 }", "{ from = 1, to = 0.1 }"),
+        ("{ from = 0.1, to = 1 }", "{ from = 0.1, to = 1, step = 0.1 }"),
+        ("{ from = 0.1, to = 1 }", "{ from = -0.1, to = 1 }"),
+        ("{ from = 0.1, to = 1 }", "0.3"),
+        ("gap_over_t =", "gap ="),
+        (
+            "[designs]",
+            "max_step = { from = 0.1, to = 1 }
+[designs]",
+        ),
+        ("[designs]\n", "[designs]\nslant_deg = 30\n"),
+        ("length_over_t = 1\n", ""),
+        ("length_over_t = 1\n", "length_over_t = [0.5, 1]\n"),
+        ("minimize = 'areal_mass_kg_m2'\n", ""),
+        ("'areal_mass_kg_m2'", "'areal_mas_kg_m2'"),
+        ("'areal_mass_kg_m2'", "'critical_force'"),
+        ("'coverage >= 0.5'", "'coverage = 0.5'"),
+        ("'coverage >= 0.5'", "'coverage == 0.5'"),
+        ("'coverage >= 0.5'", "['coverage >= 0.5', 'coverage <= 0.4']"),
+        ("'coverage >= 0.5'", "'gap_over_t >= 2'"),
+        ("samples = 64", "samples = 1"),
+        ("samples = 64", "sample = 64"),
+        ("samples = 64", "sound = 'no'"),
+    ];
+    let messages = messages.map(|(from, to)| message(from, to));
+    insta::assert_snapshot!(messages.concat());
+}
+
+#[test]
+fn what_can_not_be_compared_is_no_objective() {
+    let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\nmax_end_rotation_deg = { from = 30, to = 90 }\n\
+        [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'compliance'\n";
+    let place = Place::with(text);
+    insta::assert_snapshot!(place.refused("optimise x.toml"), @"error: x.toml:9: goal.maximize: an objective with max_end_rotation_deg as a variable is not accepted, expected values that can be compared between designs");
+}
+
+#[test]
+fn a_folder_of_a_run_is_left_alone() {
+    let place = Place::with(crate::FEW);
+    place.squama("run x.toml --out r -q --set measures=coverage").assert().code(0);
+    std::fs::write(place.path("g.toml"), GOAL).expect("writable");
+    insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run, expected another folder");
+}

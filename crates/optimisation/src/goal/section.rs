@@ -1,0 +1,150 @@
+//! The section `[goal]`: objectives, requirements, and how much is searched.
+
+use ranking::{Criterion, Goal, Requirement};
+use sweep::toml_source::{KeyValue, Place, Value};
+use sweep::{InvalidDefinition, nearest};
+
+use super::MOST_OBJECTIVES;
+use super::reader::{not_accepted, unknown};
+
+/// Keys of the section.
+const KEYS: [&str; 7] = ["maximize", "minimize", "require", "sound", "samples", "points", "seed"];
+
+/// A requirement, and where it is written.
+pub(super) struct PlacedRequirement {
+    pub requirement: Requirement,
+    pub place: Place,
+}
+
+/// An objective, and where it is written.
+pub(super) struct PlacedObjective {
+    pub criterion: Criterion,
+    pub place: Place,
+}
+
+/// The section as it is understood so far.
+pub(super) struct GoalSection {
+    pub objectives: Vec<PlacedObjective>,
+    pub requirements: Vec<PlacedRequirement>,
+    pub sound: bool,
+    pub samples: usize,
+    pub points: usize,
+    pub seed: u64,
+}
+
+impl Default for GoalSection {
+    fn default() -> Self {
+        Self {
+            objectives: Vec::new(),
+            requirements: Vec::new(),
+            sound: true,
+            samples: 1024,
+            points: 30,
+            seed: 0,
+        }
+    }
+}
+
+impl GoalSection {
+    /// Understands one key.
+    pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        match entry.key.as_str() {
+            "maximize" => self.objectives(entry, Goal::Maximize),
+            "minimize" => self.objectives(entry, Goal::Minimize),
+            "require" => self.requirements(entry),
+            "sound" => {
+                self.sound = switch(entry)?;
+                Ok(())
+            }
+            "samples" => {
+                self.samples = count(entry, 2, 10_000_000)?;
+                Ok(())
+            }
+            "points" => {
+                self.points = count(entry, 2, 1000)?;
+                Ok(())
+            }
+            "seed" => {
+                self.seed = count(entry, 0, 1_000_000_000)? as u64;
+                Ok(())
+            }
+            key => {
+                let hint = match nearest(key, &KEYS) {
+                    Some(near) => format!("did you mean goal.{near}?"),
+                    None => format!("expected one of {}", KEYS.join(", ")),
+                };
+                Err(unknown(&entry.place, &format!("goal.{key}"), &entry.value, hint))
+            }
+        }
+    }
+
+    fn objectives(&mut self, entry: &KeyValue, goal: Goal) -> Result<(), InvalidDefinition> {
+        for column in texts(entry, "a column, e.g. \"critical_force\"")? {
+            let criterion = Criterion::new(column, goal);
+            let key = format!("goal.{}", entry.key);
+            if self.objectives.iter().any(|other| other.criterion.column == criterion.column) {
+                let expected = "each column as one objective".to_owned();
+                return Err(not_accepted(&entry.place, &key, column, expected));
+            }
+            self.objectives.push(PlacedObjective { criterion, place: entry.place.clone() });
+        }
+        if self.objectives.len() > MOST_OBJECTIVES {
+            let expected = format!("at most {MOST_OBJECTIVES} objectives");
+            let found = format!("{} objectives", self.objectives.len());
+            return Err(not_accepted(&entry.place, "goal.maximize", &found, expected));
+        }
+        Ok(())
+    }
+
+    fn requirements(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        for text in texts(entry, "a requirement, e.g. \"coverage >= 0.5\"")? {
+            let expected = "COLUMN OP NUMBER, OP being >=, <=, > or <, e.g. \"coverage >= 0.5\"; a parameter that is to have one value is fixed in its section";
+            let requirement: Requirement = text
+                .parse()
+                .ok()
+                .filter(|read: &Requirement| read.relation != ranking::Relation::Equal)
+                .ok_or_else(|| {
+                    not_accepted(&entry.place, "goal.require", text, expected.to_owned())
+                })?;
+            self.requirements.push(PlacedRequirement { requirement, place: entry.place.clone() });
+        }
+        Ok(())
+    }
+}
+
+/// The texts of a list, or the one text.
+fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
+    let key = format!("goal.{}", entry.key);
+    let items = match &entry.value {
+        Value::List(items) => items.as_slice(),
+        value => std::slice::from_ref(value),
+    };
+    let text = |item: &'v Value| match item {
+        Value::Text(text) => Ok(text.as_str()),
+        other => Err(not_accepted(&entry.place, &key, &other.to_string(), what.to_owned())),
+    };
+    items.iter().map(text).collect()
+}
+
+fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
+    match &entry.value {
+        Value::Other(text) if text == "true" => Ok(true),
+        Value::Other(text) if text == "false" => Ok(false),
+        value => {
+            let key = format!("goal.{}", entry.key);
+            Err(not_accepted(&entry.place, &key, &value.to_string(), "true or false".to_owned()))
+        }
+    }
+}
+
+fn count(entry: &KeyValue, low: usize, high: usize) -> Result<usize, InvalidDefinition> {
+    let read = match &entry.value {
+        Value::Number(text) => text.parse().ok().filter(|count| (low..=high).contains(count)),
+        _ => None,
+    };
+    read.ok_or_else(|| {
+        let expected = format!("a whole number from {low} to {high}");
+        let key = format!("goal.{}", entry.key);
+        not_accepted(&entry.place, &key, &entry.value.to_string(), expected)
+    })
+}

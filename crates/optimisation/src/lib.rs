@@ -1,0 +1,50 @@
+//! Optimisation: the best designs between the points of a grid.
+//!
+//! A goal names variables, objectives and requirements. Points that fill the space of the variables are solved first; the best of
+//! them are improved along the exact derivatives of every measure, and, where those end at kinks, by a direct search that converges
+//! there. Several objectives give a front. What binds at a best design, and what it costs, comes from the multipliers.
+//!
+//! ```text
+//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ polish ─► Found: optimum or front, bindings, history
+//!                                └─ Evaluations: each point once, kept in a journal ─┘
+//! ```
+//!
+//! | Type | Role |
+//! |---|---|
+//! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
+//! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
+//! | [`Judge`], [`Verdict`], [`Worth`] | what a design is worth by the goal |
+//! | [`optimise`], [`SearchOptions`] | the search |
+//! | [`Found`], [`Answer`], [`BestDesign`], [`LeftOutDesigns`] | what it found |
+//! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
+//! | [`write_found`] | writes the tables of what was found |
+//! | [`Words`] | what binds and what it costs, in words |
+//! | [`Binding`], [`Limit`] | what keeps a design from being better, and its price |
+
+mod candidate;
+mod error;
+mod evaluations;
+mod front;
+mod goal;
+mod judge;
+mod local;
+mod price;
+mod sample;
+mod search;
+mod space;
+mod tables;
+mod words;
+
+pub use candidate::{Candidate, SearchStage, Target};
+pub use error::OptimisationError;
+pub use evaluations::EVALUATIONS;
+pub use goal::DesignGoal;
+pub use judge::{Judge, Verdict, Worth};
+pub use price::{Binding, Limit};
+pub use search::{Answer, BestDesign, Found, LeftOutDesigns, SearchOptions, optimise};
+pub use space::{Choice, DesignSpace, Interval, SpacePoint};
+pub use tables::{
+    FRONT, GOAL, HISTORY, OPTIMUM, OPTIMUM_DEFINITION, history_columns, optimum_columns,
+    write_found,
+};
+pub use words::Words;

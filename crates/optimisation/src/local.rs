@@ -1,0 +1,175 @@
+//! The search from one design to a better one near by: along exact derivatives, then without them where those end at a kink.
+
+mod climb;
+mod polish;
+mod room;
+
+use std::cell::RefCell;
+
+use results::DesignRow;
+
+pub(crate) use room::{bending_room, bending_room_slopes};
+
+use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
+use crate::evaluations::{Evaluations, Halt};
+use crate::judge::{Judge, Verdict};
+use crate::space::{DesignSpace, SpacePoint};
+
+/// Rounds of derivatives and of what does without, at most.
+const ROUNDS: usize = 4;
+
+/// A relative gain below which a round has come to its end.
+const GAIN: f64 = 1e-8;
+
+/// What all searches share: the space, its evaluations, the judge.
+pub(crate) struct Search<'a> {
+    pub space: &'a DesignSpace,
+    pub evaluations: &'a Evaluations<'a>,
+    pub judge: &'a Judge,
+}
+
+/// How much a local search may take.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    /// Rounds.
+    pub rounds: usize,
+    /// First step without derivatives, a share of the intervals.
+    pub reach: f64,
+    /// Designs without derivatives in a round, for each variable.
+    pub polish: usize,
+}
+
+impl Effort {
+    /// Along derivatives alone.
+    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, polish: 0 };
+    /// To the end.
+    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, polish: 40 };
+    /// From a design that is nearly the best.
+    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, polish: 15 };
+}
+
+impl Search<'_> {
+    /// Looks at the design at `point`.
+    pub fn look(
+        &self,
+        stage: SearchStage,
+        point: &SpacePoint,
+        differentiated: bool,
+    ) -> Result<(Candidate, DesignRow), Halt> {
+        let result = self.evaluations.solve(point, differentiated)?;
+        let row = self.evaluations.row(0, point, &result);
+        let verdict = self.judge.verdict(&row);
+        Ok((Candidate { stage, point: point.clone(), result, verdict }, row))
+    }
+
+    /// The merit of a design under a target.
+    pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
+        let Verdict::Judged(worth) = &candidate.verdict else { return Merit::None };
+        let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
+        let short = target.floors.iter().map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
+        let floors = short.fold(0.0, f64::max);
+        // A floor is kept but for round-off, as a requirement is.
+        if worth.met && floors <= 1e-9 {
+            return Merit::Met(turned(target.objective));
+        }
+        Merit::Short(worth.excess.iter().copied().fold(floors, f64::max).max(f64::MIN_POSITIVE))
+    }
+
+    /// The best of some designs under a target.
+    pub fn best<'c>(
+        &self,
+        candidates: impl Iterator<Item = &'c Candidate> + Clone,
+        target: &Target,
+    ) -> Option<&'c Candidate> {
+        let index = best(candidates.clone().map(|candidate| self.merit(candidate, target)))?;
+        candidates.into_iter().nth(index)
+    }
+
+    /// Improves `start` for `target`, its choices held; returns every design that was looked at, `start` not among them.
+    pub fn improve(
+        &self,
+        target: &Target,
+        start: &Candidate,
+        effort: Effort,
+    ) -> Result<Vec<Candidate>, Halt> {
+        let mut walk = LocalSearch {
+            search: self,
+            target,
+            best: RefCell::new(start.clone()),
+            log: RefCell::default(),
+        };
+        if start.point.shares.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut reach = effort.reach;
+        walk.climb()?;
+        for _ in 0..effort.rounds {
+            let before = walk.best_merit();
+            walk.polish(reach, effort.polish * start.point.shares.len())?;
+            walk.climb()?;
+            if !gained(before, walk.best_merit()) {
+                break;
+            }
+            reach *= 0.3;
+        }
+        Ok(walk.log.take())
+    }
+}
+
+/// The size of a floor, which shortfalls are relative to.
+pub(crate) fn floor_size(floor: f64) -> f64 {
+    if floor == 0.0 { 1.0 } else { floor.abs() }
+}
+
+/// Whether a merit has become better by more than hardly anything.
+fn gained(before: Merit, after: Merit) -> bool {
+    match (before, after) {
+        (Merit::Met(before), Merit::Met(after)) => after - before > GAIN * before.abs(),
+        (Merit::Short(before), Merit::Short(after)) => before - after > GAIN * before,
+        _ => before != after,
+    }
+}
+
+/// A local search that is under way.
+struct LocalSearch<'a> {
+    search: &'a Search<'a>,
+    target: &'a Target,
+    best: RefCell<Candidate>,
+    log: RefCell<Vec<Candidate>>,
+}
+
+impl LocalSearch<'_> {
+    /// The design at `shares` of the intervals, with the choices of the start.
+    fn at(
+        &self,
+        stage: SearchStage,
+        shares: &[f64],
+        differentiated: bool,
+    ) -> Result<(Candidate, DesignRow), Halt> {
+        let chosen = self.best.borrow().point.chosen.clone();
+        let shares = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
+        let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;
+        self.note(&looked.0);
+        Ok(looked)
+    }
+
+    fn note(&self, candidate: &Candidate) {
+        let is_known = |other: &Candidate| other.point == candidate.point;
+        if self.log.borrow().iter().rev().take(3).any(is_known) {
+            return;
+        }
+        self.log.borrow_mut().push(candidate.clone());
+        let merit = self.search.merit(candidate, self.target);
+        if merit.compare(self.best_merit()).is_gt() {
+            *self.best.borrow_mut() = candidate.clone();
+        }
+    }
+
+    fn best_merit(&self) -> Merit {
+        self.search.merit(&self.best.borrow(), self.target)
+    }
+
+    fn best_shares(&self) -> Vec<f64> {
+        self.best.borrow().point.shares.clone()
+    }
+}

@@ -1,0 +1,80 @@
+//! The polish without derivatives: mesh adaptive direct search (`OrthoMADS`), which converges at kinks, too.
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints,
+    CostFunction, Executor, Mads, NoLinearConstraints, NoNonlinearConstraints, PointState,
+};
+
+use super::LocalSearch;
+use crate::candidate::{Merit, SearchStage};
+use crate::evaluations::Halt;
+
+/// The smallest step, a share of the intervals.
+const SMALLEST: f64 = 1e-7;
+
+impl LocalSearch<'_> {
+    /// Improves the best design by steps of `reach` and less of the intervals, over at most `most` designs. As long as none meets all
+    /// that is asked for, the largest shortfall is made small; from then on whoever falls short is no step.
+    pub(super) fn polish(&mut self, reach: f64, most: usize) -> Result<(), Halt> {
+        loop {
+            let start = self.best_shares();
+            let before = self.best_merit();
+            if before == Merit::None {
+                return Ok(());
+            }
+            let only_short = matches!(before, Merit::Short(_));
+            let barrier = Barrier {
+                walk: self,
+                only_short,
+                lower: vec![0.0; start.len()],
+                upper: vec![1.0; start.len()],
+            };
+            let solver = Mads::new()
+                .with_initial_poll_size(reach)
+                .with_minimum_poll_size(SMALLEST.min(0.1 * reach))
+                .bounded();
+            let polished = Executor::new(barrier, solver, PointState::new(start))
+                .max_cost_evals(most as u64)
+                .run();
+            if let Err(ConstraintSolveError::Evaluation(halt)) = polished {
+                return Err(halt);
+            }
+            // Once all is met, the objective counts.
+            if !(only_short && matches!(self.best_merit(), Merit::Met(_))) {
+                return Ok(());
+            }
+        }
+    }
+}
+
+/// The problem of a polish: what falls short is as bad as can be, unless all that is known does.
+struct Barrier<'a> {
+    walk: &'a LocalSearch<'a>,
+    only_short: bool,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl CostFunction for Barrier<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    type Error = Halt;
+
+    fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
+        let (candidate, _) = self.walk.at(SearchStage::Polish, shares, false)?;
+        Ok(match self.walk.search.merit(&candidate, self.walk.target) {
+            Merit::Met(_) if self.only_short => 0.0,
+            Merit::Met(objective) => -objective,
+            Merit::Short(short) if self.only_short => short,
+            Merit::Short(_) | Merit::None => f64::INFINITY,
+        })
+    }
+}
+
+impl Constraints for Barrier<'_> {
+    type Set = ConstraintSet<BoxBounds<Vec<f64>>, NoLinearConstraints, NoNonlinearConstraints>;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new().with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+    }
+}

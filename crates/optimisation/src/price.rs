@@ -1,0 +1,184 @@
+//! What keeps a best design from being better, and what each of these costs.
+//!
+//! At the best design of a smooth problem the gradient of the objective `o`, to be large, is balanced by those of the limits that
+//! bind, `g_k ≥ l_k`, each with a multiplier:
+//!
+//! ```text
+//! ∇o + Σ μ_k ∇g_k = 0,   μ_k ≥ 0;      do/dl_k = −μ_k                                    (O1)
+//! ```
+
+use nalgebra::{DMatrix, DVector};
+use results::DesignRow;
+use sweep::Parameter;
+
+use crate::candidate::{Candidate, SearchStage, Target};
+use crate::evaluations::Halt;
+use crate::judge::{Slopes, Verdict, size};
+use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+
+/// A limit binds that is this near, relative to its size.
+const NEAR: f64 = 1e-5;
+
+/// The part of the gradient that multipliers may leave unbalanced.
+const BALANCED: f64 = 1e-3;
+
+/// A limit that keeps a design from being better.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Binding {
+    /// The limit.
+    pub limit: Limit,
+    /// What the objective loses, in its unit, for each unit by which the limit is made harder. `None` where the design stands on a
+    /// kink, so that no multiplier balances the gradients.
+    pub price: Option<f64>,
+}
+
+/// A limit.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Limit {
+    /// A requirement, by its index.
+    Requirement(usize),
+    /// The floor of an objective.
+    Floor(usize),
+    /// The lower end of an interval.
+    Lower(usize),
+    /// The upper end of an interval.
+    Upper(usize),
+    /// The end of bending: any farther, and scales would touch, which other columns jump at. It counts as the logarithm of the
+    /// end rotation.
+    Touch,
+}
+
+/// The limits that bind at `best`, with their prices.
+pub(crate) fn bindings(
+    search: &Search<'_>,
+    best: &Candidate,
+    target: &Target,
+) -> Result<Vec<Binding>, Halt> {
+    let limits = binding_limits(search, best, target);
+    let (looked, row) = search.look(SearchStage::Gradient, &best.point, true)?;
+    let is_whole = matches!(looked.verdict, Verdict::Judged(_));
+    let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
+    let prices =
+        prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
+    let bindings = limits.into_iter().zip(prices);
+    Ok(bindings.map(|(limit, price)| Binding { limit, price }).collect())
+}
+
+fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
+    let Verdict::Judged(worth) = &best.verdict else { return Vec::new() };
+    let requirements = worth.excess.iter().enumerate();
+    let required = requirements.filter(|(_, excess)| **excess > -NEAR);
+    let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
+    for &(k, floor) in &target.floors {
+        let turned = search.judge.sign(k) * worth.objectives[k];
+        if turned - floor < NEAR * floor_size(floor) {
+            limits.push(Limit::Floor(k));
+        }
+    }
+    for (j, share) in best.point.shares.iter().enumerate() {
+        if *share <= NEAR {
+            limits.push(Limit::Lower(j));
+        } else if *share >= 1.0 - NEAR {
+            limits.push(Limit::Upper(j));
+        }
+    }
+    let case = search.space.case(&best.point);
+    let touches = search.judge.bends() && bending_room(&case).abs() < NEAR;
+    limits.extend(touches.then_some(Limit::Touch));
+    limits
+}
+
+/// The multipliers of the limits, in units of the objective over that of the limit; `None` if they do not balance the gradient.
+fn prices(
+    search: &Search<'_>,
+    row: &DesignRow,
+    target: &Target,
+    limits: &[Limit],
+) -> Option<Vec<f64>> {
+    let judge = search.judge;
+    let intervals = search.space.intervals();
+    let gradient = |slopes: &dyn Fn(&Parameter) -> Slopes| -> Option<DVector<f64>> {
+        let slope = intervals
+            .iter()
+            .map(|interval| Some(slopes(interval.parameter).smooth()? * interval.length()));
+        Some(DVector::from_vec(slope.collect::<Option<_>>()?))
+    };
+    let objective = gradient(&|p| judge.objective_slopes(target.objective, row, p))?;
+    let mut columns = Vec::new();
+    for limit in limits {
+        columns.push(match *limit {
+            Limit::Requirement(k) => gradient(&|p| judge.margin_slopes(k, row, p))?,
+            Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
+            Limit::Lower(j) => unit(intervals.len(), j, 1.0),
+            Limit::Upper(j) => unit(intervals.len(), j, -1.0),
+            Limit::Touch => gradient(&|p| bending_room_slopes(&row.case, p))?,
+        });
+    }
+    let multipliers = multipliers(&columns, &objective)?;
+    let requirements: Vec<_> = judge.requirements().collect();
+    let unit = |limit: &Limit| match *limit {
+        Limit::Requirement(k) => size(requirements[k]),
+        Limit::Floor(_) | Limit::Touch => 1.0,
+        Limit::Lower(j) | Limit::Upper(j) => intervals[j].length(),
+    };
+    Some(limits.iter().zip(multipliers).map(|(limit, x)| x / unit(limit)).collect())
+}
+
+fn unit(count: usize, j: usize, sign: f64) -> DVector<f64> {
+    let mut unit = DVector::zeros(count);
+    unit[j] = sign;
+    unit
+}
+
+/// The multipliers, none below 0, with which `columns` balance `objective`, by least squares without the limits that would have one
+/// below 0; `None` if something is left.
+fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec<f64>> {
+    // Each limit counts the same, whatever its unit.
+    let norms: Vec<f64> = columns.iter().map(DVector::norm).collect();
+    let mut open: Vec<usize> = (0..columns.len()).filter(|&k| norms[k] > 0.0).collect();
+    loop {
+        let mut all = vec![0.0; columns.len()];
+        let rest = if open.is_empty() {
+            objective.clone()
+        } else {
+            let scaled: Vec<_> = open.iter().map(|&k| &columns[k] / norms[k]).collect();
+            let matrix = DMatrix::from_columns(&scaled);
+            let solved = matrix.clone().svd(true, true).solve(&-objective, 1e-12).ok()?;
+            let least = (0..open.len()).min_by(|&a, &b| solved[a].total_cmp(&solved[b]))?;
+            if solved[least] < 0.0 {
+                open.remove(least);
+                continue;
+            }
+            open.iter().zip(solved.iter()).for_each(|(&k, x)| all[k] = x / norms[k]);
+            objective + matrix * solved
+        };
+        return (rest.norm() <= BALANCED * objective.norm()).then_some(all);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vector(values: [f64; 2]) -> DVector<f64> {
+        DVector::from_column_slice(&values)
+    }
+
+    #[test]
+    fn multipliers_balance_the_gradient() {
+        // Largest x + 2 y with x ≤ 1 and x + y ≤ 1.5: at (1, 0.5) y alone pays, at (0, 1.5) the second limit and x ≥ 0.
+        let columns = [vector([-1.0, -1.0]), vector([1.0, 0.0])];
+        let found = multipliers(&columns, &vector([1.0, 2.0])).expect("balanced");
+        assert!((found[0] - 2.0).abs() < 1e-12 && (found[1] - 1.0).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn limits_that_would_pull_do_not_count_and_what_is_left_is_told() {
+        let away = [vector([1.0, 0.0]), vector([0.0, -1.0])];
+        assert_eq!(multipliers(&away, &vector([1.0, 0.0])), None);
+        let found = multipliers(&away, &vector([0.0, 3.0])).expect("balanced");
+        assert_eq!(found[0], 0.0);
+        assert!((found[1] - 3.0).abs() < 1e-12);
+        assert_eq!(multipliers(&[], &vector([0.0, 0.0])), Some(vec![]));
+    }
+}

@@ -1,0 +1,121 @@
+//! The space of the variables: its points, and the cases that they stand for.
+
+use sweep::{Case, Parameter, Scalar, Sweep, VariableValues};
+
+/// A parameter that varies between two numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The parameter.
+    pub parameter: &'static Parameter,
+    /// The smallest value.
+    pub from: f64,
+    /// The largest value.
+    pub to: f64,
+}
+
+/// A parameter that takes one of a few values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// The parameter.
+    pub parameter: &'static Parameter,
+    /// The values, at least one.
+    pub values: Vec<Scalar>,
+}
+
+/// A point of the space: a share of each interval, from 0 at its lower end to 1 at its upper, and the index of each choice.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpacePoint {
+    /// Shares of the intervals.
+    pub shares: Vec<f64>,
+    /// Indices of the choices.
+    pub chosen: Vec<usize>,
+}
+
+/// The space of the variables, and what all its designs share.
+#[derive(Clone, Debug)]
+pub struct DesignSpace {
+    sweep: Sweep,
+    intervals: Vec<Interval>,
+    choices: Vec<Choice>,
+}
+
+impl Interval {
+    /// The value at a share of the interval; exactly its ends at 0 and 1.
+    pub fn value(&self, share: f64) -> f64 {
+        let value = self.from + share * (self.to - self.from);
+        if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) }
+    }
+
+    /// The length of the interval.
+    pub fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+impl DesignSpace {
+    /// The space of the variables of `sweep`, all whose other axes have one value.
+    pub(crate) fn new(sweep: Sweep) -> Self {
+        let (mut intervals, mut choices) = (Vec::new(), Vec::new());
+        for variable in sweep.variables() {
+            let parameter = variable.parameter();
+            match variable.values() {
+                &VariableValues::Between(from, to) => {
+                    intervals.push(Interval { parameter, from, to });
+                }
+                VariableValues::OneOf(values) => {
+                    choices.push(Choice { parameter, values: values.clone() });
+                }
+            }
+        }
+        Self { sweep, intervals, choices }
+    }
+
+    /// The sweep that has the variables.
+    pub fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+
+    /// The parameters that vary between two numbers.
+    pub fn intervals(&self) -> &[Interval] {
+        &self.intervals
+    }
+
+    /// The parameters that take one of a few values.
+    pub fn choices(&self) -> &[Choice] {
+        &self.choices
+    }
+
+    /// The parameters that vary.
+    pub fn parameters(&self) -> impl Iterator<Item = &'static Parameter> {
+        let intervals = self.intervals.iter().map(|interval| interval.parameter);
+        intervals.chain(self.choices.iter().map(|choice| choice.parameter))
+    }
+
+    /// The number of combinations of choices, at least one.
+    pub(crate) fn combinations(&self) -> usize {
+        self.choices.iter().map(|choice| choice.values.len()).fold(1, usize::saturating_mul)
+    }
+
+    /// The choices of the combination `index`.
+    pub(crate) fn combination(&self, mut index: usize) -> Vec<usize> {
+        let digit = |choice: &Choice| {
+            let digit = index % choice.values.len();
+            index /= choice.values.len();
+            digit
+        };
+        self.choices.iter().map(digit).collect()
+    }
+
+    /// The case that a point stands for.
+    pub fn case(&self, point: &SpacePoint) -> Case {
+        // The first design of the grid has everything that is shared: the axes with one value too.
+        let mut case = self.sweep.grid().case(0);
+        for (interval, share) in self.intervals.iter().zip(&point.shares) {
+            case = interval.parameter.put(&case, Scalar::Number(interval.value(*share)));
+        }
+        for (choice, index) in self.choices.iter().zip(&point.chosen) {
+            case = choice.parameter.put(&case, choice.values[*index]);
+        }
+        case
+    }
+}

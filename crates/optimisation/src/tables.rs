@@ -1,0 +1,186 @@
+//! The tables of what was found: the best designs, and every design that was looked at.
+
+use results::columns::{Cell, design_columns};
+use results::{Column, CsvFormat, DesignRow, OutputError, RunFolder, write_rows, write_text};
+use sweep::Sweep;
+
+use crate::candidate::Candidate;
+use crate::goal::DesignGoal;
+use crate::judge::{Verdict, has_folded};
+use crate::search::{Answer, BestDesign, Found};
+use crate::words::Words;
+
+/// The table of the best design.
+pub const OPTIMUM: &str = "optimum.csv";
+/// The definition of the best design, which every command reads.
+pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
+/// The table of the designs that none beats.
+pub const FRONT: &str = "front.csv";
+/// The table of every design that was looked at.
+pub const HISTORY: &str = "history.csv";
+/// The goal, with what took the place of what was written.
+pub const GOAL: &str = "goal.toml";
+
+/// A row of cells that are made already.
+type Cells = Vec<Cell>;
+
+/// The columns of `optimum.csv` and `front.csv`: those of `designs.csv`, then what binds and what it costs.
+pub fn optimum_columns(sweep: &Sweep) -> Vec<Column<Cells>> {
+    let known = design_columns(sweep).into_iter();
+    let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
+    let own = [
+        (
+            "binding",
+            "-",
+            "what keeps the design from being better: requirements, ends of variables, floors of other objectives",
+        ),
+        (
+            "prices",
+            "-",
+            "what each of these costs, by its multiplier; empty where the design stands on a kink",
+        ),
+    ];
+    let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
+    cells(known.chain(own))
+}
+
+/// The columns of `history.csv` of a goal.
+pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
+    let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
+    let first = [
+        plain("evaluation", "place among the designs that were looked at"),
+        plain(
+            "stage",
+            "sample: points that fill the space; gradient: a step along derivatives; polish: a step without",
+        ),
+    ];
+    let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
+    let known = design_columns(goal.space.sweep());
+    let explained = |name: &str| {
+        let column = known.iter().find(|column| column.name == name);
+        column.map(|column| (column.name.to_string(), column.unit, column.meaning))
+    };
+    let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
+    let last = [
+        plain(
+            "shortfall",
+            "largest shortfall, relative to the limit; 0 where every requirement is met",
+        ),
+        plain("verdict", "met, short, folded, or why it cannot be judged"),
+        plain(
+            "best",
+            "best value of the first objective so far among the designs that meet every requirement",
+        ),
+    ];
+    cells(first.into_iter().chain(parameters).chain(objectives).chain(last))
+}
+
+fn cells(
+    columns: impl Iterator<Item = (String, &'static str, &'static str)>,
+) -> Vec<Column<Cells>> {
+    let column = |(index, (name, unit, meaning)): (usize, (String, _, _))| {
+        Column::indexed(name, unit, meaning, index, |row: &Cells, index| row[index].clone())
+    };
+    columns.enumerate().map(column).collect()
+}
+
+/// Writes what was found into `folder`: the goal, the history, and the optimum or the front; returns the names of the files.
+///
+/// # Errors
+/// If the folder or the disk does not take them.
+pub fn write_found(
+    folder: &RunFolder,
+    goal: &DesignGoal,
+    found: &Found,
+    format: CsvFormat,
+) -> Result<Vec<&'static str>, OutputError> {
+    let mut files = vec![GOAL, HISTORY];
+    for file in [OPTIMUM, OPTIMUM_DEFINITION, FRONT] {
+        folder.remove(file);
+    }
+    folder.write_text(GOAL, goal.to_toml())?;
+    write_rows(folder, HISTORY, format, &history_columns(goal), history(goal, found))?;
+    match &found.answer {
+        Answer::Optimum(best) => {
+            write_best(folder, OPTIMUM, goal, std::slice::from_ref(best.as_ref()), format)?;
+            let definition = goal.space.sweep().at(&best.row.case).to_toml();
+            write_text(folder.path(), OPTIMUM_DEFINITION, &definition)?;
+            files.extend([OPTIMUM, OPTIMUM_DEFINITION]);
+        }
+        Answer::Front(front) => {
+            write_best(folder, FRONT, goal, front, format)?;
+            files.push(FRONT);
+        }
+        Answer::Infeasible(_) => {}
+    }
+    Ok(files)
+}
+
+fn write_best(
+    folder: &RunFolder,
+    file: &str,
+    goal: &DesignGoal,
+    designs: &[BestDesign],
+    format: CsvFormat,
+) -> Result<(), OutputError> {
+    let sweep = goal.space.sweep();
+    let (words, known) = (Words::new(goal), design_columns(sweep));
+    let row = |(index, best): (usize, &BestDesign)| {
+        let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
+        let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
+        cells.push(words.bindings(&best.bindings, &best.target).into());
+        cells.push(words.prices(&best.bindings, &best.target).into());
+        cells
+    };
+    let rows = designs.iter().enumerate().map(row);
+    write_rows(folder, file, format, &optimum_columns(sweep), rows).map(|_| ())
+}
+
+/// The rows of `history.csv`.
+fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = Cells> + 'a {
+    let known = design_columns(goal.space.sweep());
+    let sign = if goal.objectives[0].goal == ranking::Goal::Maximize { 1.0 } else { -1.0 };
+    let mut best: Option<f64> = None;
+    found.history.iter().enumerate().map(move |(index, candidate)| {
+        let row = row(goal, candidate);
+        if let Verdict::Judged(worth) = &candidate.verdict
+            && worth.met
+            && best.is_none_or(|best| sign * worth.objectives[0] > sign * best)
+        {
+            best = Some(worth.objectives[0]);
+        }
+        let mut cells: Cells = vec![(index + 1).into(), candidate.stage.word().into()];
+        cells.extend(goal.space.parameters().map(|p| Cell::from(p.get(&row.case))));
+        cells.extend(goal.objectives.iter().map(|objective| {
+            let column = known.iter().find(|column| column.name == objective.column);
+            column.map_or(Cell::Empty, |column| column.cell(&row))
+        }));
+        cells.extend(verdict(candidate, &row));
+        cells.push(best.into());
+        cells
+    })
+}
+
+fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
+    let number = goal.space.sweep().grid().number(0);
+    let case = goal.space.case(&candidate.point);
+    DesignRow { number, case, result: candidate.result.as_ref().clone() }
+}
+
+/// Shortfall and verdict of a design.
+fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
+    match &candidate.verdict {
+        Verdict::Judged(worth) => {
+            let shortfall = worth.excess.iter().copied().fold(0.0, f64::max);
+            let word = match (worth.met, has_folded(row)) {
+                (true, _) => "met",
+                (false, true) => "folded",
+                (false, false) => "short",
+            };
+            [if worth.met { 0.0 } else { shortfall }.into(), word.into()]
+        }
+        Verdict::Folded => [Cell::Empty, "folded".into()],
+        Verdict::Failed(outcome) => [Cell::Empty, outcome.text().into()],
+        Verdict::Missing(column) => [Cell::Empty, format!("no {column}").into()],
+    }
+}

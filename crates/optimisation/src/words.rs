@@ -1,0 +1,167 @@
+//! What binds at a best design and what it costs, in words.
+
+use ranking::{Criterion, Goal, Requirement};
+use results::columns::explain_value;
+use sweep::number;
+
+use crate::candidate::Target;
+use crate::goal::DesignGoal;
+use crate::judge::{Judge, direction};
+use crate::price::{Binding, Limit};
+use crate::space::Interval;
+
+/// Says what binds and what it costs.
+pub struct Words<'a> {
+    goal: &'a DesignGoal,
+    judge: Judge,
+}
+
+impl<'a> Words<'a> {
+    /// The words for a goal.
+    pub fn new(goal: &'a DesignGoal) -> Self {
+        Self { goal, judge: Judge::new(goal) }
+    }
+
+    /// The requirements, then that the surface has not folded if that is one.
+    pub fn requirements(&self) -> Vec<&Requirement> {
+        self.judge.requirements().collect()
+    }
+
+    /// A limit, e.g. `coverage >= 0.5` or `gap_over_t at its lower end 0.1`.
+    pub fn limit(&self, limit: &Limit, target: &Target) -> String {
+        match *limit {
+            Limit::Requirement(k) if self.judge.is_soundness(k) => {
+                "the surface is about to fold".to_owned()
+            }
+            Limit::Requirement(k) => {
+                self.requirement(k).map(ToString::to_string).unwrap_or_default()
+            }
+            Limit::Floor(k) => {
+                let value = floor_of(target, k) * self.judge.sign(k);
+                let sign = if self.judge.sign(k) > 0.0 { ">=" } else { "<=" };
+                format!("{} {sign} {}", self.goal.objectives[k].column, rounded(value))
+            }
+            Limit::Lower(j) => {
+                let Interval { parameter, from, .. } = self.goal.space.intervals()[j];
+                format!("{} at its lower end {}", parameter.key, number::text(from))
+            }
+            Limit::Upper(j) => {
+                let Interval { parameter, to, .. } = self.goal.space.intervals()[j];
+                format!("{} at its upper end {}", parameter.key, number::text(to))
+            }
+            Limit::Touch => "scales about to touch at the end of bending".to_owned(),
+        }
+    }
+
+    /// What a limit costs, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
+    pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
+        let price = binding.price?;
+        let objective = &self.goal.objectives[target.objective];
+        let harder = |size: f64, is_lower: bool, column: &str| {
+            let step = step(size);
+            let sense = if is_lower { "more" } else { "less" };
+            let (step_amount, costs) = (amount(step, column), verb(objective));
+            format!("{step_amount} {sense} {column} {costs} {}", amount_of(step * price, objective))
+        };
+        let wider = |j: usize, sense: &str| {
+            let interval = &self.goal.space.intervals()[j];
+            let step = step(interval.length());
+            let (key, gain) = (interval.parameter.key, amount_of(step * price, objective));
+            format!("{} {sense} {key} would gain {gain}", number::text(step))
+        };
+        Some(match binding.limit {
+            Limit::Requirement(k) => {
+                let requirement = self.requirement(k)?;
+                harder(requirement.limit, direction(requirement) > 0.0, &requirement.column)
+            }
+            Limit::Floor(k) => {
+                let column = &self.goal.objectives[k].column;
+                harder(floor_of(target, k), self.judge.sign(k) > 0.0, column)
+            }
+            Limit::Lower(j) => wider(j, "less"),
+            Limit::Upper(j) => wider(j, "more"),
+            Limit::Touch => {
+                let costs = amount_of(0.01 * price, objective);
+                format!("1 % more end rotation without contact {} {costs}", verb(objective))
+            }
+        })
+    }
+
+    /// All that binds a design, in one line.
+    pub fn bindings(&self, bindings: &[Binding], target: &Target) -> String {
+        let limits: Vec<_> = bindings.iter().map(|b| self.limit(&b.limit, target)).collect();
+        limits.join("; ")
+    }
+
+    /// All prices of a design, in one line.
+    pub fn prices(&self, bindings: &[Binding], target: &Target) -> String {
+        let prices: Vec<_> = bindings.iter().filter_map(|b| self.price(b, target)).collect();
+        prices.join("; ")
+    }
+
+    fn requirement(&self, k: usize) -> Option<&Requirement> {
+        self.judge.requirements().nth(k)
+    }
+}
+
+/// The floor of an objective.
+fn floor_of(target: &Target, objective: usize) -> f64 {
+    let floor = target.floors.iter().find(|(of, _)| *of == objective);
+    floor.map_or(f64::NAN, |(_, floor)| *floor)
+}
+
+/// The verb for what a harder limit does to an objective.
+fn verb(objective: &Criterion) -> &'static str {
+    if objective.goal == Goal::Maximize { "costs" } else { "adds" }
+}
+
+/// A power of ten that is a small change of a value of that size.
+fn step(size: f64) -> f64 {
+    let size = if size == 0.0 { 1.0 } else { size.abs() };
+    10_f64.powi(size.log10().floor() as i32 - 1)
+}
+
+/// An amount with its unit, if that is a physical one.
+fn amount(amount: f64, column: &str) -> String {
+    let unit = explain_value(column).map_or("-", |(unit, _)| unit);
+    let is_physical = ["N", "mm", "kg"].iter().any(|beginning| unit.starts_with(beginning));
+    let amount = rounded(amount);
+    if is_physical { format!("{amount} {unit}") } else { amount }
+}
+
+fn amount_of(value: f64, objective: &Criterion) -> String {
+    format!("{} of {}", amount(value, &objective.column), objective.column)
+}
+
+/// A number to three digits.
+fn rounded(value: f64) -> String {
+    format!("{value:.2e}").parse().map_or_else(|_| value.to_string(), number::text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_small_powers_of_ten() {
+        assert_eq!([0.5, 2.0, 0.0, -30.0].map(step), [0.01, 0.1, 0.1, 1.0]);
+    }
+
+    #[test]
+    fn prices_say_what_more_costs() {
+        let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n[designs]\nlength_over_t = 1\n\
+                    slant_deg = 75\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\nscale_density_kg_m3 = 1000\n\
+                    [goal]\nminimize = 'areal_mass_kg_m2'\nrequire = ['critical_force_N >= 2', 'penetration <= 0.4']";
+        let goal = DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
+        let words = Words::new(&goal);
+        let target = Target { objective: 0, floors: Vec::new() };
+        let say = |limit: Limit, price| {
+            let binding = Binding { limit, price: Some(price) };
+            let limit = words.limit(&binding.limit, &target);
+            format!("{limit}: {}", words.price(&binding, &target).expect("a price"))
+        };
+        insta::assert_snapshot!(say(Limit::Requirement(0), 0.25), @"critical_force_N >= 2: 0.1 N more critical_force_N adds 0.025 kg/m^2 of areal_mass_kg_m2");
+        insta::assert_snapshot!(say(Limit::Requirement(1), 3.0), @"penetration <= 0.4: 0.01 less penetration adds 0.03 kg/m^2 of areal_mass_kg_m2");
+        insta::assert_snapshot!(say(Limit::Lower(0), 1.0), @"gap_over_t at its lower end 0.1: 0.01 less gap_over_t would gain 0.01 kg/m^2 of areal_mass_kg_m2");
+    }
+}

@@ -1,0 +1,91 @@
+//! Columns of extrapolated rows have the derivatives of the columns.
+
+use results::columns::{Cell, design_columns};
+use results::{Column, DesignRow, SlopeSide};
+use run::Evaluator;
+use sweep::{Case, Measure, Parameter, Sweep};
+
+const TEXT: &str = "name = 'x'\n[designs]\ngap_over_t = 0.37\nlength_over_t = 0.81\nslant_deg = 41\n\
+    [material]\nthickness_mm = 1.3\nsubstrate_modulus_MPa = 0.4\nmembrane_modulus_MPa = 2\nscale_density_kg_m3 = 1100\n";
+
+fn solved(evaluator: &Evaluator, sweep: &Sweep, case: &Case) -> DesignRow {
+    evaluator.solve(sweep.grid().number(0), case).row
+}
+
+fn value(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
+    match column.cell(row) {
+        Cell::Number(number) => Some(number),
+        _ => None,
+    }
+}
+
+#[test]
+fn whatever_a_column_makes_of_measures_and_parameters() {
+    let sweep = Sweep::parse(TEXT, "x.toml", &[]).expect("a sweep");
+    let case = sweep.grid().case(0);
+    let all = Evaluator::new(&Measure::ALL);
+    let plain = Evaluator::new(&Measure::USUAL);
+    let row = solved(&all, &sweep, &case);
+    let mut compared = 0;
+    for key in ["gap_over_t", "length_over_t", "slant_deg", "poisson_ratio", "thickness_mm"] {
+        let parameter = Parameter::named(key).expect("a parameter");
+        let step = 1e-4 * parameter.size(&case).expect("a size");
+        let near = |by: f64| solved(&plain, &sweep, &parameter.moved(&case, by).expect("a case"));
+        let [below, above] = [-step, step].map(near);
+        let moved = |by| row.extrapolated(parameter, by, SlopeSide::Right).expect("a row");
+        let [low, high] = [-step, step].map(moved);
+        for column in design_columns(&sweep) {
+            let name = column.name.as_ref();
+            let numbers = [&below, &above, &low, &high].map(|row| value(&column, row));
+            let [Some(below), Some(above), Some(low), Some(high)] = numbers else { continue };
+            if name.ends_with("_error") || name.contains("strain") {
+                continue;
+            }
+            let (solved, extrapolated) = (above - below, high - low);
+            let size = above.abs().max(below.abs());
+            assert!(
+                (solved - extrapolated).abs() <= 2e-4 * solved.abs() + 1e-9 * size,
+                "{name} by {key}: {solved} is solved for, {extrapolated} extrapolated"
+            );
+            compared += 1;
+        }
+    }
+    assert!(compared > 120, "{compared}");
+}
+
+#[test]
+fn a_value_without_a_derivative_does_not_exist_beside_the_design() {
+    let sweep = Sweep::parse(TEXT, "x.toml", &[]).expect("a sweep");
+    let case = sweep.grid().case(0);
+    let row = solved(&Evaluator::new(&Measure::USUAL), &sweep, &case);
+    let moved = |key| {
+        let parameter = Parameter::named(key).expect("a parameter");
+        row.extrapolated(parameter, 1e-3, SlopeSide::Left).expect("a row")
+    };
+    let force = |row: &DesignRow| row.result.puncture.expect("measured").measures.critical_force;
+    let compliance = |row: &DesignRow| row.result.flexure.expect("measured").measures.compliance;
+    assert_eq!((force(&moved("gap_over_t")), compliance(&moved("gap_over_t"))), (None, None));
+    // The Poisson ratio of the substrate does nothing to bending, the thickness in mm nothing to either.
+    assert_eq!(compliance(&moved("poisson_ratio")), compliance(&row));
+    assert_eq!(force(&moved("thickness_mm")), force(&row));
+    assert_eq!(
+        row.extrapolated(Parameter::named("base").expect("a word"), 1.0, SlopeSide::Left),
+        None
+    );
+}
+
+#[test]
+fn upright_scales_have_derivatives_of_bending() {
+    let sweep = Sweep::parse(&TEXT.replace("slant_deg = 41", "slant_deg = 0"), "x.toml", &[])
+        .expect("a sweep");
+    let row = solved(&Evaluator::new(&Measure::ALL), &sweep, &sweep.grid().case(0));
+    assert!(row.result.failures.is_empty(), "{:?}", row.result.failures);
+    let of = |derivative: &&results::ParameterDerivative| {
+        derivative.measure == "compliance" && derivative.parameter == "gap_over_t"
+    };
+    let derivative = row.result.sensitivity.iter().find(of).expect("a derivative");
+    // C = d/p
+    let (gap, length) = (0.37_f64, 0.81);
+    let expected = length / (gap + length).powi(2);
+    assert!((derivative.derivative().expect("smooth") - expected).abs() < 1e-9);
+}

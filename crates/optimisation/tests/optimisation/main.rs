@@ -1,0 +1,4 @@
+//! Searches with known answers, and what they rest on.
+
+mod columns;
+mod searches;

@@ -1,0 +1,158 @@
+//! Searches whose answers are known in closed form.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use optimisation::{
+    Answer, BestDesign, DesignGoal, Found, Limit, SearchOptions, SearchStage, Verdict, optimise,
+};
+use run::{Program, Start};
+
+const PROGRAM: Program = Program { version: "1.0", revision: "none" };
+
+/// Upright to strongly slanted scales of one length, of which only the coverage is measured.
+const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[variables]\n\
+    gap_over_t = { from = 0.1, to = 1 }\nslant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n\
+    [material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n";
+
+fn found_in(folder: &Path, goal: &DesignGoal, threads: usize, start: Start) -> Found {
+    let stop = AtomicBool::new(false);
+    let options = SearchOptions { threads, start, stop: &stop };
+    optimise(goal, folder, &options, &PROGRAM).expect("a search").expect("an end")
+}
+
+fn goal(text: &str) -> DesignGoal {
+    DesignGoal::parse(&format!("{COVERED}[goal]\nsamples = 64\n{text}"), "x.toml", &[])
+        .expect("a goal")
+}
+
+fn found(goal: &DesignGoal) -> Found {
+    let folder = tempfile::tempdir().expect("a folder");
+    found_in(folder.path(), goal, 1, Start::New)
+}
+
+fn optimum(found: &Found) -> &BestDesign {
+    let Answer::Optimum(best) = &found.answer else { panic!("an optimum") };
+    best
+}
+
+fn objectives(best: &BestDesign) -> &[f64] {
+    let Verdict::Judged(worth) = &best.candidate.verdict else { panic!("judged") };
+    &worth.objectives
+}
+
+#[test]
+fn a_requirement_binds_and_has_its_price() {
+    let goal = goal("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'");
+    let found = found(&goal);
+    let best = optimum(&found);
+    // The gap is as wide as coverage λ = (S − d)/S lets it be, and so the mass 1/(1 + d) small.
+    let reach = 60_f64.to_radians().tan();
+    let gap = 0.5 * reach;
+    assert!((objectives(best)[0] - 1.0 / (1.0 + gap)).abs() < 1e-9, "{:?}", objectives(best));
+    let binding = |limit: Limit| {
+        let binding = best.bindings.iter().find(|binding| binding.limit == limit);
+        binding.and_then(|binding| binding.price).expect("a price")
+    };
+    // dm/dλ = S/(1 + d)², and a degree more would widen the gap by dS/dα (1 − λ).
+    let price = reach / (1.0 + gap).powi(2);
+    assert!((binding(Limit::Requirement(0)) - price).abs() < 1e-6);
+    let rate = (1.0 + reach * reach) * 1_f64.to_radians();
+    assert!((binding(Limit::Upper(1)) - 0.5 * rate / (1.0 + gap).powi(2)).abs() < 1e-6);
+}
+
+#[test]
+fn an_optimum_on_a_kink_is_found_and_has_no_price() {
+    let text = "maximize = 'coverage'\nrequire = 'gap_over_t >= 0.3'";
+    let found = found(&goal(text));
+    let best = optimum(&found);
+    // Where S = p, the line down from a corner meets one scale whole: λ = 1/(1 + d), and falls to both sides.
+    assert!((objectives(best)[0] - 1.0 / 1.3).abs() < 1e-6, "{:?}", objectives(best));
+    assert!(best.bindings.iter().all(|binding| binding.price.is_none()));
+    assert!(found.history.iter().any(|candidate| candidate.stage == SearchStage::Polish));
+}
+
+#[test]
+fn seeds_agree() {
+    let of = |seed: &str| {
+        let text =
+            format!("minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'\nseed = {seed}");
+        objectives(optimum(&found(&goal(&text))))[0]
+    };
+    assert!((of("1") / of("2") - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn choices_are_gone_through() {
+    let text = COVERED
+        .replace("length_over_t = 1\n", "")
+        .replace("slant_deg = {", "length_over_t = [0.5, 1, 2]\nslant_deg = {");
+    let text = text.replace("[designs]\n", "");
+    let text = format!("{text}[goal]\nminimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'");
+    let goal = DesignGoal::parse(&text, "x.toml", &[]).expect("a goal");
+    let found = found(&goal);
+    let best = optimum(&found);
+    // Short scales are light: 2a = 0.5 over the pitch.
+    assert_eq!(best.row.case.design.length, 0.5);
+    let gap = best.row.case.design.gap;
+    assert!((objectives(best)[0] - 0.5 / (0.5 + gap)).abs() < 1e-12);
+}
+
+#[test]
+fn a_front_goes_from_one_end_to_the_other() {
+    let text = "maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 9";
+    let goal = goal(text);
+    let found = found(&goal);
+    let Answer::Front(front) = &found.answer else { panic!("a front") };
+    assert!(front.len() >= 8, "{}", front.len());
+    let pairs: Vec<[f64; 2]> =
+        front.iter().map(|best| [objectives(best)[0], objectives(best)[1]]).collect();
+    let is_descending = |pair: &[[f64; 2]]| pair[0][0] > pair[1][0] && pair[0][1] > pair[1][1];
+    assert!(pairs.windows(2).all(is_descending), "{pairs:?}");
+    let best_coverage = 1.0 / 1.1;
+    assert!((pairs[0][0] - best_coverage).abs() < 1e-6, "{pairs:?}");
+    for [coverage, mass] in pairs {
+        // Of a steep slant the coverage (S − d)/S, of a gentle one at the kink the mass itself.
+        let reach = 60_f64.to_radians().tan();
+        let gap = (reach * (1.0 - coverage)).min(1.0);
+        let least = (1.0 / (1.0 + gap)).max(coverage);
+        assert!(mass >= least - 1e-9 && mass <= least * (1.0 + 1e-3), "{coverage} {mass} {least}");
+    }
+}
+
+#[test]
+fn where_nothing_meets_the_requirements_the_nearest_is_told() {
+    let found = found(&goal(
+        "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']",
+    ));
+    let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
+    let Verdict::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+    // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
+    let shortfall = 0.1 / 1.7;
+    let largest = worth.excess.iter().copied().fold(0.0, f64::max);
+    assert!((largest - shortfall).abs() < 1e-4, "{largest}");
+}
+
+#[test]
+fn threads_and_interruptions_change_nothing() {
+    let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 4");
+    let places = |found: &Found| {
+        let place = |c: &optimisation::Candidate| (c.stage.word(), c.point.clone());
+        found.history.iter().map(place).collect::<Vec<_>>()
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = found_in(folder.path(), &goal, 1, Start::New);
+    let journal = folder.path().join(optimisation::EVALUATIONS);
+    let bytes = std::fs::read(&journal).expect("a journal");
+    for share in [3, 2] {
+        // Cut in the middle of a line.
+        std::fs::write(&journal, &bytes[..bytes.len() / share]).expect("writable");
+        let again = found_in(folder.path(), &goal, 3, Start::Resume);
+        assert_eq!(places(&again), places(&whole));
+        assert_eq!(again.evaluations, whole.evaluations);
+    }
+    let stop = AtomicBool::new(false);
+    let options = SearchOptions { threads: 1, start: Start::New, stop: &stop };
+    let error = optimise(&goal, folder.path(), &options, &PROGRAM).expect_err("there are results");
+    assert!(error.to_string().contains("--resume"), "{error}");
+}

@@ -1,0 +1,83 @@
+//! A search for the best design: how it went, and the front that it found.
+
+use super::{in_words, sheet};
+use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel};
+use crate::label::{Anchor, label};
+use crate::palette::{INK, RED};
+use crate::svg::{Element, Spot, circle, polyline};
+
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 480.0;
+const AREA: Area =
+    Area { left: 84.0, top: 78.0, width: WIDTH - 84.0 - 30.0, height: HEIGHT - 78.0 - 60.0 };
+
+/// Ink of designs that fall short, and of those that meet every requirement.
+const SHADES: [&str; 2] = ["#d8d8d8", "#7f9fbf"];
+
+/// A design that a search has looked at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SearchedDesign {
+    /// The values on the two axes.
+    pub place: [f64; 2],
+    /// Whether it meets every requirement.
+    pub met: bool,
+}
+
+/// A search as a chart: every design that was looked at, and a line through the best.
+#[derive(Clone, Debug)]
+pub struct SearchFigure<'a> {
+    /// The title.
+    pub title: &'a str,
+    /// The columns on the two axes.
+    pub axes: [&'a str; 2],
+    /// Every design that was looked at.
+    pub designs: &'a [SearchedDesign],
+    /// The places of the line, in its order.
+    pub line: &'a [[f64; 2]],
+    /// What the line is, in words.
+    pub legend: &'a str,
+}
+
+impl SearchFigure<'_> {
+    /// The chart as SVG.
+    pub fn svg(&self) -> String {
+        let axis = |k: usize| {
+            let designs = self.designs.iter().map(|design| design.place[k]);
+            let all = designs.chain(self.line.iter().map(|place| place[k]));
+            ChartAxis::fit(&in_words(self.axes[k]), all)
+        };
+        let (x, y) = (axis(0), axis(1));
+        let title = String::new();
+        let panel = ChartPanel { area: AREA, x: &x, y: &y, title, x_labels: true, y_labels: true };
+        let dots = |met: bool| {
+            let designs = self.designs.iter().filter(move |design| design.met == met);
+            let [x, y] = [0, 1].map(|k| move |place: [f64; 2]| place[k]);
+            let spots = designs.filter_map(|design| panel.place(x(design.place), y(design.place)));
+            let shade = SHADES[usize::from(met)];
+            let dots: Vec<Element> =
+                spots.map(|spot| circle(spot, 1.8).with("fill", shade)).collect();
+            Element::group(if met { "met" } else { "short" }).containing(dots)
+        };
+        let spots: Vec<Spot> = self.line.iter().filter_map(|[x, y]| panel.place(*x, *y)).collect();
+        let line = polyline(&spots).with("stroke", RED).at("stroke-width", 1.6);
+        let ends: Vec<Element> =
+            spots.iter().map(|spot| circle(*spot, 2.6).with("fill", RED)).collect();
+        let text = format!(
+            "red: {}; blue: designs that meet every requirement; grey: others",
+            self.legend
+        );
+        let legend = label(&text, [AREA.left, 52.0], 12.0, Anchor::Start).with("fill", INK);
+        let inside = vec![
+            legend,
+            panel.frame(),
+            panel.x_name(),
+            panel.y_name(54.0),
+            dots(false),
+            dots(true),
+            line,
+            Element::group("best").containing(ends),
+        ];
+        sheet(WIDTH, HEIGHT, self.title, inside)
+    }
+}
