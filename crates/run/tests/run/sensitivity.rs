@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use results::ParameterDerivative;
 use run::Evaluator;
-use sweep::{Case, Measure, Parameter};
+use sweep::{Case, Measure, Parameter, Sweep};
 
 use designs::random_case;
 use differences::Differences;
@@ -88,6 +88,19 @@ const LONGEST: Duration = Duration::from_secs(60);
 fn derivatives_are_those_of_whole_solutions() {
     let is_long = std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long");
     compare_designs(if is_long { 300 } else { FEW });
+}
+
+/// The place of a smooth maximum moves along the path: the force there has derivatives, the depth and the tilt have none.
+#[test]
+fn the_place_of_a_smooth_peak_has_no_derivatives() {
+    let text = "name = 'smooth-peak'\nmeasures = 'puncture'\n[designs]\ngap_over_t = 0.166\nlength_over_t = 0.735\n\
+                slant_deg = 74.723\nwidth_over_t = 1.874\n[substrate]\npoisson_ratio = 0.433\n[puncture]\n\
+                load_position = 0.865\ncritical_tilt_deg = 16.63\ncontact_modulus_over_substrate = 114";
+    let case = Sweep::parse(text, "smooth-peak.toml", &[]).unwrap().grid().case(0);
+    let derivatives = derivatives(&case);
+    let has = |measure: &str| derivatives.iter().any(|d| d.measure == measure);
+    assert_eq!(["peak_force", "peak_displacement", "peak_tilt_deg"].map(has), [true, false, false]);
+    assert!(compare(&case) > 50);
 }
 
 /// A parameter at the end of its range has a neighbour that no definition may have.

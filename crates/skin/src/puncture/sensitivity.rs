@@ -85,9 +85,8 @@ impl Problem<'_> {
         let highest = record.highest_point(LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
-        // The place of a smooth maximum moves along the path, and what is not the largest there with it.
-        let moves = highest.as_ref().is_none_or(|place| place.anchor == PathAnchor::Still);
-        let at_peak = at_peak(!moves);
+        let is_held = |place| sensitivity::is_held(path.system(), place);
+        let at_peak = at_peak(highest.as_ref().is_some_and(is_held));
         let chain = path.system();
         let touching = record.touching().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };

@@ -74,6 +74,19 @@ pub(crate) fn summit<S: Skin>(
     }
 }
 
+/// Whether a place is held by the target of the path or by a contact that changes there. That of a smooth maximum is not: a
+/// parameter moves it along the path.
+pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bool {
+    match place.anchor {
+        PathAnchor::Still => false,
+        PathAnchor::Target | PathAnchor::Marker(_) => true,
+        // Elsewhere the guard is a section through the path.
+        PathAnchor::Guard(constraint) => {
+            Newton::guards(system, &place.state)[constraint].abs() < VANISHED
+        }
+    }
+}
+
 /// The constraint whose guard vanishes at an event, of those of the contacts that change.
 fn vanished<S: Skin>(system: &S, state: &SkinState, changes: &[Change]) -> Option<usize> {
     let guards = Newton::guards(system, state);
