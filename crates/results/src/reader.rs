@@ -109,7 +109,8 @@ impl Results {
         match header.first() {
             Some(first) if first == NUMBER => {}
             first => {
-                let found = format!("\"{}\"", first.map_or("", String::as_str));
+                // Debug output, on one line whatever is in the cell.
+                let found = format!("{:?}", first.map_or("", String::as_str));
                 return Err(InvalidResults::NoDesigns { file: path.display().to_string(), found });
             }
         }

@@ -113,6 +113,7 @@ fn results_that_are_none_say_why() {
     insta::assert_snapshot!(message(None), @"x/designs.csv: cannot be read (No such file or directory), expected the file that squama run writes");
     insta::assert_snapshot!(message(Some("")), @r#"x/designs.csv: the first column is "", expected design"#);
     insta::assert_snapshot!(message(Some("a,b\n1,2")), @r#"x/designs.csv: the first column is "a", expected design"#);
+    insta::assert_snapshot!(message(Some("\"a\nb\",c\n1,2")), @r#"x/designs.csv: the first column is "a\nb", expected design"#);
     insta::assert_snapshot!(message(Some("design,b\n1,2\n3")), @"x/designs.csv: cannot be read (line 3 has 1 cells, the first one 2), expected the table that squama run writes");
 }
 

@@ -109,51 +109,19 @@ impl WeightSlices {
     /// Returns the outline of a slice with the names of its corners, those of the first in full.
     fn frame(&self, k: usize, best: &[&str]) -> Element {
         let m = self.weight(self.slices()[k]);
-        let corner = |c: usize| {
-            Self::spot(
-                k,
-                std::array::from_fn(|own| {
-                    if own == c {
-                        1.0 - m
-                    } else if own == 0 {
-                        m
-                    } else {
-                        0.0
-                    }
-                }),
-            )
-        };
-        let [top, left, right] = [1, 2, 3].map(corner);
+        let [top, left, right] = self.corners(k);
         let outline = polygon(&[top, left, right])
             .with("fill", "none")
             .with("stroke", FAINT)
             .at("stroke-width", 0.8);
-        let text = |text: &str, [x, y]: Spot, size| {
-            label(text, [x, y], size, Anchor::Middle).with("fill", INK)
-        };
         let title =
             if m < 1.0 { format!("coverage $m$ = {}", short(m)) } else { "$m$ = 1".to_owned() };
         let below = [0.5 * (left[0] + right[0]), left[1] + 40.0];
-        let mut frame = Element::group("slice").containing([outline, text(&title, below, 12.5)]);
-        let names: [&str; 3] = match k {
-            0 => ["critical force $n$", "penetration resistance $k$", "compliance $l$"],
-            _ if m < 1.0 => ["$n$", "$k$", "$l$"],
-            _ => ["", "", ""],
-        };
-        let away = if k == 0 { 34.0 } else { 0.0 };
-        let spots = [
-            [top[0], top[1] - 14.0],
-            [left[0] + away, left[1] + 22.0],
-            [right[0] - away * 0.5, right[1] + 22.0],
-        ];
-        frame = frame
-            .containing(names.into_iter().zip(spots).map(|(name, spot)| text(name, spot, 12.0)));
+        let mut frame = Element::group("slice").containing([outline, middle(&title, below, 12.5)]);
+        frame = frame.containing(self.corner_names(k));
         if m >= 1.0 {
-            frame.add(text(
-                &format!("best: {}", best.first().copied().unwrap_or_default()),
-                [left[0], left[1] + 56.0],
-                12.0,
-            ));
+            let best = format!("best: {}", best.first().copied().unwrap_or_default());
+            frame.add(middle(&best, [left[0], left[1] + 56.0], 12.0));
         } else if k == 0 {
             let alone = format!(
                 "best alone: critical force {}, penetration resistance {}, compliance {}",
@@ -162,6 +130,33 @@ impl WeightSlices {
             frame.add(label(&alone, [20.0, 622.0], 12.0, Anchor::Start).with("fill", FAINT));
         }
         frame
+    }
+
+    /// The corners of slice `k`: above, on the left and on the right.
+    fn corners(&self, k: usize) -> [Spot; 3] {
+        let m = self.weight(self.slices()[k]);
+        [1, 2, 3].map(|corner| {
+            let mut weights = [m, 0.0, 0.0, 0.0];
+            weights[corner] = 1.0 - m;
+            Self::spot(k, weights)
+        })
+    }
+
+    /// The criteria at the corners of slice `k`, in words in the first one.
+    fn corner_names(&self, k: usize) -> impl Iterator<Item = Element> {
+        let names: [&str; 3] = match k {
+            0 => ["critical force $n$", "penetration resistance $k$", "compliance $l$"],
+            _ if self.weight(self.slices()[k]) < 1.0 => ["$n$", "$k$", "$l$"],
+            _ => ["", "", ""],
+        };
+        let [top, left, right] = self.corners(k);
+        let away = if k == 0 { 34.0 } else { 0.0 };
+        let spots = [
+            [top[0], top[1] - 14.0],
+            [left[0] + away, left[1] + 22.0],
+            [right[0] - away * 0.5, right[1] + 22.0],
+        ];
+        names.into_iter().zip(spots).map(|(name, spot)| middle(name, spot, 12.0))
     }
 
     /// Returns the letter of each listed design on that of its dots which is farthest from dots of others.
@@ -181,6 +176,11 @@ fn clearance(dots: &[Dot], own: &Dot) -> f64 {
     let others = dots.iter().filter(|dot| dot.slice == own.slice && dot.row != own.row);
     let away = others.map(|dot| (dot.spot[0] - own.spot[0]).hypot(dot.spot[1] - own.spot[1]));
     away.fold(SIDE, f64::min)
+}
+
+/// A text whose middle is at a spot.
+fn middle(text: &str, spot: Spot, size: f64) -> Element {
+    label(text, spot, size, Anchor::Middle).with("fill", INK)
 }
 
 fn letter_at(letter: &str, [x, y]: Spot) -> Element {
