@@ -1,8 +1,13 @@
 //! Tolerances: what comes out when what is made differs from what is drawn.
 //!
 //! A [`Deviation`](sweep::Deviation) is common to all scales of a batch or differs from scale to scale. The spread of a measure is
-//! predicted from its derivatives, and solved for with random samples; both stand side by side, with the difference. Random numbers
-//! depend on the seed, the number of the sample and the key of the parameter alone.
+//! predicted from its derivatives, the sum of the parts of batch deviations `s` and of single scales `i` (T1), and solved for with
+//! random samples; both stand side by side, with the difference. Random numbers depend on the seed, the number of the sample and the
+//! key of the parameter alone.
+//!
+//! ```text
+//! σ² = Σ_s σ_s² + Σ_i σ_i²
+//! ```
 //!
 //! ```text
 //! deviations ─► derivatives ─► LinearSpread ─┐
