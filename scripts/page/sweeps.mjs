@@ -1,4 +1,4 @@
-// Pages of other sweeps: more axes, folds and physical units, failures, 20,000 designs.
+// Pages of other sweeps: more axes, folds and physical units, failures, a table of 20,000 designs.
 import assert from "node:assert/strict";
 import { spots, table } from "./browser.mjs";
 
@@ -93,7 +93,7 @@ export default ({ open, run, folders }) => ({
     await page.close();
   },
 
-  async "a page of 20,000 designs: sliders, requirements, sorting and scrolling within 100 ms"() {
+  async "the page of a table of 20,000 designs: sliders, requirements, sorting and scrolling within 100 ms"() {
     const page = await open(folders.large);
     await page.waitForTimeout(2000);
     const times = await page.evaluate(async () => {

@@ -21,7 +21,7 @@
 //! | [`CorotationalBeam`] | one element: energies, force, consistent tangent, end moments |
 //! | [`RigidArm`] | kinematics of a point that is rigidly attached to a pose |
 //! | [`OffsetBeam`] | an element between two rigid arms, in terms of the poses that hold them |
-//! | [`GapMembrane`] | the elements of one gap, assembled between two neighbouring scales |
+//! | [`Span`], [`GapMembrane`] | the geometry of one gap; the elements in it, assembled between two neighbouring scales |
 //! | [`Elastica`] | the limit of infinitely many elements: one spectral element per gap, its energies, gradient and Hessian |
 //! | [`Membrane`] | either of the two, behind one interface |
 //!

@@ -43,7 +43,7 @@ pub struct Candidate {
     pub verdict: Verdict,
 }
 
-/// What is searched for: the objective that is to be as large as can be (turned, if it is to be small), and bounds that others must
+/// The aim of a search: the objective that is to be as large as can be (turned, if it is to be small), and bounds that others must
 /// keep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
@@ -56,11 +56,11 @@ pub struct Target {
 /// The merit of a design under a target, the larger the better.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Merit {
-    /// It cannot be judged.
+    /// The design cannot be judged.
     None,
-    /// It falls short, by so much at most.
+    /// The design falls short, by so much at most.
     Short(f64),
-    /// It meets everything, and has that turned objective.
+    /// The design meets everything, and has that turned objective.
     Met(f64),
 }
 

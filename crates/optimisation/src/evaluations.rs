@@ -126,7 +126,7 @@ impl<'a> Evaluations<'a> {
     }
 }
 
-/// What a mutex holds; nothing that is done under these locks leaves it half-done.
+/// The value behind a mutex; nothing that is done under these locks leaves it half-done.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

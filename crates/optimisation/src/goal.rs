@@ -20,7 +20,7 @@ pub(crate) const MOST_OBJECTIVES: usize = 4;
 pub struct DesignGoal {
     /// The variables, and what all designs share.
     pub space: DesignSpace,
-    /// What is to be large or small: one gives an optimum, two to four a front.
+    /// The columns that are to be large or small: one gives an optimum, two to four a front.
     pub objectives: Vec<Criterion>,
     /// The bounds that columns must keep.
     pub requirements: Vec<Requirement>,

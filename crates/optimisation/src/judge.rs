@@ -1,4 +1,4 @@
-//! What a design is worth: its objectives, and how far it is from every requirement.
+//! The worth of a design: its objectives, and how far it is from every requirement.
 
 use ranking::{Goal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
@@ -13,16 +13,16 @@ const SOUND: (&str, Relation, f64) = ("gap_stretch_min", Relation::AtLeast, 0.0)
 /// Step of the differences along extrapolated rows, relative to the size of the parameter.
 const STEP: f64 = 1e-6;
 
-/// What was found of a design.
+/// The judgement of a design by a goal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It has every objective and every column that is required.
+    /// The design has every objective and every column that is required.
     Judged(Worth),
     /// The surface folded on the way and is open again at the end.
     Folded,
     /// A measure has no value.
     Failed(Outcome),
-    /// It is complete, and has no value in the column of an objective or a requirement.
+    /// The design is complete, and has no value in the column of an objective or a requirement.
     Missing(String),
 }
 

@@ -2,7 +2,12 @@
 //!
 //! A goal names variables, objectives and requirements. Points that fill the space of the variables are solved first; the best of
 //! them are improved along the exact derivatives of every measure, and, where those end at kinks, by a direct search that converges
-//! there. Several objectives give a front. What binds at a best design, and what it costs, comes from the multipliers.
+//! there. Several objectives give a front. What binds at a best design, and what it costs, comes from the multipliers of
+//! the limits `g_k ≥ l_k` that balance the objective `o` (O1):
+//!
+//! ```text
+//! ∇o + Σ μ_k ∇g_k = 0,   μ_k ≥ 0;      do/dl_k = −μ_k
+//! ```
 //!
 //! ```text
 //! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ polish ─► Found: optimum or front, bindings, history
@@ -20,6 +25,26 @@
 //! | [`write_found`] | writes the tables of what was found |
 //! | [`Words`] | what binds and what it costs, in words |
 //! | [`Binding`], [`Limit`] | what keeps a design from being better, and its price |
+//! | [`OptimisationError`] | why there was no search |
+//!
+//! ```
+//! use std::sync::atomic::AtomicBool;
+//!
+//! use optimisation::{Answer, DesignGoal, SearchOptions, optimise};
+//! use run::{Program, Start};
+//!
+//! // Scales of 45° cover more, the narrower their gaps: λ = 1 − d (Eq. G2).
+//! let text = "name = 'covered'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+//!             [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'\nsamples = 8";
+//! let goal = DesignGoal::parse(text, "covered.toml", &[])?;
+//! let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
+//! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop };
+//! let program = Program { version: "1.0", revision: "none" };
+//! let found = optimise(&goal, folder.path(), &options, &program)?.expect("nobody stops it");
+//! let Answer::Optimum(best) = found.answer else { panic!("there is one objective") };
+//! assert!((best.row.case.design.gap - 0.1).abs() < 1e-9);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod candidate;
 mod error;

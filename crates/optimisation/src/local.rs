@@ -21,7 +21,7 @@ const ROUNDS: usize = 4;
 /// A relative gain below which a round has come to its end.
 const GAIN: f64 = 1e-8;
 
-/// What all searches share: the space, its evaluations, the judge.
+/// The parts that all searches share: the space, its evaluations, the judge.
 pub(crate) struct Search<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,

@@ -1,4 +1,4 @@
-//! What keeps a best design from being better, and what each of these costs.
+//! The limits that keep a best design from being better, and what each of them costs.
 //!
 //! At the best design of a smooth problem the gradient of the objective `o`, to be large, is balanced by those of the limits that
 //! bind, `g_k ≥ l_k`, each with a multiplier:
@@ -27,7 +27,7 @@ const BALANCED: f64 = 1e-3;
 pub struct Binding {
     /// The limit.
     pub limit: Limit,
-    /// What the objective loses, in its unit, for each unit by which the limit is made harder. `None` where the design stands on a
+    /// The loss of the objective, in its unit, for each unit by which the limit is made harder. `None` where the design stands on a
     /// kink, so that no multiplier balances the gradients.
     pub price: Option<f64>,
 }

@@ -32,13 +32,13 @@ const APART: f64 = 0.12;
 pub struct SearchOptions<'a> {
     /// The number of designs that are solved at a time.
     pub threads: usize,
-    /// What becomes of the results that are there.
+    /// Whether results that are there are refused, used or thrown away.
     pub start: Start,
     /// Set to request a stop; what is solved so far stays in the journal.
     pub stop: &'a AtomicBool,
 }
 
-/// What a search found.
+/// The outcome of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// Every design that was looked at, in an order that does not depend on the threads.
@@ -69,9 +69,9 @@ pub struct BestDesign {
     pub candidate: Candidate,
     /// The design as a row of tables.
     pub row: DesignRow,
-    /// What it was searched for with.
+    /// The target of the search that found it.
     pub target: Target,
-    /// What keeps it from being better, and what that costs.
+    /// The limits that keep the design from being better, and what each costs.
     pub bindings: Vec<Binding>,
 }
 
@@ -172,7 +172,7 @@ fn distance(one: &Candidate, other: &Candidate) -> f64 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// What is looked at when the starts are improved, each for itself.
+/// The candidates that are looked at when the starts are improved, each for itself.
 fn improved(
     search: &Search<'_>,
     target: &Target,

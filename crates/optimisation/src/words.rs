@@ -1,4 +1,4 @@
-//! What binds at a best design and what it costs, in words.
+//! The limits that bind at a best design and their costs, in words.
 
 use ranking::{Criterion, Goal, Requirement};
 use results::columns::explain_value;
@@ -53,7 +53,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// What a limit costs, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
+    /// The cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
         let price = binding.price?;
         let objective = &self.goal.objectives[target.objective];

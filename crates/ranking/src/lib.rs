@@ -1,19 +1,26 @@
 //! Rankings: what is made of the results of a run.
 //!
 //! The designs that meet all requirements are ranked: criteria are rescaled, weighted and put together; the best design is
-//! found for one set of weights, for all of them, and without any. Two runs are compared design by design.
+//! found for one set of weights, for all of them, and without any. Two runs are compared design by design. On the paper's
+//! scale the fitness of a design is the weighted geometric mean of its rescaled criteria (Eq. 7 of Shafiei et al. 2021, doi
+//! 10.1016/j.jmps.2020.104176),
+//!
+//! ```text
+//! f = s₁^m s₂^n s₃^k s₄^l,     s = (c − min c)/(max c − min c)                             (R3), (R2)
+//! ```
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Preferences`] | what a ranking goes by, as `ranking.toml` has it |
 //! | [`Requirement`], [`Relation`] | a bound that a column must keep |
-//! | [`CRITERIA`], [`Criterion`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
+//! | [`CRITERIA`], [`Criterion`], [`Goal`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
 //! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
 //! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
 //! | [`check_comparable`], [`yardsticks`] | whether criteria can be compared between designs |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
+//! | [`write_ranking`], [`write_comparison`] | write the tables of both |
 //!
 //! ```
 //! use ranking::{Ranking, TetrahedralGrid, Weights};

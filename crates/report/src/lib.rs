@@ -7,12 +7,13 @@
 //! |---|---|
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
 //! | [`curves()`] | paths of solved designs |
-//! | [`figures()`] | figures of a sweep, from its table |
+//! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
 //! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
 //! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
-//! | [`Page`], [`PageDesign`], [`GapFactors`] | figures, ranking, table and drawings on one HTML page |
+//! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
+//! | [`GapFactors`] | the factors by which a design moves where its gap comes out 10 % smaller or larger, for the page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
 //!

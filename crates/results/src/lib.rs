@@ -9,7 +9,8 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`DesignResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
+//! | [`DesignResult`], [`PunctureResult`], [`FlexureResult`], [`Outcome`], [`Failure`] | everything that is known of a solved design, and why it failed |
+//! | [`SolvedDesign`] | the result of a design with its paths |
 //! | [`SampleStatistics`], [`Statistics`] | mean and quantiles over imperfect samples |
 //! | [`DesignRow`], [`FailureRow`], [`RerunChange`] | the rows of `designs.csv`, `failures.csv` and `reruns.csv` |
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
@@ -22,7 +23,7 @@
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
-//! | [`Contents`], [`VerifiedFolder`] | what a run states of its folder, and the folder once that is checked |
+//! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
 //! | [`Derivation`] | what was made from the tables, and from which |
 //!
 //! ```

@@ -54,7 +54,8 @@ pub enum Start {
     /// Refuses to touch them.
     #[default]
     New,
-    /// Goes on where they end.
+    /// Goes on where they end, if the first line of the journal names the same definition, designs and program. Every line whose
+    /// checksum holds is trusted; a torn end is cut off and solved again, a damaged line before intact ones is refused.
     Resume,
     /// Throws them away.
     Fresh,

@@ -15,6 +15,7 @@
 //! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
 //! | [`Evaluator`] | solves one design |
 //! | [`WorkMeter`] | how much of the work is done, within designs too |
+//! | [`Start`] | what a run does with results that are there, and what it trusts of them |
 //! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
 //! | [`Seal`] | the checksums that make the lines of one journal differ from those of others |
 //! | [`Archive`] | a journal that was read |
@@ -24,7 +25,7 @@
 //! | [`Estimate`] | time and room that a sweep takes, about |
 //! | [`Audit`], [`LargestDifference`], [`SecondWay`] | a share of the designs solved again by another way |
 //! | [`Summary`], [`Best`] | counts and best values |
-//! | [`GapChange`], [`MeasureChange`] | how far the measures of a design move with its gap |
+//! | [`GapChange`], [`MeasureChange`] | the measures of a design where its gap comes out 10 % smaller and larger |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;

@@ -15,12 +15,16 @@
 //! | [`puncture::solve`] | a row of scales under a point load, until the loaded one tilts by 10° |
 //! | [`Common`] | contact law and solver settings, of puncture and bending |
 //! | [`puncture::PunctureParameters`] | moduli, row length, load, critical tilt |
+//! | [`puncture::RowLength`] | how many scales are solved for: a number, or as many as contact reaches |
+//! | [`puncture::OddScale`] | one scale of a row that differs from all others, for derivatives with respect to single scales |
+//! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snaps and losses of stability along the path; measures at other critical tilts |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap in which the surface of the substrate folds over; how far gaps are stretched |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |
 //! | [`flexure::solve`] | a strip of membrane with scales in pure bending |
 //! | [`flexure::FlexureParameters`] | moduli, strip, resolution of the membrane, largest rotation |
 //! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | its path, events and measures |
+//! | [`flexure::contact_curvature`] | the curvature at which scales touch, in closed form |
 //! | [`puncture::differentiate`], [`flexure::differentiate`] | the same with the derivatives of all measures |
 //! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Variation`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |

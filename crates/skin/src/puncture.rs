@@ -50,8 +50,9 @@ pub const LONGEST_ROW: usize = 4001;
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
-    /// As many as the deformation needs: on the whole path no end scale touches its neighbour
-    /// or moves by more than `1e-6`.
+    /// A row without ends: as many scales are solved for as contact reaches, more as it spreads along the path, and those beyond
+    /// move as a linear chain does, in closed form. Where nothing is known of those beyond, the row grows until its ends move by
+    /// no more than `1e-6`.
     Auto,
     /// This many, the middle one (of an even number the left of the two) punctured.
     Scales(usize),

@@ -18,7 +18,8 @@
 //! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs, 2 ms |
-//! | [`RowStiffness`], [`Coupling`] | the same with more neighbours and with force from rotation |
+//! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
+//! | [`FarField`] | how scales move beyond the last that touch, in closed form |
 //! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |

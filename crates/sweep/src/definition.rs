@@ -106,7 +106,7 @@ impl Sweep {
     }
 
     /// The sweep with the one design that has the values of `case` on every axis, whether or not they are among those of the axis.
-    /// It has no variables.
+    /// That sweep has no variables.
     #[must_use]
     pub fn at(&self, case: &Case) -> Self {
         Self { grid: self.grid.at(case), variables: Vec::new(), ..self.clone() }

@@ -12,13 +12,14 @@
 //! |---|---|
 //! | [`toml_source`] | a definition as it is written: keys, values and their places |
 //! | [`Setting`] | a key set from outside, in place of what is written |
-//! | [`PARAMETERS`], [`Parameter`] | the list of everything that may be set, with what is right |
+//! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of everything that may be set, with what is right; a value |
+//! | [`Measure`] | what is measured: coverage, puncture, flexure, and the derivatives of these |
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
 //! | [`Case`] | one design with everything that it is solved with |
-//! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn |
-//! | [`Deviation`], [`BatchDeviation`] | how far what is made differs from what is drawn |
-//! | [`Material`] | what it is made of, in physical units |
+//! | [`Variable`], [`VariableValues`] | a parameter that is searched over or drawn, of `[variables]` |
+//! | [`Deviation`], [`BatchDeviation`] | how far what is made differs from what is drawn, of `[tolerance]` |
+//! | [`Material`] | what the skin is made of, in physical units |
 //! | [`Subset`], [`RandomSample`], [`Shard`], [`SubsetDesigns`] | which of the designs a run solves |
 //!
 //! ```

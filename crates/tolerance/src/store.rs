@@ -32,7 +32,7 @@ pub struct SampleStore {
     folder: RunFolder,
 }
 
-/// What a table holds.
+/// The origin of a table of samples, and its digest.
 #[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
 struct Record {
     /// Digest of the definition and of the program.

@@ -12,7 +12,7 @@
 //! | Item | Role |
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
-//! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`] | the statements of the paper, and their verdicts |
+//! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`], [`Verdict`] | the statements of the paper, and their verdicts |
 //! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |

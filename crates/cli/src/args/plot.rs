@@ -18,7 +18,7 @@ Examples:
   squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force"
 )]
 pub struct PlotArguments {
-    /// What to plot instead of a sweep
+    /// Plot curves of designs or a map instead of the figures of a sweep
     #[command(subcommand)]
     pub what: Option<PlotWhat>,
 

@@ -65,7 +65,7 @@ pub(super) fn pool(threads: Option<u16>) -> anyhow::Result<ThreadPool> {
     Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
 }
 
-/// What an analysis came to; `None`, and a word about it, if it was told to stop.
+/// The outcome of an analysis; `None`, and a word about it, if it was told to stop.
 pub(super) fn unless_stopped<T>(
     analysed: Result<T, NoAnalysis>,
     definition: &args::Definition,

@@ -1,4 +1,4 @@
-//! What a person needs who has nothing but the program: definitions, completions, manual pages, its version.
+//! Everything that a person needs who has nothing but the program: definitions, completions, manual pages, its version.
 
 use crate::Place;
 

@@ -1,4 +1,4 @@
-//! What a small change of a parameter changes: `squama rank` tells it of the best designs, `squama plot map` shows it.
+//! Effects of a small change of a parameter: `squama rank` tells them of the best designs, `squama plot map` shows them.
 
 use serde_json::Value;
 

@@ -116,7 +116,7 @@ fn lock(file: &File, folder: &Path) -> Result<(), OptimisationError> {
     }
 }
 
-/// What a journal holds.
+/// The evaluations that a journal holds.
 #[derive(Default)]
 struct Found {
     lines: Vec<JournalLine>,

@@ -99,7 +99,7 @@ fn goal_section(
     goal
 }
 
-/// What keeps a space from being searched: no variables, a range of a number that does not describe the skin, parameters that
+/// Reasons why a space cannot be searched: no variables, a range of a number that does not describe the skin, parameters that
 /// are neither variables nor have one value.
 fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<InvalidDefinition> {
     if sweep.variables().is_empty() {
@@ -131,7 +131,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     vague.chain(open).collect()
 }
 
-/// What is written and can have no meaning: columns that designs do not have, objectives that cannot be compared, requirements that
+/// Lines of a goal that can have no meaning: columns that designs do not have, objectives that cannot be compared, requirements that
 /// exclude each other.
 fn senseless<'a>(
     goal: &'a GoalSection,

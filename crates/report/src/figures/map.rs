@@ -62,9 +62,9 @@ pub enum InvalidMap {
     /// No design has the values that are held.
     #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]
     NoValue {
-        /// What is held.
+        /// The column and the value that were asked for.
         found: String,
-        /// What may be held.
+        /// The values that may be held.
         known: Vec<String>,
     },
     /// There are too many maps.
@@ -191,7 +191,7 @@ fn value_label((axis, value): &(&str, &str)) -> String {
     }
 }
 
-/// What a map shows, over which parameters.
+/// The column that a map shows, and the parameters over which it does.
 struct MapSubject<'a> {
     x: &'a str,
     y: &'a str,

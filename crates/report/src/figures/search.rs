@@ -35,7 +35,7 @@ pub struct SearchFigure<'a> {
     pub designs: &'a [SearchedDesign],
     /// The places of the line, in its order.
     pub line: &'a [[f64; 2]],
-    /// What the line is, in words.
+    /// The meaning of the line, in words.
     pub legend: &'a str,
 }
 

@@ -92,7 +92,7 @@ impl DesignResult {
     }
 }
 
-/// What is no continuous value of a puncture.
+/// The measures of a puncture that are counts or answers, not continuous values.
 fn counts_of(measures: &PunctureMeasures) -> PunctureMeasures {
     let PunctureMeasures { contacts, engaged_scales, scales, snaps, .. } = *measures;
     let PunctureMeasures { stable_under_load, stable_under_depth, .. } = *measures;

@@ -192,7 +192,7 @@ fn filled(mut numbers: Vec<f64>) -> Vec<f64> {
     numbers
 }
 
-/// What a corner counts by along a line, differentiated with respect to `X`, `Z` (S15).
+/// Contributions of the corners of a line, differentiated with respect to `X`, `Z` (S15).
 struct Slopes {
     by_x: Vec<f64>,
     by_z: Vec<f64>,

@@ -37,7 +37,7 @@ fn analysed(
     analysis.design(0, &SampleStore::new(folder))
 }
 
-/// The same, in a folder of its own.
+/// The tolerances of the first design of `sweep`, its samples in a folder of their own.
 fn tolerance(sweep: &Sweep, require: &[&str], samples: usize) -> DesignTolerance {
     let folder = tempfile::tempdir().expect("a folder");
     analysed(sweep, require, samples, folder.path(), false).expect("tolerances")

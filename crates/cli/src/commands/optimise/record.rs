@@ -1,4 +1,4 @@
-//! What `squama optimise` prints as JSON.
+//! The JSON that `squama optimise` prints.
 
 use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Verdict, Words};
 use ranking::Requirement;
@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::report::unmet;
 use crate::json;
 
-/// What a search found.
+/// The answer of a search to its goal.
 pub fn record(goal: &DesignGoal, found: &Found) -> Value {
     let words = Words::new(goal);
     let left_out = &found.left_out;

@@ -10,7 +10,7 @@ use results::columns::Cell;
 use super::super::rank::obstacle;
 use crate::print::{aligned, counted, digits, rounded, time};
 
-/// What a search found, for people.
+/// The answer of a search, for people.
 pub struct SearchReport<'a> {
     pub goal: &'a DesignGoal,
     pub found: &'a Found,

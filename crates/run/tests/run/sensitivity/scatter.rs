@@ -12,7 +12,7 @@ fn force(case: &Case, stiffness: &RowStiffness) -> Option<f64> {
     puncture::solve(design, stiffness.clone(), common, parameters).ok()?.measures.critical_force
 }
 
-/// The same deviation of all scales, the substrate as it is, is the sum of those of each.
+/// A deviation that all scales share, the substrate as it is, is the sum of those of each.
 #[test]
 fn the_derivatives_of_all_scales_add_up_to_that_of_the_row() {
     let mut compared = 0;
