@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use results::DesignResult;
 
-use crate::judge::Verdict;
+use crate::judge::Judgement;
 use crate::space::SpacePoint;
 
 /// The stage of a search in which a design was looked at.
@@ -40,7 +40,7 @@ pub struct Candidate {
     /// The result of the design.
     pub result: Arc<DesignResult>,
     /// The verdict on it.
-    pub verdict: Verdict,
+    pub verdict: Judgement,
 }
 
 /// The aim of a search: the objective that is to be as large as can be (turned, if it is to be small), and bounds that others must

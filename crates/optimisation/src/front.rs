@@ -4,7 +4,7 @@ use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
-use crate::judge::Verdict;
+use crate::judge::Judgement;
 use crate::local::{Effort, Search};
 use crate::search::{BestDesign, best_design};
 
@@ -85,7 +85,7 @@ pub(crate) fn designs(
 
 /// The turned objectives of a design that meets every requirement.
 fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
-    let Verdict::Judged(worth) = &candidate.verdict else { return None };
+    let Judgement::Judged(worth) = &candidate.verdict else { return None };
     let turned = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
     worth.met.then(|| turned.collect())
 }

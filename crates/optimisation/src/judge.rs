@@ -15,7 +15,7 @@ const STEP: f64 = 1e-6;
 
 /// The judgement of a design by a goal.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Judgement {
     /// The design has every objective and every column that is required.
     Judged(Worth),
     /// The surface folded on the way and is open again at the end.
@@ -165,14 +165,14 @@ impl Judge {
     }
 
     /// The verdict on a design.
-    pub fn verdict(&self, row: &DesignRow) -> Verdict {
+    pub fn verdict(&self, row: &DesignRow) -> Judgement {
         if let Some(failure) = row.result.failures.first() {
-            return Verdict::Failed(failure.outcome);
+            return Judgement::Failed(failure.outcome);
         }
         match self.worth(row) {
-            Ok(worth) if worth.met && self.sound && has_folded(row) => Verdict::Folded,
-            Ok(worth) => Verdict::Judged(worth),
-            Err(column) => Verdict::Missing(column),
+            Ok(worth) if worth.met && self.sound && has_folded(row) => Judgement::Folded,
+            Ok(worth) => Judgement::Judged(worth),
+            Err(column) => Judgement::Missing(column),
         }
     }
 

@@ -18,7 +18,7 @@
 //! |---|---|
 //! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
 //! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
-//! | [`Judge`], [`Verdict`], [`Worth`] | what a design is worth by the goal |
+//! | [`Judge`], [`Judgement`], [`Worth`] | what a design is worth by the goal |
 //! | [`optimise`], [`SearchOptions`] | the search |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`LeftOutDesigns`] | what it found |
 //! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
@@ -64,7 +64,7 @@ pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
 pub use evaluations::EVALUATIONS;
 pub use goal::DesignGoal;
-pub use judge::{Judge, Verdict, Worth};
+pub use judge::{Judge, Judgement, Worth};
 pub use price::{Binding, Limit};
 pub use search::{Answer, BestDesign, Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};

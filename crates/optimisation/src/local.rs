@@ -12,7 +12,7 @@ pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
-use crate::judge::{Judge, Verdict};
+use crate::judge::{Judge, Judgement};
 use crate::space::{DesignSpace, SpacePoint};
 
 /// Rounds of derivatives and of what does without, at most.
@@ -64,7 +64,7 @@ impl Search<'_> {
 
     /// The merit of a design under a target.
     pub fn merit(&self, candidate: &Candidate, target: &Target) -> Merit {
-        let Verdict::Judged(worth) = &candidate.verdict else { return Merit::None };
+        let Judgement::Judged(worth) = &candidate.verdict else { return Merit::None };
         let turned = |k: usize| self.judge.sign(k) * worth.objectives[k];
         let short = target.floors.iter().map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
         let floors = short.fold(0.0, f64::max);

@@ -13,7 +13,7 @@ use sweep::Parameter;
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::judge::{Slopes, Verdict, size};
+use crate::judge::{Judgement, Slopes, size};
 use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
 
 /// A limit binds that is this near, relative to its size.
@@ -56,7 +56,7 @@ pub(crate) fn bindings(
 ) -> Result<Vec<Binding>, Halt> {
     let limits = binding_limits(search, best, target);
     let (looked, row) = search.look(SearchStage::Gradient, &best.point, true)?;
-    let is_whole = matches!(looked.verdict, Verdict::Judged(_));
+    let is_whole = matches!(looked.verdict, Judgement::Judged(_));
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
@@ -65,7 +65,7 @@ pub(crate) fn bindings(
 }
 
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
-    let Verdict::Judged(worth) = &best.verdict else { return Vec::new() };
+    let Judgement::Judged(worth) = &best.verdict else { return Vec::new() };
     let requirements = worth.excess.iter().enumerate();
     let required = requirements.filter(|(_, excess)| **excess > -NEAR);
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();

@@ -13,7 +13,7 @@ use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
 use crate::front;
 use crate::goal::DesignGoal;
-use crate::judge::{Judge, Verdict, has_folded};
+use crate::judge::{Judge, Judgement, has_folded};
 use crate::local::{Effort, Search};
 use crate::price::{Binding, bindings};
 use crate::sample;
@@ -206,16 +206,16 @@ impl LeftOutDesigns {
         let mut left_out = Self::default();
         for candidate in history {
             match &candidate.verdict {
-                Verdict::Failed(outcome) => *left_out.failed.entry(*outcome).or_default() += 1,
-                Verdict::Missing(column) => {
+                Judgement::Failed(outcome) => *left_out.failed.entry(*outcome).or_default() += 1,
+                Judgement::Missing(column) => {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
-                Verdict::Folded => left_out.folded += 1,
-                Verdict::Judged(_) if search.judge.wants_sound() => {
+                Judgement::Folded => left_out.folded += 1,
+                Judgement::Judged(_) if search.judge.wants_sound() => {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
                 }
-                Verdict::Judged(_) => {}
+                Judgement::Judged(_) => {}
             }
         }
         left_out
@@ -224,7 +224,7 @@ impl LeftOutDesigns {
 
 /// Refuses a goal with a column in which no design has a number.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    let is_judged = |c: &Candidate| matches!(c.verdict, Verdict::Judged(_) | Verdict::Folded);
+    let is_judged = |c: &Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Folded);
     if found.history.iter().any(is_judged) {
         return Ok(());
     }

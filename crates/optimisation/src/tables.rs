@@ -6,7 +6,7 @@ use sweep::Sweep;
 
 use crate::candidate::Candidate;
 use crate::goal::DesignGoal;
-use crate::judge::{Verdict, has_folded};
+use crate::judge::{Judgement, has_folded};
 use crate::search::{Answer, BestDesign, Found};
 use crate::words::Words;
 
@@ -143,7 +143,7 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
     let mut best: Option<f64> = None;
     found.history.iter().enumerate().map(move |(index, candidate)| {
         let row = row(goal, candidate);
-        if let Verdict::Judged(worth) = &candidate.verdict
+        if let Judgement::Judged(worth) = &candidate.verdict
             && worth.met
             && best.is_none_or(|best| sign * worth.objectives[0] > sign * best)
         {
@@ -170,7 +170,7 @@ fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
 /// Shortfall and verdict of a design.
 fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
     match &candidate.verdict {
-        Verdict::Judged(worth) => {
+        Judgement::Judged(worth) => {
             let shortfall = worth.excess.iter().copied().fold(0.0, f64::max);
             let word = match (worth.met, has_folded(row)) {
                 (true, _) => "met",
@@ -179,8 +179,8 @@ fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
             };
             [if worth.met { 0.0 } else { shortfall }.into(), word.into()]
         }
-        Verdict::Folded => [Cell::Empty, "folded".into()],
-        Verdict::Failed(outcome) => [Cell::Empty, outcome.text().into()],
-        Verdict::Missing(column) => [Cell::Empty, format!("no {column}").into()],
+        Judgement::Folded => [Cell::Empty, "folded".into()],
+        Judgement::Failed(outcome) => [Cell::Empty, outcome.text().into()],
+        Judgement::Missing(column) => [Cell::Empty, format!("no {column}").into()],
     }
 }

@@ -13,7 +13,7 @@ use crate::linear::{Gradients, LinearSpread};
 use crate::measured::{MeasuredColumns, Origin};
 use crate::no_analysis::NoAnalysis;
 use crate::sampled::Sampled;
-use crate::store::{Sample, SampleStore};
+use crate::store::{SampleStore, SolvedSample};
 use crate::yields::{RequirementYield, yields};
 
 /// The tolerances of the designs of a sweep.
@@ -43,7 +43,7 @@ pub struct DesignTolerance {
     /// Names of the values of a sample: the deviations, then the columns.
     pub columns: Vec<String>,
     /// The samples.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<SolvedSample>,
 }
 
 /// A measure and its spread.

@@ -12,7 +12,7 @@ use crate::measured::MeasuredColumns;
 use crate::no_analysis::NoAnalysis;
 use crate::sampled::Sampled;
 use crate::sobol::{Evaluation, SobolIndices, sobol_indices};
-use crate::store::{Sample, SampleStore};
+use crate::store::{SampleStore, SolvedSample};
 
 /// The label under which the samples are kept.
 const LABEL: &str = "global";
@@ -106,8 +106,13 @@ impl GlobalAnalysis<'_> {
 }
 
 /// The indices of column `k` of `columns`; `None` if it is constant or has hardly any values.
-fn indices(name: String, k: usize, columns: usize, samples: &[Sample]) -> Option<MeasureIndices> {
-    let evaluation = |sample: &Sample| {
+fn indices(
+    name: String,
+    k: usize,
+    columns: usize,
+    samples: &[SolvedSample],
+) -> Option<MeasureIndices> {
+    let evaluation = |sample: &SolvedSample| {
         let values: Option<Vec<f64>> =
             sample.values.chunks(columns).map(|point| point[k]).collect();
         let values = values?;

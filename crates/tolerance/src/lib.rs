@@ -19,11 +19,11 @@
 //! |---|---|
 //! | [`Analysis`], [`DesignTolerance`] | a design with its deviations, and everything that is known of it |
 //! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
-//! | [`SourceShare`], [`Level`] | the part of a source in it; whether all scales of a batch share the deviation |
+//! | [`SourceShare`], [`DeviationLevel`] | the part of a source in it; whether all scales of a batch share the deviation |
 //! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
-//! | [`Sample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
+//! | [`SolvedSample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
 //! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | the parts that variables have in the variance over a box |
-//! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`Estimate`] | the estimators, for any function |
+//! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`IndexEstimate`] | the estimators, for any function |
 //! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
 //! | [`NoAnalysis`] | why there is no analysis |
 //!
@@ -65,13 +65,13 @@ mod yields;
 
 pub use analysis::{Analysis, DesignTolerance, MeasureTolerance};
 pub use global::{GlobalAnalysis, GlobalSensitivity, MeasureIndices};
-pub use linear::{Level, LinearSpread, SourceShare};
+pub use linear::{DeviationLevel, LinearSpread, SourceShare};
 pub use measured::NoSuchColumn;
 pub use no_analysis::NoAnalysis;
 pub use proportion::Proportion;
 pub use sampled::Sampled;
-pub use sobol::{Estimate, Evaluation, SobolIndices, sobol_indices};
-pub use store::{Sample, SampleStore};
+pub use sobol::{Evaluation, IndexEstimate, SobolIndices, sobol_indices};
+pub use store::{SampleStore, SolvedSample};
 pub use tables::{
     DesignMeasureTolerance, DesignSource, DesignYield, INDEX_COLUMNS, IndexRow, SOURCE_COLUMNS,
     TOLERANCE_COLUMNS, YIELD_COLUMNS,

@@ -11,7 +11,7 @@ const STEP: f64 = 1e-5;
 
 /// The scales that share a deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub enum DeviationLevel {
     /// All of a batch have the same.
     Batch,
     /// Each has its own.
@@ -24,7 +24,7 @@ pub struct SourceShare {
     /// The key of the source in the definition.
     pub source: String,
     /// The scales that share a deviation.
-    pub level: Level,
+    pub level: DeviationLevel,
     /// Standard deviation of the source, in its own unit.
     pub deviation: f64,
     /// Standard deviation of the measure, were this the only source.
@@ -66,11 +66,11 @@ impl Gradients<'_> {
             let Some(batch) = deviation.batch() else { continue };
             let variance = self.slopes(origin, value, deviation, batch)?.variance(batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
-            sources.push((source, Level::Batch, deviation, variance));
+            sources.push((source, DeviationLevel::Batch, deviation, variance));
         }
         for (parameter, sd) in self.scattered() {
             let variance = self.scatter(origin, value, parameter.key, sd)?;
-            sources.push((self.key(parameter), Level::Scale, sd, variance));
+            sources.push((self.key(parameter), DeviationLevel::Scale, sd, variance));
         }
         Some(LinearSpread::of(sources))
     }
@@ -145,10 +145,10 @@ impl Gradients<'_> {
 }
 
 impl LinearSpread {
-    fn of(sources: Vec<(String, Level, f64, f64)>) -> Self {
+    fn of(sources: Vec<(String, DeviationLevel, f64, f64)>) -> Self {
         let sum: f64 = sources.iter().map(|(.., variance)| variance).sum();
         let share = |variance: f64| if sum > 0.0 { variance / sum } else { 0.0 };
-        let source = |(source, level, deviation, variance): (String, Level, f64, f64)| {
+        let source = |(source, level, deviation, variance): (String, DeviationLevel, f64, f64)| {
             let (spread, share) = (variance.sqrt(), share(variance));
             SourceShare { source, level, deviation, spread, share }
         };
@@ -162,7 +162,8 @@ impl LinearSpread {
     pub fn in_words(&self) -> String {
         let matters = self.sources.iter().filter(|source| source.share >= 0.005);
         let text = |source: &SourceShare| {
-            let level = if source.level == Level::Scale { " from scale to scale" } else { "" };
+            let level =
+                if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
             format!("{}{level} {:.0} %", source.source, 100.0 * source.share)
         };
         matters.map(text).collect::<Vec<_>>().join(", ")

@@ -15,14 +15,14 @@ pub struct Evaluation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SobolIndices {
     /// First-order index: the part that the variable has alone.
-    pub first: Estimate,
+    pub first: IndexEstimate,
     /// Total index: the part that it has alone and together with others.
-    pub total: Estimate,
+    pub total: IndexEstimate,
 }
 
 /// An estimate and its standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
+pub struct IndexEstimate {
     /// The estimate.
     pub value: f64,
     /// The standard error.
@@ -32,7 +32,7 @@ pub struct Estimate {
 /// Standard errors to either side that 95 % of a normal distribution lie within.
 const WITHIN: f64 = 1.959_964;
 
-impl Estimate {
+impl IndexEstimate {
     /// The 95 % interval.
     pub fn interval(self) -> [f64; 2] {
         [-WITHIN, WITHIN].map(|errors| self.value + errors * self.error)
@@ -67,7 +67,7 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
         let value = terms.iter().sum::<f64>() / (n * variance);
         let influences =
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
-        Estimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }
+        IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }
     };
     let indices = |i: usize| SobolIndices {
         first: ratio(&|e| centred(e.second) * (e.mixed[i] - e.first)),

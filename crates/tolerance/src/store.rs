@@ -16,7 +16,7 @@ const BLOCK_PART: usize = 4;
 
 /// A solved sample.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct SolvedSample {
     /// Number of the sample, from 1.
     pub number: u64,
     /// Its values, `None` where there is none.
@@ -59,7 +59,7 @@ impl SampleStore {
         count: usize,
         stop: &AtomicBool,
         solve: impl Fn(u64) -> Vec<Option<f64>> + Sync,
-    ) -> Result<Vec<Sample>, NoAnalysis> {
+    ) -> Result<Vec<SolvedSample>, NoAnalysis> {
         let mut samples = self.kept(label, of, columns).unwrap_or_default();
         while samples.len() < count {
             let done = samples.len();
@@ -68,7 +68,7 @@ impl SampleStore {
             }
             let block = BLOCK.max(done / BLOCK_PART).min(count - done);
             let numbers: Vec<u64> = (done as u64 + 1..).take(block).collect();
-            let sample = |number: u64| Sample { number, values: solve(number) };
+            let sample = |number: u64| SolvedSample { number, values: solve(number) };
             samples.par_extend(numbers.into_par_iter().map(sample));
             self.write(label, of, columns, &samples)?;
         }
@@ -77,7 +77,7 @@ impl SampleStore {
     }
 
     /// The samples under a label that are kept, if they are `of` the same definition.
-    fn kept(&self, label: &str, of: &str, columns: &[String]) -> Option<Vec<Sample>> {
+    fn kept(&self, label: &str, of: &str, columns: &[String]) -> Option<Vec<SolvedSample>> {
         let record = fs::read_to_string(self.folder.file(&format!("{label}.toml"))).ok()?;
         let record: Record = toml::from_str(&record).ok()?;
         let table = fs::read(self.folder.file(&format!("{label}.csv"))).ok()?;
@@ -92,7 +92,7 @@ impl SampleStore {
         let mut samples = Vec::new();
         for (row, number) in reader.records().zip(1..) {
             let values = row.ok()?.iter().skip(1).map(cell).collect();
-            samples.push(Sample { number, values });
+            samples.push(SolvedSample { number, values });
         }
         Some(samples)
     }
@@ -103,14 +103,14 @@ impl SampleStore {
         label: &str,
         of: &str,
         columns: &[String],
-        samples: &[Sample],
+        samples: &[SolvedSample],
     ) -> Result<(), OutputError> {
         self.folder.make()?;
-        let number = Column::new("sample", "-", "number of the sample", |sample: &Sample| {
+        let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
             Cell::Count(sample.number as i64)
         });
         let others = columns.iter().enumerate().map(|(index, name)| {
-            Column::indexed(name.clone(), "", "", index, |sample: &Sample, index| {
+            Column::indexed(name.clone(), "", "", index, |sample: &SolvedSample, index| {
                 sample.values[index].into()
             })
         });

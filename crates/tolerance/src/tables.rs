@@ -5,7 +5,7 @@ use sweep::DesignNumber;
 
 use crate::analysis::MeasureTolerance;
 use crate::global::MeasureIndices;
-use crate::linear::{Level, LinearSpread, SourceShare};
+use crate::linear::{DeviationLevel, LinearSpread, SourceShare};
 use crate::proportion::Proportion;
 use crate::sampled::Sampled;
 use crate::sobol::SobolIndices;
@@ -107,8 +107,8 @@ pub static SOURCE_COLUMNS: &[Column<DesignSource>] = &[
         "batch: all scales have the same deviation; scale: each its own",
         |r| {
             match r.source.level {
-                Level::Batch => "batch",
-                Level::Scale => "scale",
+                DeviationLevel::Batch => "batch",
+                DeviationLevel::Scale => "scale",
             }
             .into()
         },

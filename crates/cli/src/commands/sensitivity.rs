@@ -8,7 +8,7 @@ use results::{CsvFormat, MEASURE_TABLES, RunFolder, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
 use tolerance::{
-    Estimate, GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexRow, MeasureIndices,
+    GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, IndexRow, MeasureIndices,
     SampleStore, SobolIndices,
 };
 
@@ -101,13 +101,13 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
 }
 
 /// An index in per cent, with its interval.
-fn percent(estimate: Estimate) -> String {
+fn percent(estimate: IndexEstimate) -> String {
     let [low, high] = estimate.interval().map(|end| 100.0 * end);
     format!("{:.0} % ({low:.0} to {high:.0} %)", 100.0 * estimate.value)
 }
 
 fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
-    let estimate = |e: Estimate| json!({ "value": e.value, "interval": e.interval() });
+    let estimate = |e: IndexEstimate| json!({ "value": e.value, "interval": e.interval() });
     let variable = |(variable, indices): (&&str, &SobolIndices)| {
         json!({
             "variable": variable,

@@ -13,7 +13,7 @@ use super::room::{bending_room, bending_room_slopes};
 use super::{LocalSearch, floor_size};
 use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
-use crate::judge::{Slopes, Verdict, Worth};
+use crate::judge::{Judgement, Slopes, Worth};
 
 /// Iterations of a climb, at most.
 const ITERATIONS: u64 = 40;
@@ -29,7 +29,7 @@ impl LocalSearch<'_> {
     pub(super) fn climb(&mut self) -> Result<(), Halt> {
         let start = self.best_shares();
         let value = match &self.best.borrow().verdict {
-            Verdict::Judged(worth) => worth.objectives[self.target.objective],
+            Judgement::Judged(worth) => worth.objectives[self.target.objective],
             _ => return Ok(()),
         };
         let slope = Slope {
@@ -93,7 +93,7 @@ impl Slope<'_> {
     fn worth(&self, shares: &[f64]) -> Result<(Option<Worth>, DesignRow), Halt> {
         let (candidate, row) = self.walk.at(SearchStage::Gradient, shares, true)?;
         match candidate.verdict {
-            Verdict::Judged(worth) => Ok((Some(worth), row)),
+            Judgement::Judged(worth) => Ok((Some(worth), row)),
             _ => Ok((None, row)),
         }
     }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use optimisation::{
-    Answer, BestDesign, DesignGoal, Found, Limit, SearchOptions, SearchStage, Verdict, optimise,
+    Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchOptions, SearchStage, optimise,
 };
 use run::{Program, Start};
 
@@ -37,7 +37,7 @@ fn optimum(found: &Found) -> &BestDesign {
 }
 
 fn objectives(best: &BestDesign) -> &[f64] {
-    let Verdict::Judged(worth) = &best.candidate.verdict else { panic!("judged") };
+    let Judgement::Judged(worth) = &best.candidate.verdict else { panic!("judged") };
     &worth.objectives
 }
 
@@ -126,7 +126,7 @@ fn where_nothing_meets_the_requirements_the_nearest_is_told() {
         "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.9', 'areal_mass_kg_m2 <= 0.8']",
     ));
     let Answer::Infeasible(Some(nearest)) = found.answer else { panic!("no design") };
-    let Verdict::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
+    let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
     // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
     let shortfall = 0.1 / 1.7;
     let largest = worth.excess.iter().copied().fold(0.0, f64::max);

@@ -1,6 +1,6 @@
 //! The figures of a search.
 
-use optimisation::{Answer, BestDesign, DesignGoal, Found, Verdict};
+use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement};
 use ranking::Goal;
 use report::{Figure, SearchFigure, SearchedDesign};
 
@@ -16,7 +16,7 @@ pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
 /// Every design with the values of two of its numbers.
 fn designs(found: &Found, place: impl Fn(usize, &[f64]) -> [f64; 2]) -> Vec<SearchedDesign> {
     let design = |(index, candidate): (usize, &optimisation::Candidate)| match &candidate.verdict {
-        Verdict::Judged(worth) => {
+        Judgement::Judged(worth) => {
             Some(SearchedDesign { place: place(index, &worth.objectives), met: worth.met })
         }
         _ => None,
@@ -50,7 +50,7 @@ fn front(goal: &DesignGoal, found: &Found, front: &[BestDesign]) -> Figure {
     let pair = |objectives: &[f64]| [objectives[0], objectives[1]];
     let designs = designs(found, |_, objectives| pair(objectives));
     let place = |best: &BestDesign| match &best.candidate.verdict {
-        Verdict::Judged(worth) => Some(pair(&worth.objectives)),
+        Judgement::Judged(worth) => Some(pair(&worth.objectives)),
         _ => None,
     };
     let line: Vec<[f64; 2]> = front.iter().filter_map(place).collect();

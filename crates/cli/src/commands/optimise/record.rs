@@ -1,6 +1,6 @@
 //! The JSON that `squama optimise` prints.
 
-use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Verdict, Words};
+use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Judgement, Words};
 use ranking::Requirement;
 use results::columns::design_columns;
 use serde_json::{Map, Value, json};
@@ -71,7 +71,7 @@ fn infeasible(
         })
     };
     let nearest = nearest.map(|index| &found.history[index]);
-    let is_judged = |c: &&Candidate| matches!(c.verdict, Verdict::Judged(_));
+    let is_judged = |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_));
     json!({
         "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
         "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),

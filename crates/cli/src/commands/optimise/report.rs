@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Verdict, Words};
+use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Judgement, Words};
 use ranking::{Requirement, Unmet};
 use results::columns::Cell;
 
@@ -76,7 +76,7 @@ impl SearchReport<'_> {
 
     /// Objectives and required columns, each once.
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
-        let Verdict::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
+        let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let objectives = self.goal.objectives.iter().map(|o| o.column.to_string());
         let required = self.goal.requirements.iter().map(|r| r.column.clone());
         let values = worth.objectives.iter().chain(&worth.required);
@@ -128,7 +128,7 @@ impl SearchReport<'_> {
 /// The obstacle to the requirements among all designs that were looked at.
 pub fn unmet(found: &Found, requirements: &[Requirement]) -> Unmet {
     let values = |candidate: &Candidate| match &candidate.verdict {
-        Verdict::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
+        Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         _ => vec![None; requirements.len()],
     };
     Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), requirements)

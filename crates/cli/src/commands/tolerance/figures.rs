@@ -5,7 +5,7 @@ use report::{Histogram, Shares, share_bars};
 use results::RunFolder;
 use results::columns::physical_source;
 use sweep::Sweep;
-use tolerance::{DesignTolerance, Level, MeasureTolerance, SourceShare};
+use tolerance::{DesignTolerance, DeviationLevel, MeasureTolerance, SourceShare};
 
 use super::report::is_shown;
 
@@ -36,7 +36,7 @@ pub fn write(
 
 fn shares(measure: &MeasureTolerance) -> Option<Shares> {
     let source = |source: &SourceShare| {
-        let level = if source.level == Level::Scale { " from scale to scale" } else { "" };
+        let level = if source.level == DeviationLevel::Scale { " from scale to scale" } else { "" };
         (format!("{}{level}", source.source), source.share)
     };
     let sources = measure.linear.as_ref()?.sources.iter().map(source);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use sweep::Sweep;
-use tolerance::{DesignTolerance, Level, MeasureTolerance, RequirementYield, SourceShare};
+use tolerance::{DesignTolerance, DeviationLevel, MeasureTolerance, RequirementYield, SourceShare};
 
 /// Everything that is known of the designs, but for the samples.
 pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[String]) -> Value {
@@ -46,7 +46,7 @@ fn measure(measure: &MeasureTolerance) -> Value {
 fn source(source: &SourceShare) -> Value {
     json!({
         "source": source.source,
-        "level": if source.level == Level::Batch { "batch" } else { "scale" },
+        "level": if source.level == DeviationLevel::Batch { "batch" } else { "scale" },
         "deviation": source.deviation,
         "linear_spread": source.spread,
         "share": source.share,
