@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use optimisation::{
     Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchOptions, SearchStage, optimise,
 };
+use results::Results;
 use run::{Program, Start};
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
@@ -155,4 +156,30 @@ fn threads_and_interruptions_change_nothing() {
     let options = SearchOptions { threads: 1, start: Start::New, stop: &stop };
     let error = optimise(&goal, folder.path(), &options, &PROGRAM).expect_err("there are results");
     assert!(error.to_string().contains("--resume"), "{error}");
+}
+
+/// The strongest of the 720 designs of the reference study that meets the requirements of a goal is not as good as what a search
+/// between them finds. In a long campaign alone: it solves two thousand designs.
+#[test]
+fn between_the_points_of_the_grid_there_is_a_better_design() {
+    if std::env::var_os("SQUAMA_CAMPAIGNS").is_none_or(|campaigns| campaigns != "long") {
+        return;
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let goal = DesignGoal::read(&root.join("sweeps/goals/strong-and-covered.toml"), &[]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let found = found_in(folder.path(), &goal.expect("a goal"), 2, Start::New);
+    let found = objectives(optimum(&found))[0];
+    let grid = Results::read(&root.join("results/reference/paper")).expect("the reference study");
+    let value = |row: usize, name: &str| {
+        grid.number(row, grid.column(name).expect("a column")).expect("a number")
+    };
+    let meets = |row: &usize| {
+        let is_sound = value(*row, "gap_stretch_min").is_none_or(|least| least > 0.0);
+        let at_least = |name, bound| value(*row, name).is_some_and(|value| value >= bound);
+        is_sound && at_least("coverage", 0.5) && at_least("compliance", 0.2)
+    };
+    let forces = (0..grid.len()).filter(meets).filter_map(|row| value(row, "critical_force"));
+    let best = forces.fold(0.0, f64::max);
+    assert!(best > 0.5 && found > 3.0 * best, "{found} between the points, {best} on them");
 }
