@@ -23,6 +23,7 @@ const TABLES_EVERY: Duration = Duration::from_secs(30);
 pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
+    note_variables(&sweep);
     interrupt.ask_first();
     let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
     let options = options(&arguments.work, &arguments.format, interrupt, &display);
@@ -42,6 +43,17 @@ pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Res
     let Some(audit) = audited else { return Ok(code) };
     print(&audit::report(&audit))?;
     Ok(if audit::agrees(&audit) { code } else { INCOMPLETE })
+}
+
+/// Says that a run does not go through variables.
+fn note_variables(sweep: &Sweep) {
+    let keys: Vec<_> = sweep.variables().iter().map(|v| v.parameter().key).collect();
+    if !keys.is_empty() {
+        note(&format!(
+            "[variables] {} stand in the middle of their values; squama optimise and squama sensitivity --global go through them",
+            keys.join(", ")
+        ));
+    }
 }
 
 /// Says what a person should know of a run that came to its end: what was cut off, lost or removed, and what was made from

@@ -38,6 +38,14 @@ fn the_optimum_is_a_design_like_any_other() {
 }
 
 #[test]
+fn a_run_says_that_it_does_not_go_through_variables() {
+    let (definition, _) = GOAL.split_once("[goal]").expect("a goal");
+    let assert = Place::with(definition).squama("run x.toml --quiet").assert().code(0);
+    let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(told.contains("gap_over_t, slant_deg stand in the middle of their values"), "{told}");
+}
+
+#[test]
 fn tables_do_not_depend_on_threads_or_interruptions() {
     let place =
         Place::with(&GOAL.replace("'coverage >= 0.5'", "[]\nmaximize = 'coverage'\npoints = 5"));
