@@ -20,7 +20,7 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/media.css"),
 ];
 /// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 23] = [
+const SCRIPTS: [&str; 24] = [
     include_str!("../assets/page/scripts/designs.js"),
     include_str!("../assets/page/scripts/elements.js"),
     include_str!("../assets/page/scripts/ranking.js"),
@@ -31,6 +31,7 @@ const SCRIPTS: [&str; 23] = [
     include_str!("../assets/page/scripts/panel.js"),
     include_str!("../assets/page/scripts/chart.js"),
     include_str!("../assets/page/scripts/view.js"),
+    include_str!("../assets/page/scripts/comparable.js"),
     include_str!("../assets/page/scripts/contours.js"),
     include_str!("../assets/page/scripts/figures.js"),
     include_str!("../assets/page/scripts/gap.js"),

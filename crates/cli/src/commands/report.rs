@@ -60,7 +60,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let shared = sweep.shared().map(|(parameter, value)| {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
-    let ranking = results.ranking()?;
+    let rankings = results.rankings()?;
     Ok(Page {
         name: results.title(),
         version: PROGRAM.version.to_owned(),
@@ -69,7 +69,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
+        solved: solved(results, &rankings),
         opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
     })
@@ -88,18 +88,18 @@ fn opening(preferences: &Preferences) -> String {
     required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
-/// Designs that are best for all criteria alike, for one alone, or for other weights, and the next best for all alike, solved
-/// again for curves, and for drawings as many as there is room for.
-fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
-    let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
-    let named = named.map(|weights| ranking.winner(weights));
-    let winners = named.chain(ranking.winners());
+/// Designs that are solved again for curves, and for drawings as many as there is room for: in turns the first of each group
+/// of designs that can be compared.
+fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
+    let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
-    for design in winners.chain(ranking.by_fitness(Weights::BALANCED)) {
-        if rows.len() < SOLVED && !rows.contains(&design.row()) {
-            rows.push(design.row());
-        }
+    while rows.len() < SOLVED && !groups.is_empty() {
+        groups.retain_mut(|group| group.next().is_some_and(|row| {
+            rows.push(row);
+            true
+        }));
     }
+    rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let solve = |&(k, row): &(usize, usize)| solve(results, row, k < DRAWN);
     let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
@@ -111,6 +111,21 @@ fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
         }
     }
     all
+}
+
+/// The rows of the designs that are best for all criteria alike, for one alone, or for other weights, and of the next best for all
+/// alike: each once.
+fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
+    let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+    let named = named.map(|weights| ranking.winner(weights));
+    let winners = named.chain(ranking.winners());
+    let mut rows = Vec::new();
+    for design in winners.chain(ranking.by_fitness(Weights::BALANCED)) {
+        if rows.len() < SOLVED && !rows.contains(&design.row()) {
+            rows.push(design.row());
+        }
+    }
+    rows
 }
 
 /// A design with curves, and a drawing if it `is_drawn`, or none if it cannot be solved: its row in the table says why.
