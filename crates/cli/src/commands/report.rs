@@ -1,5 +1,7 @@
 //! `squama report`.
 
+mod front;
+
 use std::path::PathBuf;
 
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
@@ -18,8 +20,8 @@ use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
-/// Designs that a page shows, about, at most: a browser takes no more.
-const SHOWN: usize = 10_000;
+/// Designs that a page holds, about, at most: a browser takes no more.
+const HELD: usize = 25_000;
 
 /// Designs that are solved again for their curves, and for how they move with their gaps, at most.
 const SOLVED: usize = 120;
@@ -33,10 +35,11 @@ const ROOM: usize = 1_500_000;
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = ResultsFolder::read(&verified, SHOWN)?;
+    let results = ResultsFolder::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     require_folder_of("--out", &out)?;
-    let page = page(&results)?;
+    let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
+    let page = Page { front: front.transpose()?, ..page(&results)? };
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
@@ -72,6 +75,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         solved: solved(results, &rankings),
         opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
+        front: None,
     })
 }
 
