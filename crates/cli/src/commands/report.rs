@@ -98,10 +98,12 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
     while rows.len() < SOLVED && !groups.is_empty() {
-        groups.retain_mut(|group| group.next().is_some_and(|row| {
-            rows.push(row);
-            true
-        }));
+        groups.retain_mut(|group| {
+            group.next().is_some_and(|row| {
+                rows.push(row);
+                true
+            })
+        });
     }
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();

@@ -276,7 +276,8 @@ fn what_cannot_be_compared_is_ranked_within_groups() {
     std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
     let results = Results::read(folder.path()).expect("results");
     let groups = |text: &str| {
-        comparable_groups(&results, &Preferences::parse(text, "x").expect("preferences")).expect("groups")
+        comparable_groups(&results, &Preferences::parse(text, "x").expect("preferences"))
+            .expect("groups")
     };
     let best = |preferences: Preferences| {
         check_comparable(&results, &preferences).expect("comparable");
@@ -286,7 +287,10 @@ fn what_cannot_be_compared_is_ranked_within_groups() {
     let best: Vec<_> = groups("").into_iter().map(best).collect();
     // There is no design of a tilt of 5 degrees on a membrane of 0.2 t.
     assert_eq!(best, [Some("0001".into()), None, Some("0004".into()), Some("0003".into())]);
-    assert_eq!(groups("criteria = ['coverage']"), [Preferences::parse("criteria = ['coverage']", "x").expect("preferences")]);
+    assert_eq!(
+        groups("criteria = ['coverage']"),
+        [Preferences::parse("criteria = ['coverage']", "x").expect("preferences")]
+    );
 }
 
 #[test]

@@ -62,9 +62,9 @@
     description: "Diamonds: found by the search. Grey: designs of the grid; pale: those that do not keep the bounds of the search.", make, tip, says: (row) => found.axes.map((name) => `${squama.label(name)} ${squama.short(squama.cell(row, name))}`).join(", "),
   });
 
-  const head = [isFront ? "front" : "", ...columns.map(squama.label), "held by", "what it costs"];
+  const head = [isFront ? "front" : "", ...columns.map(squama.label), "held by, and what that costs"];
   squama.at("front-table").append(
     squama.element("thead", {}, squama.element("tr", {}, ...head.map((text) => squama.element("th", { scope: "col" }, text)))),
     squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", {}, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))),
-      ...["binding", "prices"].map((name) => squama.element("td", { class: "words" }, cell(k, name) ?? "–"))))));
+      squama.element("td", { class: "words" }, cell(k, "binding") ?? "–", ...(cell(k, "prices") ? [squama.element("small", {}, ` (${cell(k, "prices")})`)] : []))))));
 })();
