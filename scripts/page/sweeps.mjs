@@ -146,6 +146,7 @@ export default ({ open, run, folders }) => ({
       // What else the machine does only adds.
       median.requirement = Math.min(...waits);
       squama.require([]);
+      document.getElementById("designs").scrollIntoView();
       await rest();
       for (const [name, act] of Object.entries(work)) {
         const all = [];

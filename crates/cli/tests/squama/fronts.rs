@@ -29,7 +29,10 @@ fn a_front_stands_over_the_designs_of_the_grid() {
     let (found, _) = found.split_once("\"values\"").expect("its designs");
     assert!(found.contains("\"axes\":[\"coverage\",\"gap_over_t\"]"), "{found}");
     assert!(found.contains("\"count\":4"), "{found}");
-    assert!(found.contains("\"column\":\"slant_deg\",\"limit\":50.0,\"sign\":\"<=\""), "{found}");
+    assert!(
+        found.contains("\"column\":\"slant_deg\",\"limit\":50.0,\"sign\":\"\\u003c=\""),
+        "{found}"
+    );
     assert!(found.contains("\"variables\":[\"gap_over_t\",\"slant_deg\"]"), "{found}");
     // What the search holds otherwise is told; what it varies is not.
     assert!(found.contains("\"differences\":[\"scale.width_over_t 2 instead of 1\"]"), "{found}");

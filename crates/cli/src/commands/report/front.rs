@@ -6,6 +6,7 @@ use anyhow::{Context as _, ensure};
 use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM};
 use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
+use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
 
 use crate::commands::results_folder::ResultsFolder;
 
@@ -39,15 +40,23 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     })
 }
 
-/// What the search holds fixed otherwise than the grid: each parameter with both of its values.
+/// What has one value in the search and another one in the grid: each parameter with both.
 fn differences(goal: &DesignGoal, grid: &ResultsFolder) -> Vec<String> {
-    let fixed: Vec<_> = grid.sweep.shared().collect();
     let is_variable = |key: &str| goal.space.parameters().any(|variable| variable.key == key);
-    let held = goal.space.sweep().shared().filter(|(parameter, _)| !is_variable(parameter.key));
-    let difference = |(parameter, value): (&'static sweep::Parameter, sweep::Scalar)| {
-        let (_, other) = fixed.iter().find(|(other, _)| other.key == parameter.key)?;
-        let (found, expected) = (value.to_string(), other.to_string());
-        (found != expected).then(|| format!("{} {found} instead of {expected}", parameter.path()))
+    let held = PARAMETERS.iter().filter(|parameter| !is_variable(parameter.key));
+    let difference = |parameter: &Parameter| {
+        let found = only_value(goal.space.sweep(), parameter)?;
+        let expected = only_value(&grid.sweep, parameter)?;
+        let path = parameter.path();
+        (found != expected).then(|| format!("{path} {found} instead of {expected}"))
     };
     held.filter_map(difference).collect()
+}
+
+/// The value of a parameter in all designs of a sweep; `None` if there are several.
+fn only_value(sweep: &Sweep, parameter: &Parameter) -> Option<Scalar> {
+    match sweep.grid().axis(parameter.key) {
+        Some(axis) => (axis.len() == 1).then(|| axis.value(0)),
+        None => Some(parameter.get(sweep.grid().base())),
+    }
 }
