@@ -76,16 +76,17 @@ impl Skin for Chain {
     }
 }
 
-/// Every scale of a row, from the left.
+/// Every scale of a row, from the left: of a row that ends those too that are not solved for.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
-    let scale = |i| {
-        let [x, y, rotation] = chain.displacement(&state.z, i);
+    let scale = |i: isize| {
+        let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
         ScaleState {
-            scale: chain.layout.number(i),
+            scale: i as i64 + chain.layout.number(0),
             displacement: [x, y],
             rotation_deg: rotation.to_degrees(),
             reaction: chain.reaction(&state.z, i)[1],
         }
     };
-    (0..chain.layout.scales()).map(scale).collect()
+    let [left, right] = chain.surroundings.scales_to_ends().map(usize::cast_signed);
+    (-left..chain.layout.scales().cast_signed() + right).map(scale).collect()
 }
