@@ -119,10 +119,7 @@ fn bad_goals_are_one_line() {
         ("samples = 64", "sample = 64"),
         ("samples = 64", "sound = 'no'"),
         ("samples = 64", "weights = { coverage = 1 }"),
-        (
-            "minimize = 'areal_mass_kg_m2'",
-            "maximize = 'fitness'\nweights = { critical_force = 1 }",
-        ),
+        ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { critical_force = 1 }"),
         ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { coverage = 0 }"),
         ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { gap_over_t = 1 }"),
         (
