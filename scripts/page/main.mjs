@@ -6,13 +6,14 @@ import { start, table } from "./browser.mjs";
 import charts from "./charts.mjs";
 import choosing from "./choosing.mjs";
 import designs from "./designs.mjs";
+import fronts from "./fronts.mjs";
 import randomTables from "./random-tables.mjs";
 import sweeps from "./sweeps.mjs";
 import window from "./window.mjs";
 
 const [place, squama, chromium] = process.argv.slice(2);
 const folder = (name) => join(place, name);
-const folders = { someFailed: folder("some-failed"), allFailed: folder("all-failed"), axes: folder("axes"), folded: folder("folded"), large: folder("large") };
+const folders = { someFailed: folder("some-failed"), allFailed: folder("all-failed"), axes: folder("axes"), front: folder("front"), folded: folder("folded"), large: folder("large") };
 const results = folder("results");
 const { open, run, stop, problems, requests } = await start({ place, squama, chromium });
 
@@ -45,7 +46,7 @@ const tests = {
     assert.deepEqual(problems, []);
     assert.deepEqual(requests, [pathToFileURL(join(results, "report.html")).href]);
   },
-  ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...window(shared), ...randomTables(shared),
+  ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...fronts(shared), ...window(shared), ...randomTables(shared),
   async "nothing went wrong meanwhile, and nothing was asked for but the pages"() {
     assert.deepEqual(problems, []);
     assert.ok(requests.every((url) => /^file:.*\/report\.html(#.*)?$/.test(url)), String(requests));

@@ -83,13 +83,38 @@ export default ({ open, run, folders }) => ({
     await nothing.close();
   },
 
-  async "what cannot be compared is said, and a click compares what can be"() {
-    const page = await open(folders.axes);
-    assert.match(await page.locator("#incomparable").textContent(), /compliance is measured differently for designs of different membrane thickness/);
-    await page.locator("#incomparable button").first().click();
-    assert.ok(!await page.locator("#incomparable").isVisible());
-    assert.match(await page.locator("#rank-command code").textContent(), /--require 'membrane_thickness_over_t == 0\.1'/);
-    run(await page.locator("#rank-command code").textContent(), "--out", `${folders.axes}-ranked`);
+  async "what is not measured alike is ranked apart, as the command ranks it; what cannot be ranked is refused in its words"() {
+    const page = await open(folders.axes), out = `${folders.axes}-ranked`;
+    const best = () => page.locator("#best tbody td:nth-child(2)").allTextContents();
+    const command = () => page.locator("#rank-command code").textContent();
+    const plain = (all) => all.map((design) => design.replace("⚠", ""));
+    assert.match(await page.locator("#incomparable").textContent(), /Ranked are designs of membrane thickness\/t .*because compliance is measured differently/);
+    const orders = [];
+    for (const thickness of ["0.1", "0.2"]) {
+      await page.locator("#incomparable select").selectOption(thickness);
+      assert.ok((await command()).includes(`--require 'membrane_thickness_over_t == ${thickness}'`), await command());
+      run(await command(), "--out", out);
+      orders.push(plain(await best()));
+      assert.deepEqual(orders.at(-1), table(out, "ranking.csv").slice(0, 15).map(({ design }) => design));
+      await page.waitForTimeout(300);
+      const legend = plain(await page.locator("#tetrahedron-legend button").allTextContents()).map((label) => label.slice(0, 4));
+      assert.deepEqual(legend, table(out, "winners.csv").slice(0, 10).map(({ design }) => design));
+      const front = await page.evaluate(() => [...squama.ranking.front(squama.contest)].map(squama.number).sort());
+      assert.deepEqual(front, table(out, "pareto.csv").map(({ design }) => design).sort());
+    }
+    assert.notDeepEqual(orders[0], orders[1]);
+    // The ranking follows the figures, and the figures the design that is chosen.
+    await page.evaluate(() => squama.choose(squama.rows.find((row) => squama.cell(row, "membrane_thickness_over_t") === 0.1)));
+    assert.deepEqual(plain(await best()), orders[0]);
+    await page.locator("#view-membrane_thickness_over_t").selectOption("all");
+    assert.equal(await page.locator("#best tbody tr").count(), 0);
+    const refusal = (await page.locator("#incomparable").textContent()).match(/⚠ (.*?)\./)[1];
+    const refused = await command();
+    assert.throws(() => run(refused), (error) => String(error.stderr).includes(refusal), refusal);
+    // Two fronts where designs are of two kinds, one where they are of one.
+    const fronts = await page.evaluate(() => squama.charts.find(({ id }) => id === "pareto").make(900).panels.map(({ xName, yName, lines }) => [/compliance/.test(xName + yName), lines.length]));
+    for (const [measured, lines] of fronts) assert.equal(lines, measured ? 2 : 1);
+    assert.match(await page.locator("#summary-list").textContent(), /largest compliance, membrane thickness\/t 0\.1.*largest compliance, membrane thickness\/t 0\.2/);
     await page.close();
   },
 
@@ -121,6 +146,7 @@ export default ({ open, run, folders }) => ({
       // What else the machine does only adds.
       median.requirement = Math.min(...waits);
       squama.require([]);
+      document.getElementById("designs").scrollIntoView();
       await rest();
       for (const [name, act] of Object.entries(work)) {
         const all = [];

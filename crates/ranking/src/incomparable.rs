@@ -1,10 +1,12 @@
 //! Designs whose values cannot be compared, because they are not measured alike.
 
 use results::{InvalidResults, Results};
+use sweep::number;
 
 use crate::filter::RequirementFilter;
 use crate::preferences::Preferences;
 use crate::ranking::InvalidRanking;
+use crate::requirement::{Relation, Requirement};
 
 /// A parameter that says how something is measured, and the columns that can be compared only where it is the same.
 struct Yardstick {
@@ -40,10 +42,10 @@ const YARDSTICKS: [Yardstick; 4] = [
 const PHYSICAL: [&str; 3] = ["_N", "_N_mm", "_N_mm2"];
 
 /// Designs that are not measured alike, so that a criterion says nothing about which of them is better.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
     "{file}: {column} cannot be compared between designs of different {parameter} ({}), expected one of them, e.g. --require '{parameter} == {}', or other criteria{}",
-    values.join(", "), values[0], remedy(parameter)
+    texts(values).join(", "), number::text(values[0]), remedy(parameter)
 )]
 pub struct Incomparable {
     /// The table.
@@ -53,7 +55,11 @@ pub struct Incomparable {
     /// The parameter in which designs differ.
     pub parameter: String,
     /// Its values, at least two.
-    pub values: Vec<String>,
+    pub values: Vec<f64>,
+}
+
+fn texts(values: &[f64]) -> Vec<String> {
+    values.iter().copied().map(number::text).collect()
 }
 
 fn remedy(parameter: &str) -> &'static str {
@@ -72,18 +78,66 @@ pub fn check_comparable(
     results: &Results,
     preferences: &Preferences,
 ) -> Result<(), InvalidRanking> {
+    match differing(results, preferences)?.into_iter().next() {
+        Some(incomparable) => Err(incomparable.into()),
+        None => Ok(()),
+    }
+}
+
+/// The preferences for each group of designs that can be compared: those that are given, which hold a parameter that measures
+/// a criterion at one of its values besides. One group, as given, where all designs can be compared.
+///
+/// # Errors
+/// If a column is missing or no column of numbers.
+///
+/// ```
+/// use ranking::{Preferences, comparable_groups};
+/// use results::Results;
+///
+/// let folder = tempfile::tempdir()?;
+/// let table = "design,critical_tilt_deg,critical_force\n0001,5,1\n0002,10,2\n";
+/// std::fs::write(folder.path().join("designs.csv"), table)?;
+/// let groups = comparable_groups(&Results::read(folder.path())?, &Preferences::paper())?;
+/// let held: Vec<_> = groups.iter().map(|group| group.requirements[0].to_string()).collect();
+/// assert_eq!(held, ["critical_tilt_deg == 5", "critical_tilt_deg == 10"]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn comparable_groups(
+    results: &Results,
+    preferences: &Preferences,
+) -> Result<Vec<Preferences>, InvalidResults> {
+    let mut groups = vec![preferences.clone()];
+    for Incomparable { parameter, values, .. } in differing(results, preferences)? {
+        let at = |group: &Preferences, limit: f64| {
+            let mut group = group.clone();
+            let column = parameter.clone();
+            group.requirements.push(Requirement { column, relation: Relation::Equal, limit });
+            group
+        };
+        let apart = |group: &Preferences| -> Vec<Preferences> {
+            values.iter().map(|value| at(group, *value)).collect()
+        };
+        groups = groups.iter().flat_map(apart).collect();
+    }
+    Ok(groups)
+}
+
+/// The parameters that measure a criterion and in which designs that meet the requirements differ.
+fn differing(
+    results: &Results,
+    preferences: &Preferences,
+) -> Result<Vec<Incomparable>, InvalidResults> {
+    let mut found = Vec::new();
     for yardstick in &YARDSTICKS {
-        let measured = |column: &&str| yardstick.measures(column);
-        let columns = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-        let Some(column) = columns.into_iter().find(measured) else { continue };
+        let mut columns = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
+        let Some(column) = columns.find(|column| yardstick.measures(column)) else { continue };
         let values = values(results, preferences, yardstick.parameter)?;
         if values.len() > 1 {
             let (column, parameter) = (column.to_owned(), yardstick.parameter.to_owned());
-            let file = results.file();
-            return Err(Incomparable { file, column, parameter, values }.into());
+            found.push(Incomparable { file: results.file(), column, parameter, values });
         }
     }
-    Ok(())
+    Ok(found)
 }
 
 /// The parameters that say how a column is measured: only designs of the same values can be compared by it.
@@ -101,20 +155,19 @@ impl Yardstick {
     }
 }
 
-/// The different values of a parameter among the designs that meet the requirements.
+/// The different values of a parameter among the designs that meet the requirements, in the order of the table.
 fn values(
     results: &Results,
     preferences: &Preferences,
     parameter: &str,
-) -> Result<Vec<String>, InvalidResults> {
+) -> Result<Vec<f64>, InvalidResults> {
     let Ok(column) = results.column(parameter) else { return Ok(Vec::new()) };
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
-    let mut values: Vec<String> = Vec::new();
+    let mut values: Vec<f64> = Vec::new();
     for row in 0..results.len() {
-        let value = results.text(row, column);
-        let is_new = !values.iter().any(|known| known == value);
-        if is_new && filter.first_unmet(row)?.is_none() {
-            values.push(value.to_owned());
+        let Some(value) = results.number(row, column)? else { continue };
+        if !values.contains(&value) && filter.first_unmet(row)?.is_none() {
+            values.push(value);
         }
     }
     Ok(values)

@@ -60,7 +60,7 @@ pub use designs::Designs;
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
 pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
-pub use page::{Fact, GapFactors, Page, PageDesign};
+pub use page::{Fact, GapFactors, Page, PageDesign, PageFront};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};

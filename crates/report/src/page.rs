@@ -4,11 +4,13 @@
 //! are those of the figures; it ranks as the crate `ranking` does, which `scripts/check-page` holds together.
 
 mod data;
+mod front;
 mod simplified;
 
 use sweep::visible;
 
 use crate::designs::Designs;
+pub use front::PageFront;
 
 const PAGE: &str = include_str!("../assets/page/page.html");
 /// The styles of the page.
@@ -20,7 +22,7 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/media.css"),
 ];
 /// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 23] = [
+const SCRIPTS: [&str; 25] = [
     include_str!("../assets/page/scripts/designs.js"),
     include_str!("../assets/page/scripts/elements.js"),
     include_str!("../assets/page/scripts/ranking.js"),
@@ -31,8 +33,10 @@ const SCRIPTS: [&str; 23] = [
     include_str!("../assets/page/scripts/panel.js"),
     include_str!("../assets/page/scripts/chart.js"),
     include_str!("../assets/page/scripts/view.js"),
+    include_str!("../assets/page/scripts/comparable.js"),
     include_str!("../assets/page/scripts/contours.js"),
     include_str!("../assets/page/scripts/figures.js"),
+    include_str!("../assets/page/scripts/front.js"),
     include_str!("../assets/page/scripts/gap.js"),
     include_str!("../assets/page/scripts/tetrahedron.js"),
     include_str!("../assets/page/scripts/requirements.js"),
@@ -70,6 +74,8 @@ pub struct Page {
     pub shared: Vec<[String; 3]>,
     /// Designs that were solved again for the page.
     pub solved: Vec<PageDesign>,
+    /// Designs that a search has found, if the page is to show them.
+    pub front: Option<PageFront>,
     /// The state that the page opens with, as its address would have it: `require=coverage >= 0.6&weights=40,30,20,10`.
     pub opening: String,
 }

@@ -21,6 +21,7 @@ const NUMBER: &str = "design";
 #[derive(Clone, Debug)]
 pub struct Results {
     folder: VerifiedFolder,
+    file: &'static str,
     format: CsvFormat,
     header: Vec<String>,
     rows: Vec<csv::StringRecord>,
@@ -100,9 +101,24 @@ impl Results {
     /// # Errors
     /// As [`Results::read_from`].
     pub fn thinned(folder: &VerifiedFolder, most: usize) -> Result<Self, InvalidResults> {
-        let path = folder.path().join(RunFolder::DESIGNS);
-        let table =
-            read_table(folder.file(RunFolder::DESIGNS).map_err(InvalidResults::Folder)?, most);
+        Self::of_table(folder, RunFolder::DESIGNS, most)
+    }
+
+    /// The designs of another table of designs in `folder`, such as those that a search has found.
+    ///
+    /// # Errors
+    /// As [`Results::read_from`].
+    pub fn of_file(folder: &VerifiedFolder, table: &'static str) -> Result<Self, InvalidResults> {
+        Self::of_table(folder, table, usize::MAX)
+    }
+
+    fn of_table(
+        folder: &VerifiedFolder,
+        file: &'static str,
+        most: usize,
+    ) -> Result<Self, InvalidResults> {
+        let path = folder.path().join(file);
+        let table = read_table(folder.file(file).map_err(InvalidResults::Folder)?, most);
         let Table { format, header, rows, length } = table.map_err(|error| {
             InvalidResults::Unreadable { file: path.display().to_string(), reason: words(error) }
         })?;
@@ -119,6 +135,7 @@ impl Results {
             parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
         Ok(Self {
             folder: folder.clone(),
+            file,
             format,
             parameters: parameters.collect(),
             header,
@@ -153,7 +170,7 @@ impl Results {
 
     /// Name of the table of designs, for messages.
     pub fn file(&self) -> String {
-        self.folder().join(RunFolder::DESIGNS).display().to_string()
+        self.folder().join(self.file).display().to_string()
     }
 
     /// The sweep, if the record of the run says so.

@@ -35,7 +35,7 @@ pub struct InvalidColumnFilter(String);
 #[derive(Debug, thiserror::Error)]
 pub enum InvalidFilter {
     /// A number that is no design of the sweep.
-    #[error("--design {0}")]
+    #[error("--design: {0}")]
     Number(NoSuchDesign),
     /// A design that is not done.
     #[error(

@@ -12,6 +12,7 @@ use super::Partial;
 Examples:
   squama report results/paper
   squama report results/paper --out paper.html
+  squama report results/paper --front results/front      # with what squama optimise has found
 
 The page needs no network and no server: open it in a browser.")]
 pub struct ReportArguments {
@@ -22,6 +23,10 @@ pub struct ReportArguments {
     /// The page [default: RESULTS/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+
+    /// Folder of squama optimise, whose designs stand beside those of the grid
+    #[arg(long, value_name = "DIR")]
+    pub front: Option<PathBuf>,
 
     #[command(flatten)]
     pub partial: Partial,

@@ -1,5 +1,7 @@
 //! `squama report`.
 
+mod front;
+
 use std::path::PathBuf;
 
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
@@ -18,8 +20,8 @@ use super::{DONE, PROGRAM, derived};
 use crate::args;
 use crate::print::print;
 
-/// Designs that a page shows, about, at most: a browser takes no more.
-const SHOWN: usize = 10_000;
+/// Designs that a page holds, about, at most: a browser takes no more.
+const HELD: usize = 25_000;
 
 /// Designs that are solved again for their curves, and for how they move with their gaps, at most.
 const SOLVED: usize = 120;
@@ -33,10 +35,11 @@ const ROOM: usize = 1_500_000;
 /// Writes the page of a sweep.
 pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let results = ResultsFolder::read(&verified, SHOWN)?;
+    let results = ResultsFolder::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
     require_folder_of("--out", &out)?;
-    let page = page(&results)?;
+    let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
+    let page = Page { front: front.transpose()?, ..page(&results)? };
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let name =
         out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
@@ -60,7 +63,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let shared = sweep.shared().map(|(parameter, value)| {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
-    let ranking = results.ranking()?;
+    let rankings = results.rankings()?;
     Ok(Page {
         name: results.title(),
         version: PROGRAM.version.to_owned(),
@@ -69,9 +72,10 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        solved: ranking.as_ref().map_or_else(Vec::new, |ranking| solved(results, ranking)),
+        solved: solved(results, &rankings),
         opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
+        front: None,
     })
 }
 
@@ -88,18 +92,20 @@ fn opening(preferences: &Preferences) -> String {
     required.chain([ranked]).collect::<Vec<_>>().join("&").replace('+', "%2B")
 }
 
-/// Designs that are best for all criteria alike, for one alone, or for other weights, and the next best for all alike, solved
-/// again for curves, and for drawings as many as there is room for.
-fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
-    let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
-    let named = named.map(|weights| ranking.winner(weights));
-    let winners = named.chain(ranking.winners());
+/// Designs that are solved again for curves, and for drawings as many as there is room for: in turns the first of each group
+/// of designs that can be compared.
+fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
+    let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
-    for design in winners.chain(ranking.by_fitness(Weights::BALANCED)) {
-        if rows.len() < SOLVED && !rows.contains(&design.row()) {
-            rows.push(design.row());
-        }
+    while rows.len() < SOLVED && !groups.is_empty() {
+        groups.retain_mut(|group| {
+            group.next().is_some_and(|row| {
+                rows.push(row);
+                true
+            })
+        });
     }
+    rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
     let solve = |&(k, row): &(usize, usize)| solve(results, row, k < DRAWN);
     let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
@@ -111,6 +117,21 @@ fn solved(results: &ResultsFolder, ranking: &Ranking<'_>) -> Vec<PageDesign> {
         }
     }
     all
+}
+
+/// The rows of the designs that are best for all criteria alike, for one alone, or for other weights, and of the next best for all
+/// alike: each once.
+fn leading(ranking: &Ranking<'_>) -> Vec<usize> {
+    let named = std::iter::once(Weights::BALANCED).chain(Weights::alone());
+    let named = named.map(|weights| ranking.winner(weights));
+    let winners = named.chain(ranking.winners());
+    let mut rows = Vec::new();
+    for design in winners.chain(ranking.by_fitness(Weights::BALANCED)) {
+        if rows.len() < SOLVED && !rows.contains(&design.row()) {
+            rows.push(design.row());
+        }
+    }
+    rows
 }
 
 /// A design with curves, and a drawing if it `is_drawn`, or none if it cannot be solved: its row in the table says why.

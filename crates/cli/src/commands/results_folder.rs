@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use ranking::{InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable};
+use ranking::{
+    InvalidRanking, Preferences, Ranking, TetrahedralGrid, check_comparable, comparable_groups,
+};
 use report::{Designs, Fact, facts};
 use results::{InvalidResults, Results, RunFolder, VerifiedFolder};
 use sweep::Sweep;
@@ -55,17 +57,14 @@ impl ResultsFolder {
         Ok(Self { folder: folder.to_owned(), sweep, designs, run: facts(&run), results })
     }
 
-    /// The ranking of the designs; `None` if there are none to rank.
-    pub fn ranking(&self) -> Result<Option<Ranking<'_>>, InvalidRanking> {
-        match Ranking::new(&self.results, TetrahedralGrid::default()) {
-            Ok(ranking) => Ok(Some(ranking)),
-            // A sweep need not measure everything.
-            Err(
-                InvalidRanking::Nothing { .. }
-                | InvalidRanking::Results(InvalidResults::NoColumn { .. }),
-            ) => Ok(None),
-            Err(error) => Err(error),
-        }
+    /// The rankings of the designs: one for each group of designs that can be compared, none where there are none to rank.
+    pub fn rankings(&self) -> Result<Vec<Ranking<'_>>, InvalidRanking> {
+        let groups = match comparable_groups(&self.results, &Preferences::paper()) {
+            Err(InvalidResults::NoColumn { .. }) => return Ok(Vec::new()),
+            groups => groups?,
+        };
+        let rankings = groups.into_iter().map(|preferences| self.ranking(preferences));
+        rankings.filter_map(Result::transpose).collect()
     }
 
     /// The ranking of the designs, if there are any to rank and they can be compared; if not, says so.
@@ -76,7 +75,20 @@ impl ResultsFolder {
                 Ok(None)
             }
             // What is missing there, the ranking misses too.
-            Ok(()) | Err(_) => self.ranking(),
+            Ok(()) | Err(_) => self.ranking(Preferences::paper()),
+        }
+    }
+
+    fn ranking(&self, preferences: Preferences) -> Result<Option<Ranking<'_>>, InvalidRanking> {
+        match Ranking::by(&self.results, preferences, TetrahedralGrid::default()) {
+            Ok(ranking) => Ok(Some(ranking)),
+            // A sweep need not measure everything, and what it varies need not go together.
+            Err(
+                InvalidRanking::Nothing { .. }
+                | InvalidRanking::Unmet(_)
+                | InvalidRanking::Results(InvalidResults::NoColumn { .. }),
+            ) => Ok(None),
+            Err(error) => Err(error),
         }
     }
 }

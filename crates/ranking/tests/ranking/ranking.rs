@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use ranking::{
     InvalidRanking, Preferences, RankedDesign, Ranking, TetrahedralGrid, UnmetRequirement, Weights,
-    check_comparable, write_ranking, write_unmet,
+    check_comparable, comparable_groups, write_ranking, write_unmet,
 };
 use results::Results;
 use tempfile::TempDir;
@@ -266,6 +266,31 @@ fn what_cannot_be_compared_is_refused() {
     insta::assert_snapshot!(check("requirements = ['critical_tilt_deg == 8']"), @"x/designs.csv: compliance cannot be compared between designs of different membrane_thickness_over_t (0.1, 0.2), expected one of them, e.g. --require 'membrane_thickness_over_t == 0.1', or other criteria, e.g. --minimize flexural_rigidity_N_mm2 with a [material]");
     assert_eq!(check("criteria = ['flexural_rigidity_N_mm2']"), "");
     assert_eq!(check("requirements = ['critical_tilt_deg == 5']"), "");
+}
+
+#[test]
+fn what_cannot_be_compared_is_ranked_within_groups() {
+    let folder = TempDir::new().expect("a folder");
+    let table = "design;critical_tilt_deg;membrane_thickness_over_t;coverage;critical_force;penetration;compliance\n\
+                 0001;5;0,1;1;1;1;1\n0002;8;0,1;1;2;1;1\n0003;8;0,2;1;3;1;1\n0004;8;0,1;1;4;1;1";
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    let results = Results::read(folder.path()).expect("results");
+    let groups = |text: &str| {
+        comparable_groups(&results, &Preferences::parse(text, "x").expect("preferences"))
+            .expect("groups")
+    };
+    let best = |preferences: Preferences| {
+        check_comparable(&results, &preferences).expect("comparable");
+        let ranking = Ranking::by(&results, preferences, TetrahedralGrid::default());
+        ranking.ok().map(|ranking| ranking.winner(Weights::BALANCED).design().to_owned())
+    };
+    let best: Vec<_> = groups("").into_iter().map(best).collect();
+    // There is no design of a tilt of 5 degrees on a membrane of 0.2 t.
+    assert_eq!(best, [Some("0001".into()), None, Some("0004".into()), Some("0003".into())]);
+    assert_eq!(
+        groups("criteria = ['coverage']"),
+        [Preferences::parse("criteria = ['coverage']", "x").expect("preferences")]
+    );
 }
 
 #[test]

@@ -23,6 +23,8 @@ const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
 const HEADER: f64 = 31.0;
 /// Characters that the button of a filter takes.
 const BUTTON: usize = 3;
+/// Columns of a table that is printed one page wide, at most: letters of more would be too small.
+const ON_PAPER: usize = 14;
 /// The narrowest and the widest column, in characters.
 const WIDTHS: (usize, usize) = (8, 60);
 
@@ -103,6 +105,11 @@ impl Sheet {
         let TableProfile { format, header, columns: profiles } = profile;
         let mut page = workbook.new_worksheet_with_constant_memory()?;
         page.set_name(table)?;
+        page.set_landscape();
+        page.set_repeat_rows(0, 0)?;
+        if header.len() <= ON_PAPER {
+            page.set_print_fit_to_pages(1, 0);
+        }
         let columns = header.iter().zip(profiles).enumerate();
         let column = |(place, (name, profile))| SheetColumn::new(table, place, name, profile);
         let columns: Vec<_> = columns.map(column).collect();

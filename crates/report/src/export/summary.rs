@@ -60,6 +60,8 @@ struct Sheet {
 pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
     let mut page = Worksheet::new();
     page.set_name(NAME)?;
+    page.set_landscape();
+    page.set_print_fit_to_pages(1, 0);
     for (place, width) in (0..).zip(WIDTHS) {
         page.set_column_width(place, width)?;
     }

@@ -8,6 +8,7 @@ use sweep::visible;
 use super::simplified::simplified;
 use super::{Fact, GapFactors, Page, PageDesign};
 use crate::axis::ChartAxis;
+use crate::designs::Designs;
 use crate::palette::{SlantPalette, map_color};
 
 /// Colours of the scale of a map.
@@ -38,13 +39,14 @@ pub(super) fn of(page: &Page) -> Value {
         "axes": page.axes,
         "axesOf": axes_of(page),
         "columns": columns.map(column).collect::<Vec<_>>(),
-        "values": headers.iter().map(|header| cells(page, header)).collect::<Vec<_>>(),
+        "values": headers.iter().map(|header| cells(&page.designs, header)).collect::<Vec<_>>(),
         "slants": slants(page.designs.values("slant_deg")),
         "shades": (0..SHADES).map(shade).collect::<Vec<_>>(),
         "run": page.run.iter().map(fact).collect::<Vec<_>>(),
         "shared": page.shared.iter().map(shared).collect::<Vec<_>>(),
         "drawings": page.solved.iter().map(solved).collect::<Vec<_>>(),
         "logarithmic": logarithmic(&page.solved),
+        "found": page.front.as_ref().map(|front| front.to_json(&page.designs)),
     })
 }
 
@@ -58,14 +60,14 @@ fn axes_of(page: &Page) -> Map<String, Value> {
 }
 
 /// Returns the cells of a column, from the top.
-fn cells(page: &Page, header: &str) -> Vec<Value> {
-    (0..page.designs.count()).map(|row| cell(page, header, row)).collect()
+pub(super) fn cells(designs: &Designs, header: &str) -> Vec<Value> {
+    (0..designs.count()).map(|row| cell(designs, header, row)).collect()
 }
 
 /// Returns a cell as a number where it is one; the number of a design keeps its zeros.
-fn cell(page: &Page, header: &str, row: usize) -> Value {
-    let text = page.designs.text(header, row);
-    match page.designs.number(header, row) {
+fn cell(designs: &Designs, header: &str, row: usize) -> Value {
+    let text = designs.text(header, row);
+    match designs.number(header, row) {
         _ if text.is_empty() => Value::Null,
         Some(number) if header != "design" => json!(number),
         _ => json!(visible(text)),

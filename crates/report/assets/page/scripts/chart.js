@@ -5,7 +5,7 @@ squama.charts = [];
 
 squama.theme = () => {
   const style = getComputedStyle(document.documentElement);
-  const names = ["paper", "ink", "faint", "line", "accent", "warning", "grey"];
+  const names = ["paper", "ink", "faint", "line", "accent", "warning", "grey", "front"];
   return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 };
 
@@ -33,10 +33,12 @@ squama.canvas = (canvas, width, height) => {
 (() => {
   const REACH = 14;
   const NAMED = 4;
+  // Marks of a chart that are drawn, about, at most.
+  const DRAWN = 10000;
   const tip = squama.element("div", { id: "tip", hidden: true, "aria-hidden": "true" });
   document.body.append(tip);
 
-  /** Rows whose marks are nearest to a spot: one, or those that stand on each other. */
+  /** Spots nearest to a place in a chart: one, or those of several designs that stand on each other. */
   const near = (chart, x, y) => {
     let nearest = null, least = REACH ** 2;
     for (const spot of chart.spots) {
@@ -45,18 +47,22 @@ squama.canvas = (canvas, width, height) => {
     }
     if (nearest === null) return [];
     const here = ({ at, silent }) => silent === nearest.silent && (at[0] - nearest.at[0]) ** 2 + (at[1] - nearest.at[1]) ** 2 < 2;
-    return [...new Set(chart.spots.filter(here).map(({ row }) => row))].sort((a, b) => a - b);
+    const known = new Map(chart.spots.filter(here).map((spot) => [spot.row ?? `tip ${spot.tip}`, spot]));
+    return [...known.values()].sort((a, b) => a.row - b.row);
   };
 
+  /** What the tip says of a spot: a design of the table, or what the chart tells of others. */
+  const line = (chart, { row, tip: own }) => (row === null ? chart.tip(own)
+    : squama.element("div", {}, ...squama.warning(row), ` ${squama.title(row)} `, squama.element("small", {}, chart.says?.(row) ?? "")));
+
   const showTip = (chart, event) => {
-    const rows = near(chart, event.offsetX, event.offsetY);
-    tip.hidden = rows.length === 0;
-    chart.canvas.style.cursor = rows.length > 0 ? "pointer" : "default";
-    if (rows.length === 0) return;
-    const line = (row) => squama.element("div", {}, ...squama.warning(row), ` ${squama.title(row)} `, squama.element("small", {}, chart.says?.(row) ?? ""));
-    tip.replaceChildren(...rows.slice(0, NAMED).map(line),
-      ...(rows.length > NAMED ? [squama.element("div", {}, `and ${rows.length - NAMED} more in the same place`)] : []),
-      ...(rows.some(squama.folded) ? [squama.element("small", {}, "⚠ The surface folds: the critical force is not to be trusted.")] : []));
+    const spots = near(chart, event.offsetX, event.offsetY);
+    tip.hidden = spots.length === 0;
+    chart.canvas.style.cursor = spots.some(({ row }) => row !== null) ? "pointer" : "default";
+    if (spots.length === 0) return;
+    tip.replaceChildren(...spots.slice(0, NAMED).map((spot) => line(chart, spot)),
+      ...(spots.length > NAMED ? [squama.element("div", {}, `and ${spots.length - NAMED} more in the same place`)] : []),
+      ...(spots.some(({ row }) => row !== null && squama.folded(row)) ? [squama.element("small", {}, "⚠ The surface folds: the critical force is not to be trusted.")] : []));
     const left = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 6);
     tip.style.left = `${Math.max(4, left)}px`;
     tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
@@ -64,7 +70,7 @@ squama.canvas = (canvas, width, height) => {
 
   /** A click chooses; another click on marks in one place goes to the next of them. */
   const click = (chart, event) => {
-    const rows = near(chart, event.offsetX, event.offsetY);
+    const rows = near(chart, event.offsetX, event.offsetY).map(({ row }) => row).filter((row) => row !== null);
     if (rows.length === 0) return;
     squama.choose(rows[(rows.indexOf(squama.state.design) + 1) % rows.length]);
   };
@@ -81,7 +87,7 @@ squama.canvas = (canvas, width, height) => {
     const context = squama.canvas(chart.over, chart.canvas.clientWidth, chart.height);
     context.lineWidth = 2.6;
     context.strokeStyle = squama.themeNow.accent;
-    for (const [row, dash] of [[squama.state.pinned, [4, 3]], [squama.state.design, []]]) {
+    for (const [row, dash] of [[squama.state.pinned, [4, 3]], [squama.state.design, []]].filter(([own]) => own !== null)) {
       context.setLineDash(dash);
       for (const { at } of chart.spots.filter((spot) => spot.row === row)) {
         context.beginPath();
@@ -100,9 +106,11 @@ squama.canvas = (canvas, width, height) => {
     const context = squama.canvas(chart.canvas, width, height), theme = squama.themeNow;
     Object.assign(chart, { height, spots: [], rows });
     chart.box.hidden = panels.length === 0;
-    for (const panel of panels) squama.panel.draw(context, panel, theme, chart.spots);
+    const every = Math.ceil(panels.reduce((sum, { marks }) => sum + marks.length, 0) / DRAWN);
+    for (const panel of panels) squama.panel.draw(context, panel, theme, chart.spots, every);
     for (const { text, at, turn = 0 } of names) squama.lettering.write(context, text, at, { size: 13, align: 0.5, turn, color: theme.ink });
-    chart.caption.textContent = [chart.description, note].filter(Boolean).join(" ");
+    const thinned = every > 1 && panels.some(({ marks }) => marks.some(({ cell }) => !cell)) ? `Drawn is a mark of every ${every} designs; pointing finds all.` : "";
+    chart.caption.textContent = [chart.description, note, thinned].filter(Boolean).join(" ");
     rings(chart);
   };
 
@@ -115,7 +123,8 @@ squama.canvas = (canvas, width, height) => {
 
   /**
    * Adds a chart. `make(width)` returns its panels, their height, the names of shared axes, the rows that it shows in the
-   * order of keys, and a note; `says(row)` returns what the tip says of a design.
+   * order of keys, and a note; `says(row)` returns what the tip says of a design, `tip(k)` that of a mark without one. `into` is
+   * the element that it stands in.
    */
   squama.addChart = (chart) => {
     Object.assign(chart, {
@@ -123,7 +132,7 @@ squama.canvas = (canvas, width, height) => {
     });
     chart.area = squama.element("div", { class: "chart", id: `chart-${chart.id}`, tabindex: 0, role: "img", "aria-label": `${chart.title}. ${chart.description} The arrow keys go from design to design.` }, chart.canvas, chart.over);
     chart.box = squama.element("figure", { id: `figure-${chart.id}` }, squama.element("h3", {}, chart.title, ...(chart.controls ?? [])), chart.area, chart.caption);
-    squama.at("figure-list").append(chart.box);
+    (chart.into ?? squama.at("figure-list")).append(chart.box);
     squama.charts.push(chart);
     chart.over.addEventListener("pointermove", (event) => showTip(chart, event));
     chart.over.addEventListener("pointerleave", () => { tip.hidden = true; });

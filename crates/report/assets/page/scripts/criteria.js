@@ -77,6 +77,7 @@
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
     ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
+    ...squama.comparable.now().filter(({ value }) => value !== "all").map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
     // The surface folds over where a gap between two bases has closed.
     ...(state.sound ? [`--require ${quoted("gap_stretch_min > 0")}`] : []),
     ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
@@ -110,17 +111,20 @@
       ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
-  /** Says by what designs cannot be compared, because they are not measured alike. */
+  /** Says among which designs the ranking goes, because others are not measured alike; or why there is none. */
   const showIncomparable = () => {
-    const differing = (parameter) => new Set(squama.contest.rows.map((row) => squama.cell(row, parameter))).size > 1;
-    const found = state.criteria.flatMap(({ column }) => squama.columns[squama.place.get(column)].measuredBy.filter(differing).map((parameter) => ({ column, parameter })));
+    const found = squama.comparable.now(), refused = found.find(({ value }) => value === "all");
     const note = squama.at("incomparable");
     note.hidden = found.length === 0;
-    if (found.length === 0) return;
-    const { column, parameter } = found[0];
-    const values = squama.different(parameter);
-    note.replaceChildren(`⚠ This ranking compares what cannot be compared: ${squama.label(column)} is measured differently for designs of different ${squama.label(parameter)}. Choose one: `,
-      ...values.slice(0, 12).map((value) => squama.element("button", { type: "button", onclick: () => squama.require([...state.requirements, { column: parameter, sign: typeof value === "number" ? "==" : "~", limit: value }]) }, squama.short(value))), ", or other criteria.");
+    note.className = refused ? "doubt" : "note";
+    const show = (parameter, values, text) => {
+      state.shown[parameter] = values.find((value) => String(value) === text);
+      squama.tell("view");
+    };
+    const chooser = ({ parameter, values, value }) => squama.element("label", {}, ` ${squama.label(parameter)} `, squama.dropdown({ onchange: (event) => show(parameter, values, event.target.value) },
+      [...values.map((one) => [String(one), squama.short(one)]), ...(value === "all" ? [["all", "choose"]] : [])], String(value)));
+    const why = ({ column, parameter }) => `${squama.label(column)} is measured differently for designs of different ${squama.label(parameter)}`;
+    note.replaceChildren(refused ? `⚠ ${squama.comparable.refusal(refused)}. Choose one of them, or other criteria:` : "Ranked are designs of", ...found.map(chooser), ...(refused ? [] : [`, because ${found.map(why).join(", and ")}.`]));
   };
 
   /** Says how far the best design moves with its gap, where that is known. */
@@ -152,7 +156,7 @@
     showHead();
     showIncomparable();
     const { length } = squama.contest.rows;
-    squama.at("ranking-count").textContent = `${length} designs take part; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}lack coverage or a value.`;
+    squama.at("ranking-count").textContent = `${length} designs take part; the other ${squama.count - length} ${squama.meeting.length < squama.count ? "do not meet the requirements, or " : ""}${squama.comparable.now().length > 0 ? "are not measured alike, or " : ""}lack coverage or a value.`;
     show();
   });
   squama.listen("weights", show);

@@ -66,11 +66,12 @@
       const panels = places.map((place, k) => {
         const [a, b] = chosen[k], [x, y] = [squama.numbers(a.column), squama.numbers(b.column)];
         const rows = slice.filter(isNumber(a.column, b.column));
-        const best = front ? fronts(rows.filter((row) => squama.passes[row]), a, b) : null;
+        const all = front ? fronts(rows.filter((row) => squama.passes[row]), a, b) : [];
+        const best = front ? new Set(all.flatMap((one) => [...one])) : null;
         const marks = rows.map((row) => squama.mark(row, x[row], y[row], { faint: best !== null && !best.has(row) }));
         // Those that stand out are drawn last.
         if (best) marks.sort((p, q) => best.has(p.row) - best.has(q.row));
-        return { ...place, x: axisOf(a.column), y: axisOf(b.column), xTicks: true, yTicks: true, xName: squama.axisName(a.column), yName: squama.axisName(b.column), marks, lines: best ? [line(best, x, y)] : [] };
+        return { ...place, x: axisOf(a.column), y: axisOf(b.column), xTicks: true, yTicks: true, xName: squama.axisName(a.column), yName: squama.axisName(b.column), marks, lines: all.map((one) => line(one, x, y)) };
       });
       const held = view.fixed(view.free());
       const rows = slice.filter((row) => chosen.some(([a, b]) => isNumber(a.column, b.column)(row)));
@@ -79,7 +80,8 @@
     squama.addChart({ id, title, description, make, says: (row) => values(row, [...new Set(pairs().flat().map(({ column }) => column))]) });
   };
 
-  const fronts = (rows, a, b) => squama.ranking.front(squama.ranking.contest(squama, rows, [a, b], "linear"));
+  /** The designs that no other beats in two criteria: a front for each group of designs that can be compared. */
+  const fronts = (rows, a, b) => squama.comparable.groups(rows, [a, b]).map((group) => squama.ranking.front(squama.ranking.contest(squama, group, [a, b], "linear")));
   const line = (best, x, y) => ({ color: squama.themeNow.faint, width: 1.4, points: [...best].sort((p, q) => x[p] - x[q] || y[p] - y[q]).map((row) => [x[row], y[row]]) });
 
   const shade = (value) => squama.shades[Math.max(0, Math.min(squama.shades.length - 1, Math.floor(value * squama.shades.length)))];

@@ -100,27 +100,28 @@ squama.panel = (() => {
     if (folded) stroke(context, theme.warning, 1.8, [[-6, 6], [6, -6]]);
   };
 
-  const marks = (context, panel, theme, spots) => {
-    for (const { row, x, y, fill, cell, folded, ...style } of panel.marks) {
+  /** Draws marks: of those that would hide each other anyway, one of `every` few. All have their spots. */
+  const marks = (context, panel, theme, spots, every) => {
+    for (const { row, tip, x, y, fill, cell, folded, ...style } of panel.marks) {
       if (!within(along(panel.x, x)) || !within(along(panel.y, y))) continue;
       const at = [across(panel, x), down(panel, y)];
       if (cell) {
         context.fillStyle = fill;
         context.fillRect(at[0] - cell[0] / 2, at[1] - cell[1] / 2, cell[0], cell[1]);
         if (folded) stroke(context, theme.warning, 1.4, [[at[0] - cell[0] / 2, at[1] + cell[1] / 2], [at[0] + cell[0] / 2, at[1] - cell[1] / 2]]);
-      } else {
+      } else if (row === null || row % every === 0) {
         const { canvas, side } = stamp(style, theme);
         context.drawImage(canvas, at[0] - side / 2, at[1] - side / 2, side, side);
       }
-      spots.push({ row, at, silent: style.silent === true });
+      spots.push({ row, tip, at, silent: style.silent === true });
     }
   };
 
-  /** Draws a panel; adds to `spots` where each design stands. */
-  const draw = (context, panel, theme, spots) => {
+  /** Draws a panel, one of `every` few marks; adds to `spots` where each design stands. */
+  const draw = (context, panel, theme, spots, every = 1) => {
     frame(context, panel, theme);
     if (!panel.linesOnTop) lines(context, panel);
-    marks(context, panel, theme, spots);
+    marks(context, panel, theme, spots, every);
     if (panel.linesOnTop) lines(context, panel);
   };
 

@@ -66,8 +66,18 @@ squama.ranking = (() => {
   /** The least and the largest of some numbers. */
   const ends = (numbers) => {
     let low = Infinity, high = -Infinity;
-    for (const value of numbers) [low, high] = [Math.min(low, value), Math.max(high, value)];
+    for (let i = 0; i < numbers.length; i++) {
+      low = Math.min(low, numbers[i]);
+      high = Math.max(high, numbers[i]);
+    }
     return [low, high];
+  };
+
+  /** The numbers that stand in some rows. */
+  const picked = (numbers, rows) => {
+    const own = new Float64Array(rows.length);
+    for (let i = 0; i < own.length; i++) own[i] = numbers[rows[i]];
+    return own;
   };
 
   /** Numbers from 0, the worst, to 1, the best (R2); 1 if all are the same, so that they do not count. */
@@ -81,12 +91,12 @@ squama.ranking = (() => {
    * `worths` and `terms` stand criterion by criterion.
    */
   const contest = (table, rows, criteria, scale) => {
-    const all = criteria.map(({ column, goal }) => Float64Array.from(table.numbers(column), (value) => worth(scale, goal, value)));
+    const all = criteria.map(({ column, goal }) => table.numbers(column).map((value) => worth(scale, goal, value)));
     const covered = criteria.some(({ column }) => column === "coverage") ? table.numbers("coverage") : null;
     const ranked = rows.filter((row) => !(covered && covered[row] <= 0) && all.every((values) => !Number.isNaN(values[row])));
-    const worths = all.map((values) => Float64Array.from(ranked, (row) => values[row]));
+    const worths = all.map((values) => picked(values, ranked));
     // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
-    const isTie = criteria.map(({ column }) => same(...ends(ranked.map((row) => table.numbers(column)[row]))));
+    const isTie = criteria.map(({ column }) => same(...ends(picked(table.numbers(column), ranked))));
     const terms = worths.map((values, c) => rescaled(values, isTie[c])).map((values) => (scale === "paper" ? values.map(Math.log) : values));
     return { rows: ranked, worths, terms, scale };
   };

@@ -44,7 +44,7 @@ squama.weights = () => squama.state.weights.map((hundredth) => hundredth / 100);
 squama.contestNow = () => {
   const { requirements, criteria, scale, sound } = squama.state;
   squama.meeting = squama.ranking.meeting(squama, requirements, (row) => !sound || !squama.folded(row));
-  return squama.ranking.contest(squama, criteria.length > 0 ? squama.meeting : [], criteria, scale);
+  return squama.ranking.contest(squama, criteria.length > 0 ? squama.comparable.ranked(squama.meeting, criteria) : [], criteria, scale);
 };
 
 /** Makes what follows from requirements, criteria and the switch for folded designs, and tells. */

@@ -2,21 +2,32 @@
 // Summary and failures.
 
 (() => {
+  const GROUPS = 4;
   squama.at("title").textContent = `${squama.name}: ${squama.count} designs`;
   const facts = (id, pairs) => squama.at(id).replaceChildren(...pairs.flatMap(([name, ...value]) => [squama.element("dt", {}, name), squama.element("dd", {}, ...value)]));
   const button = (row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row));
 
-  /** The best design by one column, and how many are as good; sound ones beside it where it folds. */
-  const best = (name, column, goal) => {
+  /** The best of some rows by one column, and how many are as good; sound ones beside it where it folds. */
+  const bestOf = (all, name, column, goal) => {
     const numbers = squama.numbers(column), sign = goal === "max" ? 1 : -1;
     const leader = (rows) => rows.reduce((a, b) => (a === null || sign * numbers[b] > sign * numbers[a] && !squama.ranking.same(numbers[a], numbers[b]) ? b : a), null);
-    const rows = squama.rows.filter((row) => !Number.isNaN(numbers[row]));
+    const rows = all.filter((row) => !Number.isNaN(numbers[row]));
     const first = leader(rows);
     if (first === null) return [];
     const ties = rows.filter((row) => squama.ranking.same(numbers[row], numbers[first])).length - 1;
     const sound = squama.folded(first) && column.startsWith("critical_force") ? leader(rows.filter((row) => !squama.folded(row))) : null;
     return [[name, `${squama.short(numbers[first])}  `, button(first), ties > 0 ? ` and ${ties} ${ties > 1 ? "others" : "other"} as good` : "",
       ...(sound === null ? [] : [squama.element("br"), `without a fold: ${squama.short(numbers[sound])}  `, button(sound)])]];
+  };
+
+  /** The best design by one column, of each group of designs that can be compared. */
+  const best = (name, column, goal) => {
+    if (!squama.has(column)) return [];
+    const differing = squama.comparable.differing(squama.rows, [{ column }]).map(({ parameter }) => parameter);
+    const groups = squama.comparable.groups(squama.rows, [{ column }]);
+    if (groups.length > GROUPS) return [[name, `not to be compared between designs of different ${differing.map(squama.label).join(" and ")}`]];
+    const words = (row) => differing.map((parameter) => `, ${squama.label(parameter)} ${squama.short(squama.cell(row, parameter))}`).join("");
+    return groups.flatMap((rows) => bestOf(rows, `${name}${words(rows[0])}`, column, goal));
   };
 
   const folds = () => (squama.has("fold_force") ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);

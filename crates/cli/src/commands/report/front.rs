@@ -1,0 +1,62 @@
+//! What `squama optimise` has found, for the page of a sweep.
+
+use std::path::Path;
+
+use anyhow::{Context as _, ensure};
+use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM};
+use report::{Designs, PageFront};
+use results::{Completeness, Results, VerifiedFolder};
+use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
+
+use crate::commands::results_folder::ResultsFolder;
+
+/// The designs in a folder of `squama optimise`, to stand beside those of `grid`.
+pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
+    let name = folder.display();
+    let found = VerifiedFolder::open(folder, Completeness::Partial)?;
+    let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
+    let table = table.with_context(|| {
+        format!("--front {name}: there is neither {FRONT} nor {OPTIMUM}, expected a folder in which squama optimise has found designs")
+    })?;
+    let designs = Designs::of(&Results::of_file(&found, table)?);
+    let goal = DesignGoal::read(&folder.join(GOAL), &[])?;
+    let headers = grid.designs.headers();
+    for objective in &goal.objectives {
+        ensure!(
+            headers.iter().any(|header| *header == objective.column),
+            "--front {name}: its objective {} is no column of the designs in {}, expected a sweep with the same measures and [material]",
+            objective.column,
+            grid.folder.display()
+        );
+    }
+    Ok(PageFront {
+        folder: name.to_string(),
+        differences: differences(&goal, grid),
+        variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
+        objectives: goal.objectives,
+        requirements: goal.requirements,
+        sound: goal.sound,
+        designs,
+    })
+}
+
+/// What has one value in the search and another one in the grid: each parameter with both.
+fn differences(goal: &DesignGoal, grid: &ResultsFolder) -> Vec<String> {
+    let is_variable = |key: &str| goal.space.parameters().any(|variable| variable.key == key);
+    let held = PARAMETERS.iter().filter(|parameter| !is_variable(parameter.key));
+    let difference = |parameter: &Parameter| {
+        let found = only_value(goal.space.sweep(), parameter)?;
+        let expected = only_value(&grid.sweep, parameter)?;
+        let path = parameter.path();
+        (found != expected).then(|| format!("{path} {found} instead of {expected}"))
+    };
+    held.filter_map(difference).collect()
+}
+
+/// The value of a parameter in all designs of a sweep; `None` if there are several.
+fn only_value(sweep: &Sweep, parameter: &Parameter) -> Option<Scalar> {
+    match sweep.grid().axis(parameter.key) {
+        Some(axis) => (axis.len() == 1).then(|| axis.value(0)),
+        None => Some(parameter.get(sweep.grid().base())),
+    }
+}

@@ -1,0 +1,40 @@
+// What a search has found, over the designs of a grid.
+import assert from "node:assert/strict";
+import { spots, table } from "./browser.mjs";
+
+export default ({ open, page, place, folders }) => ({
+  async "a front stands over the designs of the grid, joined by a line, with what holds each design"() {
+    assert.ok(!await page.locator("#front").isVisible() && !await page.locator("#front-link").isVisible(), "a sweep without a search has no such section");
+    const own = await open(folders.front), front = table(`${place}/found`, "front.csv"), grid = table(folders.front, "designs.csv");
+    const marks = await spots(own, "front");
+    assert.equal(marks.filter(({ row }) => row === null).length, front.length);
+    assert.equal(new Set(marks.filter(({ row }) => row !== null).map(({ row }) => row)).size, grid.length);
+    const { points } = await own.evaluate(() => squama.charts.find(({ id }) => id === "front").make(900).panels[0].lines[0]);
+    const expected = front.map((one) => [Number(one.coverage), Number(one.gap_over_t)]).sort((a, b) => a[0] - b[0]);
+    assert.deepEqual(points, expected);
+    // Steeper designs than the bound of the search, and folded ones, are pale, and no part of the comparison.
+    const allowed = grid.filter((one) => Number(one.slant_deg) <= 60 && !one.fold_force);
+    const beaten = allowed.filter((one) => front.some((other) => {
+      const better = ["coverage", "gap_over_t"].map((name) => Number(other[name]) - Number(one[name]));
+      return better.every((more) => more > -1e-9) && better.some((more) => more > 1e-9);
+    }));
+    assert.ok(beaten.length > 4 && allowed.length < grid.length);
+    const said = beaten.length === allowed.length ? "all" : beaten.length;
+    assert.match(await own.locator("#front-words").textContent(), new RegExp(`largest coverage and largest gap d/t; slant_deg <= 60; .*Of the ${allowed.length} designs of the grid that keep them, ${said} are beaten`));
+    const rows = await own.locator("#front-table tbody tr").allTextContents();
+    assert.equal(rows.length, front.length);
+    assert.ok(rows.some((row) => /slant_deg <= 60|upper end/.test(row)), rows.join());
+    // A diamond tells what holds it, and chooses nothing; a mark of the grid is chosen.
+    const chosen = await own.locator("#detail-title").textContent();
+    const diamond = marks.find(({ row }) => row === null);
+    await own.mouse.move(diamond.x, diamond.y);
+    assert.match(await own.locator("#tip").textContent(), /^Front 1: .*Held by /);
+    await own.mouse.click(diamond.x, diamond.y);
+    assert.equal(await own.locator("#detail-title").textContent(), chosen);
+    const far = marks.find(({ row, x, y }) => row !== null && marks.every((other) => other.row !== null || Math.hypot(other.x - x, other.y - y) > 20));
+    await own.mouse.click(far.x, far.y);
+    const now = await own.evaluate(() => squama.state.design);
+    assert.ok(marks.some(({ row, x, y }) => row === now && Math.hypot(x - far.x, y - far.y) < 2));
+    await own.close();
+  },
+});
