@@ -333,15 +333,14 @@ impl CellColumns {
     }
 }
 
-/// Appends the influence of the cells between two lines of corners, each together with its mirror image in `z`: what the strip from
-/// the image of its outer edge to that edge has more than the strip between the inner ones.
+/// Appends the influence of the cells between two lines of corners, each together with its mirror image in `z`.
 fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence>) {
     let half = last.len() / 2;
-    let corner = |j: usize| next[j] - last[j];
-    let mut inner = Influence::default();
-    into.extend((1..=half).map(|k| {
-        let outer = corner(half + k) - corner(half - k);
-        outer - std::mem::replace(&mut inner, outer)
+    let strip = |j: usize| next[j] - last[j];
+    into.extend((0..half).map(|k| {
+        let cell = strip(half + k + 1) - strip(half + k);
+        let image = strip(half - k) - strip(half - k - 1);
+        cell + image
     }));
 }
 
