@@ -57,6 +57,19 @@ impl BandMatrix {
         }
     }
 
+    /// Replaces all entries by those of a matrix of the same shape.
+    pub(crate) fn set(&mut self, other: &Self) {
+        let width = self.width();
+        let rows = self.rows.chunks_exact_mut(width).zip(other.rows.chunks_exact(width));
+        for ((row, entries), (used, other)) in rows.zip(self.used.iter_mut().zip(&other.used)) {
+            let [first, end] = [used[0].min(other[0]), used[1].max(other[1])];
+            if first < end {
+                row[first..end].copy_from_slice(&entries[first..end]);
+            }
+            *used = *other;
+        }
+    }
+
     /// The entry at (`row`, `column`), which must lie within the band.
     ///
     /// # Panics

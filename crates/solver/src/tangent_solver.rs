@@ -30,6 +30,8 @@ struct InBlocks {
 #[derive(Clone, Debug)]
 struct InBand {
     matrix: BandMatrix,
+    /// The constant part of the matrix.
+    constant: BandMatrix,
     lu: BandLu,
 }
 
@@ -66,9 +68,8 @@ impl TangentSolver {
         if self.is_in_blocks {
             return Ok(());
         }
-        let InBand { matrix, lu } = self.band.get_or_insert_with(|| InBand::new(system));
-        matrix.clear();
-        system.constant_tangent(matrix);
+        let InBand { matrix, constant, lu } = self.band.get_or_insert_with(|| InBand::new(system));
+        matrix.set(constant);
         assemble(system, state, condition, residual, matrix);
         lu.factorise_without(matrix, &self.inactive)
     }
@@ -130,6 +131,8 @@ impl InBlocks {
 impl InBand {
     fn new(system: &impl System) -> Self {
         let (size, half) = (system.size(), system.half_bandwidth());
-        Self { matrix: BandMatrix::new(size, half), lu: BandLu::new(size, half) }
+        let mut constant = BandMatrix::new(size, half);
+        system.constant_tangent(&mut constant);
+        Self { matrix: BandMatrix::new(size, half), constant, lu: BandLu::new(size, half) }
     }
 }
