@@ -2,7 +2,7 @@
 
 use ranking::{Goal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
-use results::{Cell, Column, DesignRow, Outcome, SlopeSide};
+use results::{Column, DesignRow, Outcome, SlopeSide};
 use sweep::{Measure, Parameter};
 
 use crate::goal::DesignGoal;
@@ -65,18 +65,14 @@ pub(crate) struct Slopes {
 
 impl NumberColumn {
     fn value(&self, row: &DesignRow) -> Option<f64> {
-        match self.0.cell(row) {
-            Cell::Number(number) => Some(number).filter(|number| number.is_finite()),
-            Cell::Count(count) => Some(count as f64),
-            Cell::Empty | Cell::Text(_) => None,
-        }
+        self.0.cell(row).number()
     }
 
     /// The derivatives with respect to a parameter, from rows that are extrapolated by those of the measures.
     fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         let on = |side| {
             let step = STEP * parameter.size(&row.case)?;
-            let at = |by| self.value(&row.extrapolated(parameter, by, side)?);
+            let at = |by| self.value(&row.extrapolated(&parameter.moved(&row.case, by)?, side));
             Some((at(step)? - at(-step)?) / (2.0 * step))
         };
         Slopes { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }

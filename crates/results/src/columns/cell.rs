@@ -5,6 +5,8 @@ use std::fmt;
 
 use sweep::{Scalar, number};
 
+use crate::design::failure::finite;
+
 /// One cell of a table, not yet text, so that each format writes it in its own way.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
@@ -16,6 +18,18 @@ pub enum Cell {
     Count(i64),
     /// A text.
     Text(Cow<'static, str>),
+}
+
+impl Cell {
+    /// The number in the cell, if it is finite.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => finite(*number),
+            // A count in a table, far below 2^53.
+            Self::Count(count) => Some(*count as f64),
+            Self::Empty | Self::Text(_) => None,
+        }
+    }
 }
 
 impl fmt::Display for Cell {

@@ -90,7 +90,7 @@ impl PunctureResult {
             ..puncture::PunctureMeasures::default()
         };
         let (outcome, measures) =
-            finite_or(puncture_numbers(&measures), puncture.status.into(), measures, few);
+            finite_or(measures, puncture::PunctureMeasures::named, puncture.status.into(), few);
         Self {
             outcome,
             measures,
@@ -127,7 +127,7 @@ impl FlexureResult {
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let (outcome, measures) =
-            finite_or(flexure_numbers(&measures), flexure.status.into(), measures, few);
+            finite_or(measures, flexure::FlexureMeasures::named, flexure.status.into(), few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
@@ -135,51 +135,18 @@ impl FlexureResult {
 
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
 fn finite_or<M, const N: usize>(
-    numbers: [Option<f64>; N],
+    mut measures: M,
+    numbers: fn(&mut M) -> [(&'static str, &mut Option<f64>); N],
     outcome: Outcome,
-    measures: M,
     few: M,
 ) -> (Outcome, M) {
+    let is_finite =
+        numbers(&mut measures).iter().all(|(_, number)| number.is_none_or(f64::is_finite));
     match outcome {
-        _ if numbers.into_iter().flatten().all(f64::is_finite) => (outcome, measures),
+        _ if is_finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
         stopped => (stopped, few),
     }
-}
-
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
-    [
-        measures.critical_force,
-        measures.peak_force,
-        measures.critical_displacement,
-        measures.penetration,
-        measures.sink,
-        measures.first_contact_displacement,
-        measures.initial_stiffness,
-        measures.max_stiffness,
-        measures.secant_stiffness,
-        measures.peak_displacement,
-        measures.peak_tilt_deg,
-        measures.load_stability_force,
-        measures.depth_stability_force,
-        measures.gap_stretch_min,
-        measures.gap_stretch_max,
-        measures.fold_force,
-        measures.fold_displacement,
-        measures.fold_tilt_deg,
-        measures.sound_force,
-    ]
-}
-
-fn flexure_numbers(measures: &flexure::FlexureMeasures) -> [Option<f64>; 6] {
-    [
-        measures.compliance,
-        measures.initial_compliance,
-        measures.first_contact_curvature,
-        measures.max_moment,
-        measures.axial_energy_share,
-        measures.membrane_strain_max,
-    ]
 }
 
 #[cfg(test)]
