@@ -84,13 +84,13 @@ impl PunctureResult {
 
     /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
-        let measures = puncture.measures;
+        let mut measures = puncture.measures;
         let few = puncture::PunctureMeasures {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
         };
         let (outcome, measures) =
-            finite_or(measures, puncture::PunctureMeasures::named, puncture.status.into(), few);
+            finite_or(are_finite(measures.named()), puncture.status.into(), measures, few);
         Self {
             outcome,
             measures,
@@ -123,25 +123,23 @@ impl FlexureResult {
 
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
-        let measures = flexure.measures;
+        let mut measures = flexure.measures;
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let (outcome, measures) =
-            finite_or(measures, flexure::FlexureMeasures::named, flexure.status.into(), few);
+            finite_or(are_finite(measures.named()), flexure.status.into(), measures, few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
 }
 
+/// Whether all numbers are finite that exist.
+fn are_finite<const N: usize>(numbers: [(&str, &mut Option<f64>); N]) -> bool {
+    numbers.iter().all(|(_, number)| number.is_none_or(f64::is_finite))
+}
+
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
-fn finite_or<M, const N: usize>(
-    mut measures: M,
-    numbers: fn(&mut M) -> [(&'static str, &mut Option<f64>); N],
-    outcome: Outcome,
-    few: M,
-) -> (Outcome, M) {
-    let is_finite =
-        numbers(&mut measures).iter().all(|(_, number)| number.is_none_or(f64::is_finite));
+fn finite_or<M>(is_finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
         _ if is_finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),

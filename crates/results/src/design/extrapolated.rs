@@ -78,12 +78,8 @@ fn extrapolated(
 impl SlopeSide {
     /// The derivative on this side.
     fn of(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
-        match self {
-            Self::Left => derivative.left,
-            Self::Right => derivative.right,
-            Self::Ahead if by < 0.0 => derivative.left,
-            Self::Ahead => derivative.right,
-        }
+        let is_left = self == Self::Left || (self == Self::Ahead && by < 0.0);
+        if is_left { derivative.left } else { derivative.right }
     }
 }
 
