@@ -35,7 +35,7 @@ impl Cell {
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(number) if number.is_finite() => f.write_str(&number::text(*number)),
+            Self::Number(number) if number.is_finite() => number::write(f, *number),
             Self::Empty | Self::Number(_) => Ok(()),
             Self::Count(count) => write!(f, "{count}"),
             Self::Text(text) => f.write_str(text),

@@ -89,8 +89,12 @@ impl PunctureResult {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
         };
-        let (outcome, measures) =
-            finite_or(are_finite(measures.named()), puncture.status.into(), measures, few);
+        let (outcome, measures) = finite_or(
+            measures.named().iter().all(is_finite),
+            puncture.status.into(),
+            measures,
+            few,
+        );
         Self {
             outcome,
             measures,
@@ -127,21 +131,21 @@ impl FlexureResult {
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let (outcome, measures) =
-            finite_or(are_finite(measures.named()), flexure.status.into(), measures, few);
+            finite_or(measures.named().iter().all(is_finite), flexure.status.into(), measures, few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
 }
 
-/// Whether all numbers are finite that exist.
-fn are_finite<const N: usize>(numbers: [(&str, &mut Option<f64>); N]) -> bool {
-    numbers.iter().all(|(_, number)| number.is_none_or(f64::is_finite))
+/// Whether a number is finite, if it exists.
+fn is_finite((_, number): &(&str, &mut Option<f64>)) -> bool {
+    number.is_none_or(f64::is_finite)
 }
 
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
-fn finite_or<M>(is_finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
+fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
-        _ if is_finite => (outcome, measures),
+        _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
         stopped => (stopped, few),
     }

@@ -37,7 +37,7 @@ impl DesignRow {
         let mut row = Self { case: *to, result: self.result.without_dependents(&changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
-            if let Some(value) = row.result.value_mut(&of_measure[0].measure) {
+            if let Some(value) = row.result.value_mut(of_measure[0].measure) {
                 *value = extrapolated(of_measure, &changes, side);
             }
         }
