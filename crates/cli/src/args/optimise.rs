@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Format;
+use super::{Earlier, Format, Threads};
 
 /// Arguments of `squama optimise`.
 #[derive(Debug, Args)]
@@ -38,17 +38,11 @@ pub struct OptimiseArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
-    /// Go on with the results that are there, if there are any
-    #[arg(long, conflicts_with = "fresh")]
-    pub resume: bool,
+    #[command(flatten)]
+    pub earlier: Earlier,
 
-    /// Throw away the results that are there, if there are any
-    #[arg(long)]
-    pub fresh: bool,
-
-    /// Threads [default: all cores]
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
 
     /// Print JSON instead of text
     #[arg(long)]

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use clap::Args;
 
-use super::{Definition, Format, Work};
+use super::{Definition, Earlier, Format, Work};
 
 /// A part of the designs.
 #[derive(Clone, Copy, Debug)]
@@ -48,13 +48,8 @@ pub struct RunArguments {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
-    /// Go on with the results that are there, if there are any
-    #[arg(long, conflicts_with = "fresh")]
-    pub resume: bool,
-
-    /// Throw away the results that are there, if there are any
-    #[arg(long)]
-    pub fresh: bool,
+    #[command(flatten)]
+    pub earlier: Earlier,
 
     /// Solve a random subset of this many designs
     #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS")]

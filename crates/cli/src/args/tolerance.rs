@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::Definition;
+use super::{Definition, Threads};
 
 /// Arguments of `squama tolerance`.
 #[derive(Debug, Args)]
@@ -41,9 +41,8 @@ pub struct ToleranceArguments {
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
     pub samples: u32,
 
-    /// Threads [default: all cores]
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
 
     /// Folder of the tables [default: tolerance in the results of the sweep]
     #[arg(long, value_name = "DIR")]

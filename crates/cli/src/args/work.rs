@@ -2,12 +2,13 @@
 
 use clap::Args;
 
+use super::Threads;
+
 /// How designs are solved.
 #[derive(Debug, Args)]
 pub struct Work {
-    /// Threads [default: all cores]
-    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    #[command(flatten)]
+    pub threads: Threads,
 
     /// End the run at the first design that fails
     #[arg(long)]

@@ -4,13 +4,11 @@ mod figures;
 mod record;
 mod report;
 
-use std::thread::available_parallelism;
 use std::time::Instant;
 
 use ::report::Figure;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
 use results::{RunFolder, make_folder};
-use run::Start;
 use sweep::Setting;
 
 use super::source::folder_of;
@@ -57,14 +55,11 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
 }
 
 fn options<'i>(arguments: &args::OptimiseArguments, interrupt: &'i Interrupt) -> SearchOptions<'i> {
-    let cores = || available_parallelism().map_or(1, usize::from);
-    let start = match (arguments.resume, arguments.fresh) {
-        (true, _) => Start::Resume,
-        (_, true) => Start::Fresh,
-        _ => Start::New,
-    };
-    let threads = arguments.threads.map_or_else(cores, usize::from);
-    SearchOptions { threads, start, stop: interrupt.stop() }
+    SearchOptions {
+        threads: arguments.threads.count(),
+        start: arguments.earlier.start(),
+        stop: interrupt.stop(),
+    }
 }
 
 fn exit_code(found: &Found) -> u8 {

@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 use std::time::Duration;
 
 use results::{Completeness, VerifiedFolder};
-use run::{Best, Finished, Options, Start};
+use run::{Best, Finished, Options};
 use sweep::{RandomSample, Subset, Sweep};
 
 use super::source::{folder_of, read};
@@ -28,7 +27,7 @@ pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Res
     let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
     let options = options(&arguments.work, &arguments.format, interrupt, &display);
     let progress = |progress| display.show(progress);
-    let (subset, start) = (subset(arguments), start(arguments));
+    let (subset, start) = (subset(arguments), arguments.earlier.start());
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     let threads = options.threads;
     let finished = finished?;
@@ -86,14 +85,6 @@ fn subset(arguments: &args::RunArguments) -> Subset {
     Subset { sample, shard: arguments.shard }
 }
 
-fn start(arguments: &args::RunArguments) -> Start {
-    match (arguments.resume, arguments.fresh) {
-        (true, _) => Start::Resume,
-        (_, true) => Start::Fresh,
-        _ => Start::New,
-    }
-}
-
 /// How designs are solved, as the arguments have it.
 pub(super) fn options<'i>(
     work: &args::Work,
@@ -101,9 +92,8 @@ pub(super) fn options<'i>(
     interrupt: &'i Interrupt,
     display: &'i ProgressDisplay,
 ) -> Options<'i> {
-    let cores = || available_parallelism().map_or(1, usize::from);
     Options {
-        threads: work.threads.map_or_else(cores, usize::from),
+        threads: work.threads.count(),
         format: format.csv,
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,

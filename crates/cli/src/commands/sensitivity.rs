@@ -13,7 +13,7 @@ use tolerance::{
 };
 
 use super::source::{folder_within, read};
-use super::tolerance::{SAMPLES, pool, unless_stopped};
+use super::tolerance::{SAMPLES, unless_stopped};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::args;
 use crate::interrupt::Interrupt;
@@ -35,7 +35,7 @@ pub fn sensitivity(
     interrupt.ask_first();
     let (samples, stop) = (arguments.samples as usize, interrupt.stop());
     let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
-    let solved = pool(arguments.threads)?.install(|| analysis.solve(&store));
+    let solved = arguments.threads.pool()?.install(|| analysis.solve(&store));
     let Some(found) = unless_stopped(solved, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };

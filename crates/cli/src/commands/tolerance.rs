@@ -7,7 +7,7 @@ mod report;
 use anyhow::{Context as _, ensure};
 use ranking::Requirement;
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+
 use results::{CsvFormat, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
@@ -40,7 +40,7 @@ pub fn tolerance(
     interrupt.ask_first();
     let samples = arguments.samples as usize;
     let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());
-    let analysed = pool(arguments.threads)?.install(|| analysed(&analysis, &designs, &store));
+    let analysed = arguments.threads.pool()?.install(|| analysed(&analysis, &designs, &store));
     let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
@@ -57,12 +57,6 @@ pub fn tolerance(
     }
     let failed = all.iter().any(|design| design.drawn.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
-}
-
-/// So many threads, or one for each core.
-pub(super) fn pool(threads: Option<u16>) -> anyhow::Result<ThreadPool> {
-    let threads = threads.map_or(0, usize::from);
-    Ok(ThreadPoolBuilder::new().num_threads(threads).build()?)
 }
 
 /// The outcome of an analysis; `None`, and a word about it, if it was told to stop.
