@@ -72,7 +72,7 @@ impl NumberColumn {
     fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
         let on = |side| {
             let step = STEP * parameter.size(&row.case)?;
-            let at = |by| self.value(&row.extrapolated(&parameter.moved(&row.case, by)?, side));
+            let at = |by| self.value(&row.extrapolated_by(parameter, by, side)?);
             Some((at(step)? - at(-step)?) / (2.0 * step))
         };
         Slopes { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }

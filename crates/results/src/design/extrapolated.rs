@@ -20,8 +20,8 @@ pub enum SlopeSide {
 }
 
 /// A parameter that is larger `by` so much.
-struct ParameterChange {
-    parameter: &'static Parameter,
+struct ParameterChange<'p> {
+    parameter: &'p Parameter,
     by: f64,
 }
 
@@ -33,12 +33,21 @@ impl DesignRow {
     /// the side that is asked for. A parameter by which a measure has none, though it has others, has no part in it. Counts stay.
     #[must_use]
     pub fn extrapolated(&self, to: &Case, side: SlopeSide) -> Self {
-        let changes = changes(&self.case, to);
-        let mut row = Self { case: *to, result: self.result.without_dependents(&changes), ..*self };
+        self.changed(to, &changes(&self.case, to), side)
+    }
+
+    /// As [`Self::extrapolated`], of the case whose `parameter` is larger `by` so much; `None` if the parameter is no number.
+    pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
+        let to = parameter.moved(&self.case, by)?;
+        Some(self.changed(&to, &[ParameterChange { parameter, by }], side))
+    }
+
+    fn changed(&self, to: &Case, changes: &[ParameterChange<'_>], side: SlopeSide) -> Self {
+        let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
             if let Some(value) = row.result.value_mut(of_measure[0].measure) {
-                *value = extrapolated(of_measure, &changes, side);
+                *value = extrapolated(of_measure, changes, side);
             }
         }
         row
@@ -53,7 +62,7 @@ impl DesignRow {
 }
 
 /// The parameters that differ between two cases.
-fn changes(from: &Case, to: &Case) -> Vec<ParameterChange> {
+fn changes(from: &Case, to: &Case) -> Vec<ParameterChange<'static>> {
     let change = |parameter: &'static Parameter| {
         let by = parameter.get(to).number()? - parameter.get(from).number()?;
         (by != 0.0).then_some(ParameterChange { parameter, by })
@@ -64,10 +73,10 @@ fn changes(from: &Case, to: &Case) -> Vec<ParameterChange> {
 /// A measure that has these derivatives.
 fn extrapolated(
     derivatives: &[ParameterDerivative],
-    changes: &[ParameterChange],
+    changes: &[ParameterChange<'_>],
     side: SlopeSide,
 ) -> Option<f64> {
-    let part = |ParameterChange { parameter, by }: &ParameterChange| {
+    let part = |ParameterChange { parameter, by }: &ParameterChange<'_>| {
         let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
         derivative.map_or(Some(0.0), |derivative| Some(by * side.of(derivative, *by)?))
     };
@@ -85,7 +94,7 @@ impl SlopeSide {
 
 impl DesignResult {
     /// The result without the values that depend on what changes.
-    fn without_dependents(&self, changes: &[ParameterChange]) -> Self {
+    fn without_dependents(&self, changes: &[ParameterChange<'_>]) -> Self {
         let depends = |measure: Measure| {
             let sections = measure.sections();
             changes.iter().any(|change| sections.contains(&change.parameter.section))

@@ -27,20 +27,27 @@ impl Motion {
 
 /// The logarithms of all lines of corners as each field point sees them, kept from the assembly of (S5): those on the right of each
 /// rectangle and then their mirror images, rectangle by rectangle.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct SeenLines {
-    /// Numbers of a line: logarithms for the offset `X`, for `Z`, and zeros that fill the last vector of these.
+    /// Numbers of a line: logarithms for the offset `X`, for `Z`, and zeros that fill the last block of these.
     stride: usize,
     numbers: Vec<f64>,
 }
 
 impl SeenLines {
+    /// Nothing yet, with room for what a mesh sees.
+    pub(super) fn of(mesh: &Mesh) -> Self {
+        let corners = 2 * mesh.depth.cells() + 1;
+        let stride = corners + corners.next_multiple_of(CORNERS);
+        let lines: usize = mesh.across().map(|axis| 2 * axis.edges().len()).sum();
+        Self { stride, numbers: Vec::with_capacity(mesh.unknowns() * lines * stride) }
+    }
+
     /// Adds a line.
     pub(super) fn push(&mut self, logarithms: &[f64]) {
-        let corners = logarithms.len() / 2;
-        self.stride = corners + corners.next_multiple_of(LANES);
+        let end = self.numbers.len() + self.stride;
         self.numbers.extend_from_slice(logarithms);
-        self.numbers.resize(self.numbers.len().next_multiple_of(self.stride), 0.0);
+        self.numbers.resize(end, 0.0);
     }
 }
 
@@ -129,11 +136,20 @@ struct Weights {
 /// Numbers of as many corners as a vector takes.
 type Lanes = [f64; LANES];
 
-/// Weights of the corners of a line, filled up with zeros to whole vectors.
+/// Vectors in a block: those of a line of the finest mesh that springs are solved on, a number that the compiler knows.
+const VECTORS: usize = 5;
+
+/// Numbers of a block of corners.
+type Block = [Lanes; VECTORS];
+
+/// Corners of a block.
+const CORNERS: usize = VECTORS * LANES;
+
+/// Weights of the corners of a line, filled up with zeros to whole blocks.
 struct LineWeights {
-    weights: Vec<Lanes>,
+    weights: Vec<Block>,
     /// Weights times the rates of the corners along `z`, for each motion; none where these rest.
-    moved: Vec<Vec<Lanes>>,
+    moved: Vec<Vec<Block>>,
 }
 
 impl Mesh {
@@ -210,14 +226,14 @@ impl LineWeights {
     }
 }
 
-/// The numbers and as many zeros as fill the last vector.
-fn filled(numbers: &[f64]) -> Vec<Lanes> {
-    let vector = |numbers: &[f64]| {
-        let mut vector = [0.0; LANES];
-        vector[..numbers.len()].copy_from_slice(numbers);
-        vector
+/// The numbers and as many zeros as fill the last block.
+fn filled(numbers: &[f64]) -> Vec<Block> {
+    let block = |numbers: &[f64]| {
+        let mut block = [[0.0; LANES]; VECTORS];
+        block.as_flattened_mut()[..numbers.len()].copy_from_slice(numbers);
+        block
     };
-    numbers.chunks(LANES).map(vector).collect()
+    numbers.chunks(CORNERS).map(block).collect()
 }
 
 /// The place of a line of corners along `x`, or of its mirror image on the left.
@@ -237,23 +253,23 @@ struct PointPlace {
     rates: Vec<f64>,
 }
 
-/// Contributions of the corners of a line, differentiated with respect to `X`, `Z`, `κ` (S15).
+/// Contributions of a block of corners, differentiated with respect to `X`, `Z`, `κ` (S15).
 #[derive(Clone, Copy, Default)]
 struct Slopes {
-    normal_by_x: Lanes,
-    normal_by_z: Lanes,
-    shear_by_x: Lanes,
-    shear_by_z: Lanes,
+    normal_by_x: Block,
+    normal_by_z: Block,
+    shear_by_x: Block,
+    shear_by_z: Block,
     /// `B`.
-    shear_by_softness: Lanes,
+    shear_by_softness: Block,
 }
 
 /// A line of corners, seen from one field point.
 struct Line {
     corners: usize,
     /// `Z` and `ln|Z|` of each corner.
-    z: Vec<Lanes>,
-    ln: Vec<Lanes>,
+    z: Vec<Block>,
+    ln: Vec<Block>,
     slopes: Vec<Slopes>,
 }
 
@@ -263,31 +279,40 @@ impl Line {
     #[inline(always)]
     fn look(&mut self, x: f64, softness: f64, seen: &[f64]) {
         let ln_x = ln_or_zero(x);
-        // Corners that fill the last vector see the numbers of others, and have no weight.
-        let (across, along) = (seen.as_chunks().0, seen[self.corners..].as_chunks().0);
+        // Corners that fill the last block see the numbers of others, and have no weight.
+        let across = seen.as_chunks::<CORNERS>().0;
+        let along = seen[self.corners..].as_chunks::<CORNERS>().0;
         let numbers = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
         for (slopes, ((across, along), (z, ln))) in self.slopes.iter_mut().zip(numbers) {
-            *slopes = Slopes::new([x, ln_x, softness], [across, along, z, ln]);
+            let views = across.as_chunks().0.iter().zip(along.as_chunks().0);
+            for (vector, (across, along)) in views.enumerate() {
+                let view = [across, along, &z[vector], &ln[vector]];
+                slopes.look(vector, [x, ln_x, softness], view);
+            }
         }
     }
 }
 
 impl Slopes {
+    /// Looks at the corners of a vector.
     #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
     #[inline(always)]
-    fn new([x, ln_x, softness]: [f64; 3], [across, along, z, ln]: [&Lanes; 4]) -> Self {
-        let mut slopes = Self::default();
+    fn look(
+        &mut self,
+        vector: usize,
+        [x, ln_x, softness]: [f64; 3],
+        [across, along, z, ln]: [&Lanes; 4],
+    ) {
         for lane in 0..LANES {
             let across = (across[lane] - ln_x).copysign(z[lane]);
             let along = (along[lane] - ln[lane]).copysign(x);
             let inverse = (x * x + z[lane] * z[lane]).sqrt().recip();
-            slopes.normal_by_x[lane] = across;
-            slopes.normal_by_z[lane] = along;
-            slopes.shear_by_x[lane] = across + softness * (z[lane] * inverse);
-            slopes.shear_by_z[lane] = along + softness * (along - x * inverse);
-            slopes.shear_by_softness[lane] = z[lane] * along;
+            self.normal_by_x[vector][lane] = across;
+            self.normal_by_z[vector][lane] = along;
+            self.shear_by_x[vector][lane] = across + softness * (z[lane] * inverse);
+            self.shear_by_z[vector][lane] = along + softness * (along - x * inverse);
+            self.shear_by_softness[vector][lane] = z[lane] * along;
         }
-        slopes
     }
 }
 
@@ -317,7 +342,7 @@ impl<'a> Moving<'a> {
         tractions: &Tractions,
     ) -> Self {
         let corners = 2 * mesh.depth.cells() + 1;
-        let slopes = vec![Slopes::default(); corners.div_ceil(LANES)];
+        let slopes = vec![Slopes::default(); corners.div_ceil(CORNERS)];
         let weights = tractions.weights(mesh, motions);
         let by_ratio = (1.0 - poisson_ratio).powi(-2);
         Self {
@@ -383,20 +408,20 @@ impl Weights {
     /// Adds a line to the sums of this column, with the rates of `X`, `Z` and `κ` at the field point in each motion.
     #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
     #[inline(always)]
-    fn add_line(
+    fn add_line<'s>(
         &self,
         place: &LinePlace,
-        slopes: &[Slopes],
+        slopes: &'s [Slopes],
         [across, deeper, softer]: [&[f64]; 3],
         sums: &mut [Lanes],
     ) {
         let LineWeights { weights, moved } = &self.lines[place.number];
         let is_shear = self.is_shear;
-        let along_z = |s: &Slopes| if is_shear { s.shear_by_z } else { s.normal_by_z };
-        let by_x = dot(weights, slopes, |s| if is_shear { s.shear_by_x } else { s.normal_by_x });
+        let along_z = |s: &'s Slopes| if is_shear { &s.shear_by_z } else { &s.normal_by_z };
+        let by_x = dot(weights, slopes, |s| if is_shear { &s.shear_by_x } else { &s.normal_by_x });
         let by_depth = dot(weights, slopes, along_z);
         let by_softness =
-            if is_shear { dot(weights, slopes, |s| s.shear_by_softness) } else { [0.0; LANES] };
+            if is_shear { dot(weights, slopes, |s| &s.shear_by_softness) } else { [0.0; LANES] };
         let factor = if place.is_image { self.image } else { 1.0 };
         for (motion, (sum, moved)) in sums.iter_mut().zip(moved).enumerate() {
             let x = place.rates[motion] - across[motion];
@@ -413,12 +438,13 @@ impl Weights {
 /// The scalar product of weights and numbers of the corners, in parts that add up.
 #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
 #[inline(always)]
-fn dot(weights: &[Lanes], slopes: &[Slopes], of: impl Fn(&Slopes) -> Lanes) -> Lanes {
+fn dot<'s>(weights: &[Block], slopes: &'s [Slopes], of: impl Fn(&'s Slopes) -> &'s Block) -> Lanes {
     let mut sums = [0.0; LANES];
     for (weights, slopes) in weights.iter().zip(slopes) {
-        let slopes = of(slopes);
-        for lane in 0..LANES {
-            sums[lane] += weights[lane] * slopes[lane];
+        for (weights, slopes) in weights.iter().zip(of(slopes)) {
+            for lane in 0..LANES {
+                sums[lane] += weights[lane] * slopes[lane];
+            }
         }
     }
     sums

@@ -45,7 +45,7 @@ pub fn row_reactions_and_rates(
     if !mesh.is_resolved() {
         return Err(unresolved);
     }
-    let mut seen = SeenLines::default();
+    let mut seen = SeenLines::of(&mesh);
     let equations = Equations::assemble(&mesh, footprint.poisson_ratio(), Some(&mut seen));
     let factors = equations.factorised();
     let tractions = factors.solve(mesh.displacements());
