@@ -1,4 +1,4 @@
-//! The bar on the terminal.
+//! The bar on the terminal, of runs and of searches.
 
 use std::io::{IsTerminal as _, stderr};
 use std::sync::Arc;
@@ -8,6 +8,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use optimisation::SearchMeter;
 use run::{Progress, WorkMeter};
 
 use crate::interrupt::Interrupt;
@@ -23,12 +24,25 @@ const PARTS: u64 = 10_000;
 const ENDING: &str =
     "ending once the designs in hand are done; a second signal ends at once, --resume goes on";
 
-/// Shows how far a run is: rate, remaining time and failures so far. A thread looks at the run, because a single design
-/// may take a minute.
+/// Work that can be looked at while it is done.
+trait Watched: Send + Sync + 'static {
+    /// The part of the work that is done, and a few words about it after `elapsed`.
+    fn look(&self, elapsed: Duration) -> (f64, String);
+}
+
+/// Shows how far work is. A thread looks at it, because a single design may take a minute.
+struct Watcher(Option<(Sender<()>, JoinHandle<()>)>);
+
+/// Shows how far a run is: rate, remaining time and failures so far.
 pub struct ProgressDisplay {
     counts: Arc<Counts>,
-    /// The thread that looks, and what ends it.
-    watcher: Option<(Sender<()>, JoinHandle<()>)>,
+    _watcher: Watcher,
+}
+
+/// Shows how far a search is: the part in hand, and the designs so far.
+pub struct SearchDisplay {
+    meter: Arc<SearchMeter>,
+    _watcher: Watcher,
 }
 
 /// How far the run is.
@@ -42,16 +56,56 @@ struct Counts {
     failed: AtomicU64,
 }
 
-impl ProgressDisplay {
-    /// A bar, unless `quiet` or nobody watches; and a word when a signal asks the run to end, unless `quiet`.
-    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
-        let counts = Arc::<Counts>::default();
+impl Watcher {
+    /// A bar, unless `quiet` or nobody watches; and a word when a signal asks the work to end, unless `quiet`.
+    fn new(quiet: bool, interrupt: &Interrupt, watched: Arc<impl Watched>) -> Self {
         let watcher = (!quiet).then(|| {
             let (sender, ended) = channel();
-            let (counts, interrupt) = (Arc::clone(&counts), interrupt.clone());
-            (sender, std::thread::spawn(move || watch(&counts, &interrupt, &ended)))
+            let interrupt = interrupt.clone();
+            (sender, std::thread::spawn(move || watch(&*watched, &interrupt, &ended)))
         });
-        Self { counts, watcher }
+        Self(watcher)
+    }
+}
+
+impl Drop for Watcher {
+    fn drop(&mut self) {
+        if let Some((sender, watcher)) = self.0.take() {
+            drop(sender);
+            // The bar is all that a watcher that has ended badly leaves unfinished.
+            let _ = watcher.join();
+        }
+    }
+}
+
+impl SearchDisplay {
+    /// The display of a search that is about to begin.
+    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
+        let meter = Arc::<SearchMeter>::default();
+        let watcher = Watcher::new(quiet, interrupt, Arc::clone(&meter));
+        Self { meter, _watcher: watcher }
+    }
+
+    /// Where the search tells how far it is.
+    pub fn meter(&self) -> &SearchMeter {
+        &self.meter
+    }
+}
+
+impl Watched for SearchMeter {
+    fn look(&self, _elapsed: Duration) -> (f64, String) {
+        let (part, done, tasks) = self.progress();
+        let text = format!("{}: {done}/{tasks}  {} designs", part.words(), self.designs());
+        (done as f64 / tasks.max(1) as f64, text)
+    }
+}
+
+impl ProgressDisplay {
+    /// The display of a run that is about to begin.
+    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
+        let counts = Arc::<Counts>::default();
+        let watcher = Watcher::new(quiet, interrupt, Arc::clone(&counts));
+        Self { counts, _watcher: watcher }
     }
 
     /// Where the run tells of its work.
@@ -75,18 +129,8 @@ impl ProgressDisplay {
     }
 }
 
-impl Drop for ProgressDisplay {
-    fn drop(&mut self) {
-        if let Some((sender, watcher)) = self.watcher.take() {
-            drop(sender);
-            // The bar is all that a watcher that has ended badly leaves unfinished.
-            let _ = watcher.join();
-        }
-    }
-}
-
-/// Draws the bar until the run has `ended`.
-fn watch(counts: &Counts, interrupt: &Interrupt, ended: &Receiver<()>) {
+/// Draws the bar until the work has `ended`.
+fn watch(watched: &dyn Watched, interrupt: &Interrupt, ended: &Receiver<()>) {
     let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
         bar.set_style(style);
@@ -98,11 +142,18 @@ fn watch(counts: &Counts, interrupt: &Interrupt, ended: &Receiver<()>) {
             is_ending = true;
             bar.suspend(|| eprintln!("{ENDING}"));
         }
-        let share = counts.work.share();
+        let (share, text) = watched.look(begun.elapsed());
         bar.set_position((share * PARTS as f64) as u64);
-        bar.set_message(counts.text(share, begun.elapsed()));
+        bar.set_message(text);
     }
     bar.finish_and_clear();
+}
+
+impl Watched for Counts {
+    fn look(&self, elapsed: Duration) -> (f64, String) {
+        let share = self.work.share();
+        (share, self.text(share, elapsed))
+    }
 }
 
 impl Counts {

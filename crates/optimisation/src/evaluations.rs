@@ -120,6 +120,11 @@ impl<'a> Evaluations<'a> {
         Ok(result)
     }
 
+    /// Forces the journal to the disk.
+    pub fn sync(&self) -> Result<(), OutputError> {
+        lock(&self.journal).sync()
+    }
+
     /// The number of points that were solved, in this session and before.
     pub fn count(&self) -> usize {
         lock(&self.known).len()

@@ -6,18 +6,74 @@ use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
 use crate::judge::Judgement;
 use crate::local::{Effort, Search};
+use crate::meter::SearchPart;
 use crate::search::{BestDesign, best_design};
 
-/// A local search for each of the points, from the best that is known for it, then from its neighbours' designs, from both ends.
+/// Rounds in which points that came to nothing are put elsewhere, at most.
+const REFILLS: usize = 2;
+
+/// The front of several objectives.
+#[derive(Clone, Debug)]
+pub struct Front {
+    /// The designs that none beats, in the order of the first objective, the best first.
+    pub designs: Vec<BestDesign>,
+    /// Points at which the best design is that of another point: the front has a step there.
+    pub same: usize,
+    /// Points whose best design is beaten by that of another.
+    pub beaten: usize,
+    /// Points at which no design was found.
+    pub empty: usize,
+}
+
+/// The front: points between its ends, and where they come to nothing, others in the widest gaps that are left.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     points: usize,
-) -> Result<Vec<Target>, Halt> {
-    let targets = targets(search, history, points);
-    let first = |target: &Target| match search.best(history.iter(), target) {
-        Some(start) => search.improve(target, start, Effort { rounds: 2, ..Effort::WHOLE }),
-        None => Ok(Vec::new()),
+) -> Result<Front, Halt> {
+    let mut targets = targets(search, history, points);
+    improve(search, history, &targets)?;
+    let mut front = designs(search, history, &targets)?;
+    for _ in 0..REFILLS {
+        let more = between(search, &front.designs, points);
+        if more.is_empty() {
+            break;
+        }
+        improve(search, history, &more)?;
+        targets.extend(more);
+        front = designs(search, history, &targets)?;
+    }
+    Ok(front)
+}
+
+/// Targets in the widest gaps of a front of two objectives that has fewer than so many points.
+fn between(search: &Search<'_>, designs: &[BestDesign], points: usize) -> Vec<Target> {
+    let turned = designs.iter().filter_map(|design| turned(search, &design.candidate));
+    let seconds: Vec<f64> = turned.filter(|t| t.len() == 2).map(|t| t[1]).collect();
+    let mut gaps: Vec<[f64; 2]> = seconds.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    gaps.sort_by(|a, b| (b[1] - b[0]).total_cmp(&(a[1] - a[0])));
+    gaps.truncate(points.saturating_sub(designs.len()));
+    let target = |[low, high]: [f64; 2]| Target {
+        objective: 0,
+        floors: vec![(1, f64::midpoint(low, high))],
+    };
+    gaps.into_iter().map(target).collect()
+}
+
+/// A local search for each of the points, from the best that is known for it, then from its neighbours' designs, from both ends.
+fn improve(
+    search: &Search<'_>,
+    history: &mut Vec<Candidate>,
+    targets: &[Target],
+) -> Result<(), Halt> {
+    search.meter.begin(SearchPart::Front, 3 * targets.len());
+    let first = |target: &Target| {
+        let walk = match search.best(history.iter(), target) {
+            Some(start) => search.improve(target, start, Effort { rounds: 2, ..Effort::WHOLE }),
+            None => Ok(Vec::new()),
+        };
+        search.meter.step();
+        walk
     };
     let walks: Vec<Vec<Candidate>> = targets.par_iter().map(first).collect::<Result<_, _>>()?;
     let bests: Vec<Option<Candidate>> = targets
@@ -29,9 +85,9 @@ pub(crate) fn search(
     let forth = (0..targets.len()).collect::<Vec<_>>();
     let back = forth.iter().rev().copied().collect::<Vec<_>>();
     let chains = [forth, back];
-    let chains = chains.par_iter().map(|order| chain(search, &targets, &bests, order));
+    let chains = chains.par_iter().map(|order| chain(search, targets, &bests, order));
     history.extend(chains.collect::<Result<Vec<_>, _>>()?.into_iter().flatten());
-    Ok(targets)
+    Ok(())
 }
 
 /// Improves the points in an `order`, each from the design of the one before.
@@ -47,40 +103,41 @@ fn chain(
         if let Some(start) = &neighbour {
             log.extend(search.improve(&targets[k], start, Effort::SHORT)?);
         }
+        search.meter.step();
         // The neighbour's own search is part of the log.
         neighbour = search.best(bests[k].iter().chain(&log), &targets[k]).cloned();
     }
     Ok(log)
 }
 
-/// The best design of each target that no other design among them beats, in the order of the first objective, the best first.
-pub(crate) fn designs(
-    search: &Search<'_>,
-    history: &[Candidate],
-    targets: &[Target],
-) -> Result<Vec<BestDesign>, Halt> {
+/// The best design of each target that no other design among them beats, and what became of the others.
+fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Result<Front, Halt> {
     let found = targets.par_iter().map(|target| {
         let is_met = |c: &&Candidate| matches!(search.merit(c, target), Merit::Met(_));
         let any = history.iter().any(|candidate| is_met(&candidate));
         any.then(|| best_design(search, history, target.clone())).transpose()
     });
     let found: Vec<Option<BestDesign>> = found.collect::<Result<_, _>>()?;
-    let found: Vec<BestDesign> = found.into_iter().flatten().collect();
-    let values: Vec<Vec<f64>> =
-        found.iter().filter_map(|design| turned(search, &design.candidate)).collect();
-    let is_kept = |k: usize| {
-        let beaten = (0..values.len())
-            .any(|j| dominates(&values[j], &values[k]) || (j < k && values[j] == values[k]));
-        !beaten
-    };
-    let mut kept: Vec<(BestDesign, f64)> = found
-        .into_iter()
-        .enumerate()
-        .filter(|(k, _)| is_kept(*k))
-        .map(|(k, design)| (design, values[k][0]))
+    let found = found.into_iter().flatten();
+    let found: Vec<(BestDesign, Vec<f64>)> = found
+        .filter_map(|design| turned(search, &design.candidate).map(|values| (design, values)))
         .collect();
+    let values: Vec<Vec<f64>> = found.iter().map(|(_, values)| values.clone()).collect();
+    let mut front =
+        Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
+    let mut kept: Vec<(BestDesign, f64)> = Vec::new();
+    for (k, (design, turned)) in found.into_iter().enumerate() {
+        if values.iter().any(|other| dominates(other, &turned)) {
+            front.beaten += 1;
+        } else if values[..k].contains(&turned) {
+            front.same += 1;
+        } else {
+            kept.push((design, turned[0]));
+        }
+    }
     kept.sort_by(|(_, a), (_, b)| b.total_cmp(a));
-    Ok(kept.into_iter().map(|(design, _)| design).collect())
+    front.designs = kept.into_iter().map(|(design, _)| design).collect();
+    Ok(front)
 }
 
 /// The turned objectives of a design that meets every requirement.

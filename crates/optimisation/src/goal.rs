@@ -1,5 +1,6 @@
 //! The goal of an optimisation as it is written: variables, objectives, requirements.
 
+mod fitness_section;
 mod reader;
 mod section;
 
@@ -10,6 +11,7 @@ use ranking::{Criterion, Requirement};
 use sweep::toml_source::{KeyValues, Value};
 use sweep::{InvalidDefinition, Setting, entries, read_entries};
 
+use crate::fitness::FitnessGoal;
 use crate::space::DesignSpace;
 
 /// Objectives of a goal, at most.
@@ -24,6 +26,8 @@ pub struct DesignGoal {
     pub objectives: Vec<Criterion>,
     /// The bounds that columns must keep.
     pub requirements: Vec<Requirement>,
+    /// The criteria of the fitness, if the goal names it.
+    pub fitness: Option<FitnessGoal>,
     /// Whether only designs count whose surface has not folded.
     pub sound: bool,
     /// The number of points that fill the space before any is improved.

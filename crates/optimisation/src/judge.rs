@@ -2,16 +2,16 @@
 
 use ranking::{Goal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
-use results::{Column, DesignRow, Outcome, SlopeSide};
+use results::{DesignRow, Outcome};
 use sweep::{Measure, Parameter};
 
+use crate::fitness::{CriterionEnds, Fitness};
 use crate::goal::DesignGoal;
+use crate::number_column::NumberColumn;
+use crate::slopes::Slopes;
 
 /// The requirement that the surface of the substrate has not folded: no gap has closed at the critical tilt.
 const SOUND: (&str, Relation, f64) = ("gap_stretch_min", Relation::AtLeast, 0.0);
-
-/// Step of the differences along extrapolated rows, relative to the size of the parameter.
-const STEP: f64 = 1e-6;
 
 /// The judgement of a design by a goal.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +39,6 @@ pub struct Worth {
     pub met: bool,
 }
 
-/// A column of numbers.
-struct NumberColumn(Column<DesignRow>);
-
 /// A requirement with its column.
 struct RequiredColumn {
     requirement: Requirement,
@@ -56,62 +53,21 @@ pub struct Judge {
     bends: bool,
 }
 
-/// The derivatives of a value on both sides of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Slopes {
-    pub left: Option<f64>,
-    pub right: Option<f64>,
-}
-
-impl NumberColumn {
-    fn value(&self, row: &DesignRow) -> Option<f64> {
-        self.0.cell(row).number()
-    }
-
-    /// The derivatives with respect to a parameter, from rows that are extrapolated by those of the measures.
-    fn slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
-        let on = |side| {
-            let step = STEP * parameter.size(&row.case)?;
-            let at = |by| self.value(&row.extrapolated_by(parameter, by, side)?);
-            Some((at(step)? - at(-step)?) / (2.0 * step))
-        };
-        Slopes { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }
-    }
-}
-
-impl Slopes {
-    fn scaled(self, factor: f64) -> Self {
-        Self { left: self.left.map(|x| x * factor), right: self.right.map(|x| x * factor) }
-    }
-
-    /// The slope of the side on which the value rises the most, 0 if it falls on both. Of two sides that are the same, or one that is
-    /// missing, the other. `None` if both are.
-    pub fn uphill(self) -> Option<f64> {
-        let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
-        let (gain_left, gain_right) = (-left, right);
-        Some(match (gain_left > 0.0, gain_right > 0.0) {
-            _ if left == right => left,
-            (false, false) => 0.0,
-            _ if gain_left > gain_right => left,
-            _ => right,
-        })
-    }
-
-    /// The one slope; `None` at a kink.
-    pub fn smooth(self) -> Option<f64> {
-        let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
-        let size = left.abs().max(right.abs());
-        ((left - right).abs() <= 1e-6 * size).then_some(left)
-    }
-}
-
 impl Judge {
-    /// A judge by `goal`.
+    /// A judge by `goal`, in whose fitness those criteria are rescaled that have their ends there.
     pub fn new(goal: &DesignGoal) -> Self {
+        Self::rescaling(goal, goal.fitness.as_ref().map_or(&[], |fitness| &fitness.ends))
+    }
+
+    /// A judge by `goal`, in whose fitness the criteria are rescaled between these ends.
+    pub fn rescaling(goal: &DesignGoal, ends: &[CriterionEnds]) -> Self {
         let sweep = goal.space.sweep();
         let column = |name: &str| {
+            if let (Fitness::COLUMN, Some(fitness)) = (name, &goal.fitness) {
+                return Some(NumberColumn::Fitness(Fitness::new(fitness, sweep, ends)));
+            }
             let mut columns = design_columns(sweep).into_iter();
-            columns.find(|column| column.name == name).map(NumberColumn)
+            columns.find(|column| column.name == name).map(NumberColumn::Known)
         };
         let objectives = goal.objectives.iter();
         let objectives = objectives.filter_map(|o| Some((o.goal, column(&o.column)?))).collect();
@@ -119,8 +75,9 @@ impl Judge {
         let mut wanted = goal.requirements.clone();
         let (name, relation, limit) = SOUND;
         wanted.extend(sound.then(|| Requirement { column: name.to_owned(), relation, limit }));
-        let objective_columns = goal.objectives.iter().map(|objective| objective.column.as_ref());
-        let mut columns = objective_columns.chain(wanted.iter().map(|r| r.column.as_str()));
+        let criteria = goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
+        let criteria = goal.objectives.iter().chain(criteria).map(|c| c.column.as_ref());
+        let mut columns = criteria.chain(wanted.iter().map(|r| r.column.as_str()));
         let bends = columns.any(|column| measure_of(column) == Some(Measure::Flexure));
         let required = |requirement: Requirement| {
             let column = column(&requirement.column)?;
@@ -172,10 +129,20 @@ impl Judge {
         }
     }
 
+    /// Whether a design is complete, and its surface open all the way if that is wanted.
+    pub(crate) fn is_whole(&self, row: &DesignRow) -> bool {
+        let is_open = |required: &RequiredColumn| {
+            let value = required.column.value(row);
+            !has_folded(row) && value.is_some_and(|value| required.requirement.is_met(value))
+        };
+        let soundness = self.requirements.last().filter(|_| self.sound);
+        row.result.failures.is_empty() && soundness.is_none_or(is_open)
+    }
+
     /// The worth of a complete design, or the column in which it has no value.
     fn worth(&self, row: &DesignRow) -> Result<Worth, String> {
         let value =
-            |column: &NumberColumn| column.value(row).ok_or_else(|| column.0.name.to_string());
+            |column: &NumberColumn| column.value(row).ok_or_else(|| column.name().to_owned());
         let objectives = self.objectives.iter().map(|(_, column)| value(column));
         let objectives = objectives.collect::<Result<_, _>>()?;
         let required = self.requirements.iter().map(|required| value(&required.column));
@@ -197,6 +164,11 @@ impl Judge {
         parameter: &Parameter,
     ) -> Slopes {
         self.objectives[k].1.slopes(row, parameter).scaled(self.sign(k))
+    }
+
+    /// The derivative of objective `k` with respect to a parameter; `None` at a kink, or of a row without derivatives.
+    pub fn objective_slope(&self, k: usize, row: &DesignRow, parameter: &Parameter) -> Option<f64> {
+        self.objectives[k].1.slopes(row, parameter).smooth()
     }
 
     /// The derivatives of how far the design is within requirement `k`, relative to the limit.
@@ -230,24 +202,5 @@ fn excess(requirement: &Requirement, value: f64) -> f64 {
     match requirement.relation {
         Relation::Above | Relation::Below => excess + 1e-8,
         _ => excess,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn at_a_kink_the_way_up_counts() {
-        let slopes = |left, right| Slopes { left, right };
-        assert_eq!(slopes(Some(2.0), Some(2.0)).uphill(), Some(2.0));
-        assert_eq!(slopes(Some(1.0), Some(-3.0)).uphill(), Some(0.0));
-        assert_eq!(slopes(Some(-1.0), Some(3.0)).uphill(), Some(3.0));
-        assert_eq!(slopes(Some(-4.0), Some(3.0)).uphill(), Some(-4.0));
-        assert_eq!(slopes(Some(-4.0), Some(-3.0)).uphill(), Some(-4.0));
-        assert_eq!(slopes(None, Some(-3.0)).uphill(), Some(-3.0));
-        assert_eq!(slopes(None, None).uphill(), None);
-        assert_eq!(slopes(Some(1.0), Some(1.1)).smooth(), None);
-        assert_eq!(slopes(Some(1.0), Some(1.0)).smooth(), Some(1.0));
     }
 }

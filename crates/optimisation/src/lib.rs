@@ -18,9 +18,11 @@
 //! |---|---|
 //! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
 //! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
+//! | [`FitnessGoal`], [`CriterionEnds`] | the paper's fitness as an objective |
 //! | [`Judge`], [`Judgement`], [`Worth`] | what a design is worth by the goal |
 //! | [`optimise`], [`SearchOptions`] | the search |
-//! | [`Found`], [`Answer`], [`BestDesign`], [`LeftOutDesigns`] | what it found |
+//! | [`SearchMeter`], [`SearchPart`] | how far it is |
+//! | [`Found`], [`Answer`], [`BestDesign`], [`Front`], [`LeftOutDesigns`] | what it found |
 //! | [`Candidate`], [`SearchStage`], [`Target`] | a design that was looked at, in which stage, and what for |
 //! | [`write_found`] | writes the tables of what was found |
 //! | [`Words`] | what binds and what it costs, in words |
@@ -30,7 +32,7 @@
 //! ```
 //! use std::sync::atomic::AtomicBool;
 //!
-//! use optimisation::{Answer, DesignGoal, SearchOptions, optimise};
+//! use optimisation::{Answer, DesignGoal, SearchMeter, SearchOptions, optimise};
 //! use run::{Program, Start};
 //!
 //! // Scales of 45° cover more, the narrower their gaps: λ = 1 − d (Eq. G2).
@@ -38,7 +40,8 @@
 //!             [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'coverage'\nsamples = 8";
 //! let goal = DesignGoal::parse(text, "covered.toml", &[])?;
 //! let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
-//! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop };
+//! let meter = SearchMeter::default();
+//! let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, meter: &meter };
 //! let program = Program { version: "1.0", revision: "none" };
 //! let found = optimise(&goal, folder.path(), &options, &program)?.expect("nobody stops it");
 //! let Answer::Optimum(best) = found.answer else { panic!("there is one objective") };
@@ -49,13 +52,17 @@
 mod candidate;
 mod error;
 mod evaluations;
+mod fitness;
 mod front;
 mod goal;
 mod judge;
 mod local;
+mod meter;
+mod number_column;
 mod price;
 mod sample;
 mod search;
+mod slopes;
 mod space;
 mod tables;
 mod words;
@@ -63,8 +70,11 @@ mod words;
 pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
 pub use evaluations::EVALUATIONS;
+pub use fitness::{CriterionEnds, FitnessGoal};
+pub use front::Front;
 pub use goal::DesignGoal;
 pub use judge::{Judge, Judgement, Worth};
+pub use meter::{SearchMeter, SearchPart};
 pub use price::{Binding, Limit};
 pub use search::{Answer, BestDesign, Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};

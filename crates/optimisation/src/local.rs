@@ -13,6 +13,7 @@ pub(crate) use room::{bending_room, bending_room_slopes};
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::{Judge, Judgement};
+use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
 
 /// Rounds of derivatives and of what does without, at most.
@@ -26,6 +27,7 @@ pub(crate) struct Search<'a> {
     pub space: &'a DesignSpace,
     pub evaluations: &'a Evaluations<'a>,
     pub judge: &'a Judge,
+    pub meter: &'a SearchMeter,
 }
 
 /// How much a local search may take.
@@ -59,6 +61,7 @@ impl Search<'_> {
         let result = self.evaluations.solve(point, differentiated)?;
         let row = self.evaluations.row(0, point, &result);
         let verdict = self.judge.verdict(&row);
+        self.meter.look();
         Ok((Candidate { stage, point: point.clone(), result, verdict }, row))
     }
 

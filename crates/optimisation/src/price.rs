@@ -13,8 +13,9 @@ use sweep::Parameter;
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::judge::{Judgement, Slopes, size};
+use crate::judge::{Judgement, size};
 use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+use crate::slopes::Slopes;
 
 /// A limit binds that is this near, relative to its size.
 const NEAR: f64 = 1e-5;

@@ -4,19 +4,22 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
+use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
 use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
-use crate::front;
+use crate::fitness::CriterionEnds;
+use crate::front::{self, Front};
 use crate::goal::DesignGoal;
 use crate::judge::{Judge, Judgement, has_folded};
 use crate::local::{Effort, Search};
+use crate::meter::{SearchMeter, SearchPart};
 use crate::price::{Binding, bindings};
 use crate::sample;
+use crate::space::SpacePoint;
 
 /// Designs that are improved along derivatives for each objective.
 const STARTS: usize = 12;
@@ -36,6 +39,8 @@ pub struct SearchOptions<'a> {
     pub start: Start,
     /// Set to request a stop; what is solved so far stays in the journal.
     pub stop: &'a AtomicBool,
+    /// Where the search tells how far it is.
+    pub meter: &'a SearchMeter,
 }
 
 /// The outcome of a search.
@@ -49,6 +54,8 @@ pub struct Found {
     pub left_out: LeftOutDesigns,
     /// The number of evaluations, with derivatives and without.
     pub evaluations: usize,
+    /// The ends between which the criteria of the fitness were rescaled.
+    pub rescaled: Vec<CriterionEnds>,
 }
 
 /// The answer to a goal.
@@ -56,8 +63,8 @@ pub struct Found {
 pub enum Answer {
     /// The best design, of one objective.
     Optimum(Box<BestDesign>),
-    /// The designs that none beats, of several, in the order of the first objective.
-    Front(Vec<BestDesign>),
+    /// The designs that none beats, of several.
+    Front(Front),
     /// No design meets the requirements; the index in the history of the nearest, if any can be judged.
     Infeasible(Option<usize>),
 }
@@ -97,14 +104,14 @@ pub fn optimise(
     program: &Program,
 ) -> Result<Option<Found>, OptimisationError> {
     let evaluations = Evaluations::begin(goal, folder, options.start, program, options.stop)?;
-    let judge = Judge::new(goal);
-    let search = Search { space: &goal.space, evaluations: &evaluations, judge: &judge };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build();
     let pool = pool.map_err(|error| OptimisationError::Threads {
         count: options.threads,
         reason: error.to_string(),
     })?;
-    match pool.install(|| find(goal, &search)) {
+    let found = pool.install(|| find(goal, &evaluations, options.meter));
+    evaluations.sync()?;
+    match found {
         Ok(found) => {
             check_columns(&found)?;
             Ok(Some(found))
@@ -114,31 +121,72 @@ pub fn optimise(
     }
 }
 
-fn find(goal: &DesignGoal, search: &Search<'_>) -> Result<Found, Halt> {
-    let points = sample::points(search.space, goal.samples, goal.seed);
+fn find(
+    goal: &DesignGoal,
+    evaluations: &Evaluations<'_>,
+    meter: &SearchMeter,
+) -> Result<Found, Halt> {
+    let points = sample::points(&goal.space, goal.samples, goal.seed);
+    let rows = sample_rows(evaluations, &points, meter)?;
+    let rescaled = ends(goal, rows);
+    let judge = Judge::rescaling(goal, &rescaled);
+    let search = Search { space: &goal.space, evaluations, judge: &judge, meter };
     let look = |point| Ok(search.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
+    let answer = answer(goal, &search, &mut history)?;
+    let left_out = LeftOutDesigns::of(&search, &history);
+    Ok(Found { history, answer, left_out, evaluations: evaluations.count(), rescaled })
+}
+
+/// The rows of the points that fill the space.
+fn sample_rows(
+    evaluations: &Evaluations<'_>,
+    points: &[SpacePoint],
+    meter: &SearchMeter,
+) -> Result<Vec<DesignRow>, Halt> {
+    meter.begin(SearchPart::Sample, points.len());
+    let row = |point: &SpacePoint| {
+        let result = evaluations.solve(point, false)?;
+        meter.step();
+        Ok(evaluations.row(0, point, &result))
+    };
+    points.par_iter().map(row).collect()
+}
+
+/// The ends between which the criteria of the fitness are rescaled: from here on the fitness is one function.
+fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
+    let Some(fitness) = &goal.fitness else { return Vec::new() };
+    let judge = Judge::new(goal);
+    rows.retain(|row| judge.is_whole(row));
+    fitness.ends_over(goal.space.sweep(), &rows)
+}
+
+/// The answer to a goal, from the designs that fill the space.
+fn answer(
+    goal: &DesignGoal,
+    search: &Search<'_>,
+    history: &mut Vec<Candidate>,
+) -> Result<Answer, Halt> {
     let mut targets: Vec<Target> = Vec::new();
     for objective in 0..search.judge.objectives() {
         let target = Target { objective, floors: Vec::new() };
-        let first = starts(search, &history, &target, STARTS);
-        let climbed = improved(search, &target, first, Effort::CLIMB)?;
-        history.extend(climbed);
-        let best = starts(search, &history, &target, FINALISTS);
+        let first = starts(search, history, &target, STARTS);
+        search.meter.begin(SearchPart::Climb, first.len());
+        history.extend(improved(search, &target, first, Effort::CLIMB)?);
+        let best = starts(search, history, &target, FINALISTS);
+        search.meter.begin(SearchPart::Finish, best.len());
         history.extend(improved(search, &target, best, Effort::WHOLE)?);
         targets.push(target);
     }
     let is_feasible = |c: &Candidate| matches!(search.merit(c, &targets[0]), Merit::Met(_));
-    let answer = if !history.iter().any(is_feasible) {
-        Answer::Infeasible(nearest(search, &history, &targets[0]))
-    } else if targets.len() == 1 {
-        Answer::Optimum(Box::new(best_design(search, &history, targets.swap_remove(0))?))
-    } else {
-        let targets = front::search(search, &mut history, goal.points)?;
-        Answer::Front(front::designs(search, &history, &targets)?)
-    };
-    let left_out = LeftOutDesigns::of(search, &history);
-    Ok(Found { history, answer, left_out, evaluations: search.evaluations.count() })
+    if !history.iter().any(is_feasible) {
+        return Ok(Answer::Infeasible(nearest(search, history, &targets[0])));
+    }
+    if targets.len() == 1 {
+        let best = best_design(search, history, targets.swap_remove(0))?;
+        return Ok(Answer::Optimum(Box::new(best)));
+    }
+    front::search(search, history, goal.points).map(Answer::Front)
 }
 
 /// The best designs for a target that are apart from each other, as starts of local searches.
@@ -179,7 +227,11 @@ fn improved(
     starts: Vec<Candidate>,
     effort: Effort,
 ) -> Result<Vec<Candidate>, Halt> {
-    let walks = starts.into_par_iter().map(|start| search.improve(target, &start, effort));
+    let walks = starts.into_par_iter().map(|start| {
+        let walk = search.improve(target, &start, effort);
+        search.meter.step();
+        walk
+    });
     Ok(walks.collect::<Result<Vec<_>, _>>()?.concat())
 }
 

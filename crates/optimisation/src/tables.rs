@@ -2,9 +2,9 @@
 
 use results::columns::{Cell, design_columns};
 use results::{Column, CsvFormat, DesignRow, OutputError, RunFolder, write_rows, write_text};
-use sweep::Sweep;
 
 use crate::candidate::Candidate;
+use crate::fitness::Fitness;
 use crate::goal::DesignGoal;
 use crate::judge::{Judgement, has_folded};
 use crate::search::{Answer, BestDesign, Found};
@@ -24,10 +24,12 @@ pub const GOAL: &str = "goal.toml";
 /// A row of cells that are made already.
 type Cells = Vec<Cell>;
 
-/// The columns of `optimum.csv` and `front.csv`: those of `designs.csv`, then what binds and what it costs.
-pub fn optimum_columns(sweep: &Sweep) -> Vec<Column<Cells>> {
-    let known = design_columns(sweep).into_iter();
+/// The columns of `optimum.csv` and `front.csv` of a goal: those of `designs.csv`, the fitness if the goal names it, then what binds
+/// and what it costs.
+pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
+    let known = design_columns(goal.space.sweep()).into_iter();
     let known = known.map(|column| (column.name.to_string(), column.unit, column.meaning));
+    let known = known.chain(fitness_column(goal));
     let own = [
         (
             "binding",
@@ -44,6 +46,11 @@ pub fn optimum_columns(sweep: &Sweep) -> Vec<Column<Cells>> {
     cells(known.chain(own))
 }
 
+/// The column of the fitness, if the goal names it.
+fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static str)> {
+    goal.fitness.is_some().then(|| (Fitness::COLUMN.to_owned(), "-", Fitness::MEANING))
+}
+
 /// The columns of `history.csv` of a goal.
 pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let plain = |name: &str, meaning| (name.to_owned(), "-", meaning);
@@ -58,7 +65,8 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let known = design_columns(goal.space.sweep());
     let explained = |name: &str| {
         let column = known.iter().find(|column| column.name == name);
-        column.map(|column| (column.name.to_string(), column.unit, column.meaning))
+        let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
+        column.or_else(|| fitness_column(goal))
     };
     let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
     let last = [
@@ -108,7 +116,7 @@ pub fn write_found(
             files.extend([OPTIMUM, OPTIMUM_DEFINITION]);
         }
         Answer::Front(front) => {
-            write_best(folder, FRONT, goal, front, format)?;
+            write_best(folder, FRONT, goal, &front.designs, format)?;
             files.push(FRONT);
         }
         Answer::Infeasible(_) => {}
@@ -128,12 +136,13 @@ fn write_best(
     let row = |(index, best): (usize, &BestDesign)| {
         let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
         let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
+        cells.extend(goal.fitness.as_ref().map(|_| value(goal, &best.candidate, Fitness::COLUMN)));
         cells.push(words.bindings(&best.bindings, &best.target).into());
         cells.push(words.prices(&best.bindings, &best.target).into());
         cells
     };
     let rows = designs.iter().enumerate().map(row);
-    write_rows(folder, file, format, &optimum_columns(sweep), rows).map(|_| ())
+    write_rows(folder, file, format, &optimum_columns(goal), rows).map(|_| ())
 }
 
 /// The rows of `history.csv`.
@@ -153,12 +162,22 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
         cells.extend(goal.space.parameters().map(|p| Cell::from(p.get(&row.case))));
         cells.extend(goal.objectives.iter().map(|objective| {
             let column = known.iter().find(|column| column.name == objective.column);
-            column.map_or(Cell::Empty, |column| column.cell(&row))
+            let own = || value(goal, candidate, &objective.column);
+            column.map_or_else(own, |column| column.cell(&row))
         }));
         cells.extend(verdict(candidate, &row));
         cells.push(best.into());
         cells
     })
+}
+
+/// The value that a design is judged by in a column of the goal.
+fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
+    let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
+    let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
+    let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
+    let values = worth.objectives.iter().chain(&worth.required);
+    columns.zip(values).find(|(name, _)| *name == column).map(|(_, value)| *value).into()
 }
 
 fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {

@@ -10,6 +10,9 @@ use crate::judge::{Judge, direction};
 use crate::price::{Binding, Limit};
 use crate::space::Interval;
 
+/// The part of its width at rest by which a gap stays open in the price of a surface that does not fold.
+const OPEN: f64 = 0.1;
+
 /// Says what binds and what it costs.
 pub struct Words<'a> {
     goal: &'a DesignGoal,
@@ -70,6 +73,14 @@ impl<'a> Words<'a> {
             format!("{} {sense} {key} would gain {gain}", number::text(step))
         };
         Some(match binding.limit {
+            Limit::Requirement(k) if self.judge.is_soundness(k) => {
+                let costs = amount_of(OPEN * price, objective);
+                format!(
+                    "keeping every gap open by {} % of its width at rest {} {costs}",
+                    100.0 * OPEN,
+                    verb(objective)
+                )
+            }
             Limit::Requirement(k) => {
                 let requirement = self.requirement(k)?;
                 harder(requirement.limit, direction(requirement) > 0.0, &requirement.column)

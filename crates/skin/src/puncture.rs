@@ -11,6 +11,7 @@ mod sensitivity;
 mod snap;
 mod snapshot;
 mod stability;
+mod surroundings;
 mod system;
 #[cfg(test)]
 mod tests;
@@ -23,10 +24,10 @@ use geometry::{OutOfRange, Row};
 use point::scales;
 use snap::Needle;
 use solver::{Path, Settings, Stop};
-use substrate::{RowStiffness, SubstrateLaw};
+use substrate::{FarField, RowStiffness, SubstrateLaw};
+use surroundings::{Beyond, Reach, Surroundings};
 use system::{Chain, Layout};
 use tilts::TiltWatch;
-use window::{Reach, Surroundings};
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
@@ -229,6 +230,8 @@ struct Problem<'a> {
     rows: Rows<'a>,
     design: &'a Design,
     stiffness: RowStiffness,
+    /// Beyond the ends of a part of an endless row, lengths over `t`; `None` for a row that ends.
+    endless: Option<FarField>,
     law: ContactLaw,
     settings: Settings,
     parameters: &'a PunctureParameters,
@@ -257,7 +260,15 @@ impl<'a> Problem<'a> {
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
-        Ok(Self { rows, design, stiffness, law, settings: common.solver, parameters })
+        let endless = match parameters.scales {
+            RowLength::Auto => Some(far_field(design, &stiffness, None).ok_or(OutOfRange {
+                quantity: "direct stiffness of the substrate",
+                value: stiffness.direct[0],
+                expected: "more than its couplings with all neighbours together",
+            })?),
+            RowLength::Scales(_) => None,
+        };
+        Ok(Self { rows, design, stiffness, endless, law, settings: common.solver, parameters })
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
@@ -267,26 +278,36 @@ impl<'a> Problem<'a> {
 
     /// The system with which the path begins, and the longest row that it may grow to.
     fn start(&self) -> Result<(Chain, usize), OutOfRange> {
-        Ok(match self.parameters.scales {
+        let law = self.parameters.substrate_law;
+        let first = |far: &FarField| Layout::first(far, self.stiffness.neighbours.len(), law);
+        let Some(whole) = self.whole() else {
+            let first = self.endless.as_ref().map(first);
+            return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
+        };
+        // Bars are as good as springs to a part of the displacements only, and far couplings have no closed form before an end.
+        let far = self.far_field(Some(1)).filter(|_| law == SubstrateLaw::Linear);
+        let layout = far.map_or(whole, |far| first(&far).within(whole));
+        Ok((self.part(layout)?, whole.scales()))
+    }
+
+    /// All of a row that ends.
+    fn whole(&self) -> Option<Layout> {
+        match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                (self.chain(Layout { left, right: scales - 1 - left })?, scales)
+                Some(Layout { left, right: scales - 1 - left })
             }
-            RowLength::Auto => {
-                let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
-                (self.part(first)?, LONGEST_ROW)
-            }
-        })
+            RowLength::Auto => None,
+        }
     }
 
     /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
     #[cfg(test)]
     fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
-        let first = Layout::first(&self.stiffness, self.parameters.substrate_law);
-        Ok(self.follow(self.part(first)?, longest, &[])?.puncture())
+        Ok(self.follow(self.start()?.0, longest, &[])?.puncture())
     }
 
-    /// Follows the path of a row until it ends. A part of an endless row may grow up to the `longest`.
+    /// Follows the path of a row until it ends. A part of a longer row may grow up to the `longest`.
     fn follow(
         &self,
         chain: Chain,
@@ -338,6 +359,7 @@ impl<'a> Problem<'a> {
     ) -> Result<bool, OutOfRange> {
         let layout = path.system().layout;
         let longer = layout.grown(reach, longest);
+        let longer = self.whole().map_or(longer, |whole| longer.within(whole));
         if longer == layout {
             return Ok(false);
         }
@@ -350,13 +372,30 @@ impl<'a> Problem<'a> {
         Ok(true)
     }
 
-    /// The system of a part of an endless row.
+    /// The system of a part of the row.
     fn part(&self, layout: Layout) -> Result<Chain, OutOfRange> {
-        let surroundings = Surroundings::new(self.rows, &self.stiffness, layout)?;
+        let whole = self.whole();
+        let scales = |side: fn(Layout) -> usize| whole.map(|whole| side(whole) - side(layout));
+        let beyond = [scales(|row| row.left), scales(|row| row.right)].map(|scales| {
+            if scales == Some(0) {
+                None
+            } else {
+                Some(Beyond { far: self.far_field(scales)?, scales })
+            }
+        });
+        let surroundings = Surroundings::new(self.rows, layout, beyond)?;
         Ok(self.chain(layout)?.within(surroundings))
     }
 
-    /// The system of a row that ends.
+    /// The effect of so many scales beyond an end, or of a row without end.
+    fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
+        match scales {
+            None => self.endless.clone(),
+            _ => far_field(self.design, &self.stiffness, scales),
+        }
+    }
+
+    /// The system of a row with nothing beyond it.
     fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { stiffness, law, parameters, .. } = self;
         let row = self.rows.row(layout)?;
@@ -367,4 +406,9 @@ impl<'a> Problem<'a> {
         chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
         Ok(chain.with_law(parameters.substrate_law))
     }
+}
+
+/// The far field of a row of so many scales, or of one without end, with lengths over `t`.
+fn far_field(design: &Design, stiffness: &RowStiffness, scales: Option<usize>) -> Option<FarField> {
+    stiffness.with_lengths_over(design.half_base()).far_field(scales)
 }

@@ -19,7 +19,7 @@
 //! | [`Springs`] | the six coefficients and their estimated error |
 //! | [`calibrate`] | one footprint to its springs, 2 ms |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
-//! | [`FarField`] | how scales move beyond the last that touch, in closed form |
+//! | [`FarField`], [`Relief`] | how scales move beyond the last that touch, and how much softer they make it |
 //! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
@@ -45,6 +45,7 @@
 pub mod boundary_element;
 mod cache;
 mod calibrations;
+mod dense_lu;
 mod far_field;
 mod footprint;
 pub mod half_space;
@@ -56,7 +57,7 @@ mod strip;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
-pub use far_field::FarField;
+pub use far_field::{FarField, Relief};
 pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};

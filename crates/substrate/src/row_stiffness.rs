@@ -97,6 +97,19 @@ impl RowStiffness {
         }
     }
 
+    /// Returns the stiffness with lengths in a unit of which the half-width of a base is `half_base`: forces over `E* t²`, where
+    /// they are over `E* a²` here.
+    #[must_use]
+    pub fn with_lengths_over(&self, half_base: f64) -> Self {
+        let a = half_base;
+        let scaled = |[x, y, turn]: [f64; 3]| [a * x, a * y, a.powi(3) * turn];
+        let neighbours = self.neighbours.iter();
+        let neighbours = neighbours
+            .map(|n| Neighbour { direct: scaled(n.direct), cross: a * a * n.cross })
+            .collect();
+        Self { direct: scaled(self.direct), neighbours, ..*self }
+    }
+
     /// Returns the estimated relative error, that of the neglected coupling included.
     pub fn estimated_error(&self) -> f64 {
         self.error + self.truncation

@@ -24,6 +24,15 @@ pub enum ValidationError {
     /// Results cannot be read.
     #[error(transparent)]
     Results(#[from] results::InvalidResults),
+    /// The designs of the grid cannot be ranked.
+    #[error(transparent)]
+    Ranking(#[from] ranking::InvalidRanking),
+    /// A search cannot be carried out.
+    #[error(transparent)]
+    Search(#[from] optimisation::OptimisationError),
+    /// A search finds no design, or was stopped.
+    #[error("a search between the grid points has no optimum")]
+    NoOptimum,
     /// A temporary folder cannot be made.
     #[error("no temporary folder: {0}")]
     Folder(#[from] std::io::Error),

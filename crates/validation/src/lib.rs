@@ -13,6 +13,7 @@
 //! |---|---|
 //! | [`benchmarks()`], [`Benchmark`] | problems with known answers (their closed forms are in [`analytical`]) |
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`], [`Verdict`] | the statements of the paper, and their verdicts |
+//! | [`BetweenPoints`], [`FittestDesign`], [`FrontOverGrid`] | what a search between the points of the grid finds |
 //! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
@@ -27,6 +28,7 @@
 //! ```
 
 mod benchmarks;
+mod between;
 mod claims;
 mod error;
 mod gap_counts;
@@ -39,6 +41,7 @@ mod study;
 use sweep::Sweep;
 
 pub use benchmarks::{Benchmark, benchmarks};
+pub use between::{BetweenPoints, FittestDesign, FrontOverGrid};
 pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims};
 pub use error::ValidationError;
 pub use gap_counts::GapCount;
@@ -62,6 +65,8 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// Where the model holds, and the claims on a substrate that cannot fold.
     pub soundness: Soundness,
+    /// The best designs between the points of the grid.
+    pub between: BetweenPoints,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
     pub gap_counts: Vec<GapCount>,
     /// The main results for each value of each open choice.
@@ -88,8 +93,8 @@ impl Validation {
     /// If a benchmark has no result or the temporary folder cannot be written.
     pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, two sweeps on two substrates, claims, strips of equal gaps, and a part for each setting.
-        let parts = 3 + 2 * SWEEPS.len() + settings.len();
+        // Benchmarks, two sweeps on two substrates, claims, searches, strips of equal gaps, and a part for each setting.
+        let parts = 4 + 2 * SWEEPS.len() + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
             progress(PartProgress { done, parts, part });
@@ -107,11 +112,13 @@ impl Validation {
         let (linear, neo_hookean) = ([&paper, &as_written], [&other_paper, &other_as_written]);
         let (claims, others) = (claims::check(linear)?, claims::check(neo_hookean)?);
         let soundness = Soundness::of(linear, neo_hookean, [&claims, &others]);
+        begin("between the grid points");
+        let between = BetweenPoints::of(&paper)?;
         begin("strips of equal gaps");
         let gap_counts = GapCount::all()?;
         let (sensitivity, coupling) =
             sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
-        Ok(Self { benchmarks, claims, soundness, gap_counts, sensitivity, coupling })
+        Ok(Self { benchmarks, claims, soundness, between, gap_counts, sensitivity, coupling })
     }
 
     /// Returns whether every benchmark lies within its band.

@@ -35,6 +35,7 @@ impl Validation {
             self.benchmark_section(),
             self.claim_section(),
             self.soundness.section(),
+            self.between.section(),
             GapCount::section(&self.gap_counts),
             self.sensitivity_section(),
             self.coupling_section(),

@@ -19,6 +19,9 @@ A goal is a sweep definition with two sections more: [variables] has parameters 
 gap_over_t = { from = 0.1, to = 1 }, or lists of values; [goal] has maximize or minimize (one column gives
 an optimum, two to four a front) and require, bounds that columns must keep. What is not a variable has one
 value. Designs that fail are left out and counted; so are those whose surface has folded, unless sound = false.
+One of the objectives may be fitness, the paper's (Eq. 7): weights = { coverage = 1, compliance = 2 } has its
+criteria, all four alike if it is left out, and rescale = { coverage = [0, 0.9] } the worst and the best value of
+each, those of the sample if it is left out.
 samples = 1024 designs fill the space first, points = 30 stand on a front, seed = 0 shifts the samples.
 Writes optimum.csv and optimum.toml, which is the definition of the best design, or front.csv; history.csv
 with every design that was looked at; and evaluations.jsonl, from which --resume goes on. Nothing depends on
@@ -43,6 +46,10 @@ pub struct OptimiseArguments {
 
     #[command(flatten)]
     pub threads: Threads,
+
+    /// No bar
+    #[arg(long, short)]
+    pub quiet: bool,
 
     /// Print JSON instead of text
     #[arg(long)]

@@ -17,6 +17,7 @@ use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
+use crate::progress::SearchDisplay;
 use figures::figures;
 use record::record;
 use report::SearchReport;
@@ -30,8 +31,11 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
     make_folder(&folder)?;
     interrupt.ask_first();
     let begun = Instant::now();
-    let options = options(arguments, interrupt);
-    let Some(found) = optimisation::optimise(&goal, &folder, &options, &PROGRAM)? else {
+    let display = SearchDisplay::new(arguments.quiet, interrupt);
+    let options = options(arguments, interrupt, &display);
+    let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
+    drop(display);
+    let Some(found) = found else {
         note(&format!("{}: what is solved so far is kept, --resume goes on", folder.display()));
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
@@ -48,17 +52,22 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
     if arguments.json {
         json::print(&record(&goal, &found))?;
     } else {
-        let text = report.text(begun.elapsed(), options.threads);
+        let text = report.text(begun.elapsed(), arguments.threads.count());
         print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     }
     Ok(exit_code(&found))
 }
 
-fn options<'i>(arguments: &args::OptimiseArguments, interrupt: &'i Interrupt) -> SearchOptions<'i> {
+fn options<'i>(
+    arguments: &args::OptimiseArguments,
+    interrupt: &'i Interrupt,
+    display: &'i SearchDisplay,
+) -> SearchOptions<'i> {
     SearchOptions {
         threads: arguments.threads.count(),
         start: arguments.earlier.start(),
         stop: interrupt.stop(),
+        meter: display.meter(),
     }
 }
 

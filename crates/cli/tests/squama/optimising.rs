@@ -118,9 +118,55 @@ fn bad_goals_are_one_line() {
         ("samples = 64", "samples = 1"),
         ("samples = 64", "sample = 64"),
         ("samples = 64", "sound = 'no'"),
+        ("samples = 64", "weights = { coverage = 1 }"),
+        ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { critical_force = 1 }"),
+        ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { coverage = 0 }"),
+        ("minimize = 'areal_mass_kg_m2'", "maximize = 'fitness'\nweights = { gap_over_t = 1 }"),
+        (
+            "minimize = 'areal_mass_kg_m2'",
+            "maximize = 'fitness'\nweights = { coverage = 1 }\nrescale = { coverage = [1, 0] }",
+        ),
+        (
+            "minimize = 'areal_mass_kg_m2'",
+            "maximize = 'fitness'\nweights = { coverage = 1 }\nrescale = { penetration = [1, 0.5] }",
+        ),
     ];
     let messages = messages.map(|(from, to)| message(from, to));
     insta::assert_snapshot!(messages.concat());
+}
+
+#[test]
+fn the_fitness_tells_its_criteria_and_their_ends() {
+    let goal = GOAL.replace(
+        "minimize = 'areal_mass_kg_m2'\nrequire = 'coverage >= 0.5'",
+        "maximize = 'fitness'\nweights = { coverage = 1, areal_mass_kg_m2 = 3 }",
+    );
+    let place = Place::with(&goal);
+    let text = place.prints("optimise x.toml --threads 1 --quiet");
+    let (_, answer) = text.split_once("\n\n").expect("an answer");
+    insta::assert_snapshot!(answer, @"
+    The best design
+      gap_over_t        1
+      slant_deg         60
+      fitness           0.83133
+      coverage          0.42265
+      areal_mass_kg_m2  0.50000
+
+    It cannot be better because of
+      gap_over_t at its upper end 1  0.01 more gap_over_t would gain 0.00409 of fitness
+      slant_deg at its upper end 60  1 more slant_deg would gain 0.0115 of fitness
+
+    Fitness between the worst and the best: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
+
+    results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
+    ");
+    assert!(place.read("results/light/optimum.csv").contains(",fitness,binding,"));
+    // With its ends written down, the goal says the same without the sample.
+    let ends = "--set goal.rescale={coverage=[0,0.9],areal_mass_kg_m2=[1,0.5]}";
+    let record = place.prints(&format!("optimise x.toml --out ends --json {ends}"));
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    assert_eq!(record["rescaled"]["coverage"], serde_json::json!([0.0, 0.9]));
+    assert!(record["optimum"]["values"]["fitness"].as_f64().is_some_and(|fitness| fitness > 0.5));
 }
 
 #[test]

@@ -1,11 +1,12 @@
 //! The journal of an optimisation: every point that was solved, a sealed line each.
 //!
 //! The search itself is not written down: it does the same again, and finds what it asks for in the journal until it comes to
-//! points that nobody has solved yet.
+//! points that nobody has solved yet. The file is forced to the disk once a second and at the end, as the journal of a run is.
 
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use results::{DesignResult, OutputError, RunFolder, make_folder, sha256};
 use run::{Program, Seal, Start};
@@ -15,6 +16,9 @@ use crate::error::OptimisationError;
 
 /// The name of the journal.
 pub const EVALUATIONS: &str = "evaluations.jsonl";
+
+/// The interval at which it is forced to the disk.
+const SYNC: Duration = Duration::from_secs(1);
 
 /// The format of its lines.
 const FORMAT: u32 = 1;
@@ -48,6 +52,7 @@ pub(super) struct EvaluationJournal {
     file: File,
     seal: Seal,
     length: u64,
+    synced: Instant,
 }
 
 impl EvaluationJournal {
@@ -81,7 +86,8 @@ impl EvaluationJournal {
         lock(&file, folder)?;
         let found = found.unwrap_or_default();
         file.set_len(found.length).map_err(|error| OutputError::file(&path, &error))?;
-        let mut journal = Self { path, file, seal, length: found.length };
+        let synced = Instant::now();
+        let mut journal = Self { path, file, seal, length: found.length, synced };
         if journal.length == 0 {
             journal.write(&Seal::default().seal(&header))?;
         }
@@ -101,7 +107,13 @@ impl EvaluationJournal {
             return Err(OutputError::journal(&self.path, &error));
         }
         self.length += bytes.len() as u64;
-        Ok(())
+        if self.synced.elapsed() > SYNC { self.sync() } else { Ok(()) }
+    }
+
+    /// Forces it to the disk.
+    pub fn sync(&mut self) -> Result<(), OutputError> {
+        self.synced = Instant::now();
+        self.file.sync_data().map_err(|error| OutputError::journal(&self.path, &error))
     }
 }
 

@@ -9,6 +9,7 @@ use sweep::{
 
 use super::DesignGoal;
 use super::section::GoalSection;
+use crate::fitness::{Fitness, FitnessGoal};
 use crate::space::DesignSpace;
 
 pub(super) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
@@ -51,17 +52,23 @@ pub(super) fn read(
         }
     };
     refused.extend(unsearchable(entries, &sweep, &file));
+    let is_named = section.columns().any(|(column, ..)| column == Fitness::COLUMN);
+    let fitness = section.fitness.goal(is_named).unwrap_or_else(|error| {
+        refused.push(error);
+        None
+    });
     if refused.is_empty() {
-        refused.extend(senseless(&section, &sweep));
+        refused.extend(senseless(&section, fitness.as_ref(), &sweep));
     }
     if !refused.is_empty() {
         return Err(several(refused));
     }
-    let GoalSection { objectives, requirements, sound, samples, points, seed } = section;
+    let GoalSection { objectives, requirements, sound, samples, points, seed, .. } = section;
     Ok(DesignGoal {
         space: DesignSpace::new(sweep),
         objectives: objectives.into_iter().map(|objective| objective.criterion).collect(),
         requirements: requirements.into_iter().map(|placed| placed.requirement).collect(),
+        fitness,
         sound,
         samples,
         points,
@@ -133,33 +140,43 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
 
 /// Lines of a goal that can have no meaning: columns that designs do not have, objectives that cannot be compared, requirements that
 /// exclude each other.
-fn senseless<'a>(
-    goal: &'a GoalSection,
-    sweep: &'a Sweep,
-) -> impl Iterator<Item = InvalidDefinition> + 'a {
+fn senseless(
+    goal: &GoalSection,
+    fitness: Option<&FitnessGoal>,
+    sweep: &Sweep,
+) -> Vec<InvalidDefinition> {
     let known: Vec<String> =
         design_columns(sweep).iter().map(|column| column.name.to_string()).collect();
-    let objectives = goal.objectives.iter().map(|objective| {
-        (objective.criterion.column.to_string(), "goal.maximize", &objective.place)
-    });
-    let objectives: Vec<_> = objectives.collect();
-    let required = goal
-        .requirements
-        .iter()
-        .map(|placed| (placed.requirement.column.clone(), "goal.require", &placed.place));
-    let named: Vec<_> = objectives.iter().cloned().chain(required).collect();
+    let named = named(goal, fitness);
     let columns = named
-        .into_iter()
-        .filter_map(move |(column, key, place)| missing_column(&column, key, place, &known, sweep));
-    let incomparable = objectives.into_iter().flat_map(move |(column, key, place)| {
-        let fails = move |v: &&Variable| yardsticks(&column).contains(&v.parameter().key);
-        sweep.variables().iter().filter(fails).map(move |variable| {
+        .iter()
+        .filter_map(|(column, key, place)| missing_column(column, key, place, &known, sweep));
+    let objectives = named.iter().filter(|(_, key, _)| *key != "goal.require");
+    let incomparable = objectives.flat_map(|(column, key, place)| {
+        let fails = |v: &&Variable| yardsticks(column).contains(&v.parameter().key);
+        sweep.variables().iter().filter(fails).map(|variable| {
             let expected = "values that can be compared between designs".to_owned();
             let found = format!("an objective with {} as a variable", variable.parameter().key);
             not_accepted(place, key, &found, expected)
         })
     });
-    columns.chain(incomparable).chain(contradictions(goal)).chain(out_of_reach(goal, sweep))
+    let found = columns.chain(incomparable).chain(contradictions(goal));
+    found.chain(out_of_reach(goal, sweep)).collect()
+}
+
+/// The columns that a goal is about, in place of the fitness those of its criteria.
+fn named<'a>(
+    goal: &'a GoalSection,
+    fitness: Option<&'a FitnessGoal>,
+) -> Vec<(&'a str, &'static str, &'a Place)> {
+    let criteria = |place: &'a Place| {
+        let criteria = fitness.iter().flat_map(|fitness| &fitness.criteria);
+        criteria.map(move |criterion| (criterion.column.as_ref(), "goal.weights", place))
+    };
+    let (of_fitness, others): (Vec<_>, Vec<_>) =
+        goal.columns().partition(|(column, ..)| *column == Fitness::COLUMN);
+    let first = of_fitness.into_iter().take(1);
+    others.into_iter().chain(first.flat_map(|(.., place)| criteria(place))).collect()
 }
 
 fn missing_column(

@@ -5,10 +5,12 @@ use sweep::toml_source::{KeyValue, Place, Value};
 use sweep::{InvalidDefinition, nearest};
 
 use super::MOST_OBJECTIVES;
+use super::fitness_section::FitnessSection;
 use super::reader::{not_accepted, unknown};
 
 /// Keys of the section.
-const KEYS: [&str; 7] = ["maximize", "minimize", "require", "sound", "samples", "points", "seed"];
+const KEYS: [&str; 9] =
+    ["maximize", "minimize", "require", "weights", "rescale", "sound", "samples", "points", "seed"];
 
 /// A requirement, and where it is written.
 pub(super) struct PlacedRequirement {
@@ -26,6 +28,7 @@ pub(super) struct PlacedObjective {
 pub(super) struct GoalSection {
     pub objectives: Vec<PlacedObjective>,
     pub requirements: Vec<PlacedRequirement>,
+    pub fitness: FitnessSection,
     pub sound: bool,
     pub samples: usize,
     pub points: usize,
@@ -37,6 +40,7 @@ impl Default for GoalSection {
         Self {
             objectives: Vec::new(),
             requirements: Vec::new(),
+            fitness: FitnessSection::default(),
             sound: true,
             samples: 1024,
             points: 30,
@@ -52,6 +56,8 @@ impl GoalSection {
             "maximize" => self.objectives(entry, Goal::Maximize)?,
             "minimize" => self.objectives(entry, Goal::Minimize)?,
             "require" => self.requirements(entry)?,
+            "weights" => self.fitness.weights(entry)?,
+            "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
             "samples" => self.samples = count(entry, 2, 10_000_000)?,
             "points" => self.points = count(entry, 2, 1000)?,
@@ -65,6 +71,18 @@ impl GoalSection {
             }
         }
         Ok(())
+    }
+
+    /// The columns of objectives and requirements, with the keys and the places where they are named.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str, &Place)> {
+        let objectives = self.objectives.iter().map(|objective| {
+            (objective.criterion.column.as_ref(), "goal.maximize", &objective.place)
+        });
+        let required = self
+            .requirements
+            .iter()
+            .map(|placed| (placed.requirement.column.as_str(), "goal.require", &placed.place));
+        objectives.chain(required)
     }
 
     fn objectives(&mut self, entry: &KeyValue, goal: Goal) -> Result<(), InvalidDefinition> {

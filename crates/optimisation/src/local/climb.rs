@@ -13,7 +13,8 @@ use super::room::{bending_room, bending_room_slopes};
 use super::{LocalSearch, floor_size};
 use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
-use crate::judge::{Judgement, Slopes, Worth};
+use crate::judge::{Judgement, Worth};
+use crate::slopes::Slopes;
 
 /// Iterations of a climb, at most.
 const ITERATIONS: u64 = 40;

@@ -3,7 +3,7 @@
 use skin::flexure::{contact_curvature, gaps};
 use sweep::{Case, Parameter};
 
-use crate::judge::Slopes;
+use crate::slopes::Slopes;
 
 /// Room of a strip whose gap never closes.
 const AMPLE: f64 = 1.0;

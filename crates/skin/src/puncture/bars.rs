@@ -1,7 +1,7 @@
 //! The strips of surface between the bases as neo-Hookean bars, which take the place of the springs along the row.
 
 use solver::{Residual, Tangent};
-use substrate::{FarField, SubstrateLaw, SurfaceStrip, neo_hookean};
+use substrate::{SubstrateLaw, SurfaceStrip, neo_hookean};
 
 use super::system::Chain;
 
@@ -92,24 +92,18 @@ impl Chain {
         (0..self.layout.scales() - 1).map(energy).sum()
     }
 
-    /// Force of bars beyond an end of the row that is displaced by `displacement`, above that of the springs which stand for them
-    /// there: the largest of bars of these widths, over the stiffness of a scale.
-    pub(super) fn excess_beyond(
-        &self,
-        displacement: [f64; 3],
-        far: &FarField,
-        widths: &[f64],
-    ) -> f64 {
+    /// Force of bars of these `widths` between scales that are displaced by `displacements`, above that of the springs that stand for
+    /// them: the largest, over the stiffness of a scale.
+    pub(super) fn largest_excess(&self, displacements: &[[f64; 3]], widths: &[f64]) -> f64 {
         let Some(spring) = self.bars else { return 0.0 };
-        let excess = |(distance, &width): (usize, &f64)| {
-            let [near, next] =
-                [distance, distance + 1].map(|k| end(far.displacement(displacement, k)));
+        let excess = |(pair, &width): (&[[f64; 3]], &f64)| {
+            let [near, next] = [pair[0], pair[1]].map(end);
             let strip = SurfaceStrip { width, half_base: self.half_base };
             let excess = |ends| Bar::new(&strip, spring, ends).excess.abs();
             // Pressed beyond the one end of the row where it would be stretched beyond the other: the larger of both.
             excess([near, next]).max(excess([next, near])) / self.direct[0]
         };
-        widths.iter().enumerate().map(excess).fold(0.0, f64::max)
+        displacements.windows(2).zip(widths).map(excess).fold(0.0, f64::max)
     }
 }
 

@@ -84,7 +84,7 @@ impl PunctureMeasures {
             first_contact_displacement: record.first_contact().map(|point| point.displacement),
             contacts: Some(end.contacts),
             engaged_scales: Some(engaged(&Contacts::touching(state).collect::<Vec<_>>())),
-            scales: chain.layout.scales(),
+            scales: chain.row_length(),
             initial_stiffness: Some(modulus * record.initial_stiffness()),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),

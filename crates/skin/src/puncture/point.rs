@@ -76,16 +76,20 @@ impl Skin for Chain {
     }
 }
 
-/// Every scale of a row, from the left.
+/// Every scale of a row, from the left: of a row that ends those too that are not solved for.
 pub(super) fn scales(chain: &Chain, state: &SkinState) -> Vec<ScaleState> {
-    let scale = |i| {
-        let [x, y, rotation] = chain.displacement(&state.z, i);
+    let solved_for = 0..chain.layout.scales().cast_signed();
+    let scale = |i: isize| {
+        let [x, y, rotation] = chain.displacement_anywhere(&state.z, i);
+        // Nothing holds the others against the substrate.
+        let is_free = !solved_for.contains(&i);
         ScaleState {
-            scale: chain.layout.number(i),
+            scale: i as i64 + chain.layout.number(0),
             displacement: [x, y],
             rotation_deg: rotation.to_degrees(),
-            reaction: chain.reaction(&state.z, i)[1],
+            reaction: if is_free { 0.0 } else { chain.reaction(&state.z, i)[1] },
         }
     };
-    (0..chain.layout.scales()).map(scale).collect()
+    let [left, right] = chain.surroundings.scales_to_ends().map(usize::cast_signed);
+    (-left..solved_for.end + right).map(scale).collect()
 }

@@ -7,7 +7,7 @@ use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
 use super::system::{Chain, Layout};
-use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, RowLength, Rows};
+use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
@@ -111,10 +111,7 @@ impl PunctureInput {
         let row = design.leaning_row()?;
         let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
-        match parameters.scales {
-            RowLength::Auto => problem.part(layout),
-            RowLength::Scales(_) => problem.chain(layout),
-        }
+        problem.part(layout)
     }
 }
 

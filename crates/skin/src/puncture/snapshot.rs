@@ -5,8 +5,8 @@ use solver::{Path, Settings};
 
 use super::system::{Chain, Layout};
 use super::{
-    Problem, Puncture, PunctureParameters, PuncturePoint, RowLength, RowStiffness, Rows,
-    ScaleState, Status, scales,
+    Problem, Puncture, PunctureParameters, PuncturePoint, RowStiffness, Rows, ScaleState, Status,
+    scales,
 };
 use crate::contacts::{Contact, SkinState};
 use crate::crossing::{Crossing, follow};
@@ -73,11 +73,7 @@ pub fn snapshots(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
     let layout = layout(&puncture);
-    let chain = match parameters.scales {
-        RowLength::Auto => problem.part(layout),
-        RowLength::Scales(_) => problem.chain(layout),
-    };
-    let at = along(chain?, common.solver, at);
+    let at = along(problem.part(layout)?, common.solver, at);
     Ok(Snapshots { puncture, at })
 }
 
@@ -94,7 +90,7 @@ fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
     puncture.status == Status::Complete && at.iter().any(beyond)
 }
 
-/// The row that `puncture` was solved on.
+/// The row of which `puncture` knows the scales.
 fn layout(puncture: &Puncture) -> Layout {
     let left = puncture.scales.iter().filter(|state| state.scale < 0).count();
     Layout { left, right: puncture.scales.len().saturating_sub(left + 1) }

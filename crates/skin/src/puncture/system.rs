@@ -3,9 +3,9 @@
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
-use substrate::{FarField, Neighbour, RowStiffness};
+use substrate::{Neighbour, RowStiffness};
 
-use super::window::{Reach, Surroundings};
+use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, SkinState};
 
@@ -18,7 +18,7 @@ const BLOCK: usize = 3 + PAIR_FORCES;
 /// x y φ · λ λ' λ" λ λ' λ" | … | x y φ · F · λ λ' λ" λ λ' λ" | … | x y φ
 /// scale 0  upper   lower       punctured                           last
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
@@ -108,8 +108,8 @@ pub(crate) struct Chain {
     pub(super) neighbours: Vec<Neighbour>,
     /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
     pub(super) bars: Option<f64>,
-    /// The row beyond the ends, if this one is a part of an endless row; forces as above.
-    surroundings: Option<Surroundings>,
+    /// The row beyond the ends, if this one is a part of a longer row; forces as above.
+    pub(super) surroundings: Surroundings,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
     controls: [Control; 3],
@@ -130,13 +130,7 @@ impl Chain {
     ) -> Self {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
-        let powers = [a, a, a.powi(3)];
-        let scaled = |numbers: [f64; 3]| std::array::from_fn(|k| powers[k] * numbers[k]);
-        let direct: [f64; 3] = scaled(stiffness.direct);
-        let neighbours = stiffness.neighbours.iter().map(|neighbour| Neighbour {
-            direct: scaled(neighbour.direct),
-            cross: a * a * neighbour.cross,
-        });
+        let RowStiffness { direct, neighbours, .. } = stiffness.with_lengths_over(a);
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
         let punctured = layout.scale(layout.left);
@@ -149,48 +143,14 @@ impl Chain {
             plane_modulus: 1.0,
             half_base: a,
             direct,
-            neighbours: neighbours.collect(),
+            neighbours,
             bars: None,
-            surroundings: None,
+            surroundings: Surroundings::default(),
             load_arm: left + load_position * (right - left),
             // The tilt is clockwise: it decreases the rotation.
             blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
             controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
             units: layout.units(direct),
-        }
-    }
-
-    /// This row as a part of an endless one.
-    pub(crate) fn within(self, surroundings: Surroundings) -> Self {
-        let a = self.half_base;
-        Self { surroundings: Some(surroundings.scaled([a, a, a.powi(3)])), ..self }
-    }
-
-    /// How near a state has come to the left and to the right end, if there is more beyond them.
-    pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
-        let reach = |surroundings: &Surroundings| surroundings.reach(self, state);
-        self.surroundings.as_ref().map_or([Reach::Short; 2], reach)
-    }
-
-    /// Stretches of the gaps beyond the ends of a part of an endless row, the limit far away among them; none of a row that ends.
-    pub(super) fn stretches_beyond(&self, z: &[f64]) -> Vec<f64> {
-        let beyond = |surroundings: &Surroundings| surroundings.stretches(self, z);
-        self.surroundings.as_ref().map_or_else(Vec::new, beyond)
-    }
-
-    fn far_field(&self) -> Option<&FarField> {
-        self.surroundings.as_ref()?.far_field()
-    }
-
-    /// The three displacements of a scale, which may lie beyond an end of the row.
-    pub(crate) fn displacement_anywhere(&self, z: &[f64], scale: isize) -> [f64; 3] {
-        let last = self.layout.scales().cast_signed() - 1;
-        let nearest = scale.clamp(0, last);
-        let displacement = self.displacement(z, nearest.cast_unsigned());
-        match (self.far_field(), scale.abs_diff(nearest)) {
-            (_, 0) => displacement,
-            (Some(far), distance) => far.displacement(displacement, distance),
-            (None, _) => [0.0; 3],
         }
     }
 
@@ -235,36 +195,12 @@ impl Chain {
         depths.fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Reaction of the linear substrate on a scale (force and moment), opposed to its displacement: minus
-    /// the `F_x, F_y, M` of Eq. (1), or of (S9). Bars change the force along the row and the moment.
-    pub(crate) fn reaction(&self, z: &[f64], scale: usize) -> [f64; 3] {
-        let own = self.displacement(z, scale);
-        let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
-        for (before, neighbour) in self.neighbours.iter().enumerate() {
-            let [distance, scale] = [before + 1, scale].map(usize::cast_signed);
-            let left = self.displacement_anywhere(z, scale - distance);
-            let right = self.displacement_anywhere(z, scale + distance);
-            for k in 0..3 {
-                reaction[k] -= neighbour.direct[k] * (left[k] + right[k]);
-            }
-            reaction[1] -= neighbour.cross * (left[2] - right[2]);
-            reaction[2] -= neighbour.cross * (right[1] - left[1]);
-        }
-        reaction
-    }
-
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
     pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             for k in 0..3 {
                 entry(at + k, at + k, self.direct[k]);
-            }
-            if let Some(far) = self.far_field() {
-                let ends = [0, self.layout.scales() - 1].iter().filter(|end| **end == i).count();
-                for k in 0..3 {
-                    entry(at + k, at + k, -(ends as f64) * far.relief[k]);
-                }
             }
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
@@ -281,6 +217,9 @@ impl Chain {
                 }
             }
         }
+        for &(row, column, value) in &self.surroundings.relief {
+            entry(row, column, -value);
+        }
     }
 
     /// `F*`.
@@ -288,13 +227,11 @@ impl Chain {
         state.z[self.layout.load()] / self.length
     }
 
-    /// Elastic energy of springs and bars, over `E* t³`.
+    /// Elastic energy of springs and bars, those beyond the ends included, over `E* t³`.
     pub(crate) fn substrate_energy(&self, state: &SkinState) -> f64 {
-        let springs = (0..self.layout.scales()).map(|i| {
-            let (u, f) = (self.displacement(&state.z, i), self.reaction(&state.z, i));
-            -0.5 * (0..3).map(|k| u[k] * f[k]).sum::<f64>()
-        });
-        springs.sum::<f64>() + self.bar_energy(&state.z)
+        let mut twice = 0.0;
+        self.for_springs(|row, column, value| twice += value * state.z[row] * state.z[column]);
+        0.5 * twice + self.bar_energy(&state.z)
     }
 }
 

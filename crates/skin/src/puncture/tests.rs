@@ -11,8 +11,8 @@ use solver::{BandMatrix, Path, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
 use super::stability::Instability;
+use super::surroundings::{Beyond, Reach, Surroundings};
 use super::system::{Chain, Layout};
-use super::window::{Reach, Surroundings};
 use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
@@ -449,8 +449,12 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let nearest: RowStiffness = (&springs).into();
         let layout = Layout { left: 7, right: 9 };
         let rows = Rows::Even(design.row().unwrap());
-        let endless = Surroundings::new(rows, &nearest, layout).unwrap();
-        for chain in [chain(&nearest), chain(&full), chain(&nearest).within(endless)] {
+        let endless = |stiffness: &RowStiffness| {
+            let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
+            let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
+            chain(stiffness).within(Surroundings::new(rows, layout, beyond).unwrap())
+        };
+        for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);
             compare_instability(Path::new(chain, rest, Settings::default()), &mut compared);
         }

@@ -2,8 +2,8 @@
 
 use approx::assert_relative_eq;
 use skin::puncture::{PunctureParameters, RowLength};
-use skin::{Base, Design};
-use substrate::{Calibrations, RowStiffness};
+use skin::{Base, Common, Design};
+use substrate::{Calibrations, Coupling, RowStiffness};
 
 use crate::samples::{
     LAWS, blocks, design, domino, on_row, settled, solve, solve_as, solve_with, springs, with_law,
@@ -54,7 +54,7 @@ fn the_ends_of_automatic_rows_are_free() {
     for design in [blocks(), settled(), domino()] {
         let puncture = solve_with(&known, &design, &automatic());
         let stiffness = RowStiffness::from(&springs(&design, &automatic(), &known));
-        let decay = stiffness.far_field().unwrap().decay;
+        let decay = stiffness.far_field(None).unwrap().displacement(|_| [1.0; 3], 1);
         let [first, second, .., before, last] = &puncture.scales[..] else { panic!("a short row") };
         for (inner, end) in [(before, last), (second, first)] {
             let [x, y] = end.displacement;
@@ -76,6 +76,55 @@ fn a_row_that_is_too_short_matters() {
     let force = |scales| complete(&solve(&domino(), &on_row(scales))).critical_force.unwrap();
     assert!(force(11) < 0.5 * force(201));
     assert_relative_eq!(force(201), force(401), max_relative = 1e-9);
+}
+
+/// Of a row that ends the scales that contact does not reach follow in closed form: nothing but the substrate acts on them.
+#[test]
+fn scales_that_are_not_solved_for_are_where_they_would_be() {
+    for scales in [12, 20, 41, 401] {
+        let parameters = on_row(scales);
+        let puncture = solve(&settled(), &parameters);
+        let known = Calibrations::default();
+        let stiffness = RowStiffness::from(&springs(&settled(), &parameters, &known));
+        let row: Vec<[f64; 3]> = puncture
+            .scales
+            .iter()
+            .map(|s| [s.displacement[0], s.displacement[1], s.rotation_deg.to_radians()])
+            .collect();
+        assert_eq!(row.len(), scales);
+        assert_eq!(complete(&puncture).scales, scales);
+        let at = |i: usize, k: usize| row.get(i).map_or(0.0, |u| u[k]);
+        // Nothing but the substrate acts on the scales before the first contact and behind the last.
+        let touched: Vec<i64> = puncture.events.iter().filter_map(|e| e.left_scale).collect();
+        let (first, last) = (touched.iter().min().unwrap(), touched.iter().max().unwrap() + 1);
+        for (i, state) in puncture.scales.iter().enumerate() {
+            assert!(i == 0 || state.scale == puncture.scales[i - 1].scale + 1);
+            if (*first..=last).contains(&state.scale) {
+                continue;
+            }
+            for k in 0..3 {
+                let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
+                let before = i.checked_sub(1).map_or(0.0, |i| at(i, k));
+                let force = alpha * at(i, k) - beta * (before + at(i + 1, k));
+                assert!(force.abs() < 1e-13, "{scales} {i} {k} {force:e}");
+            }
+        }
+    }
+}
+
+/// The row without ends of far couplings against one that is solved whole.
+#[test]
+fn rows_without_ends_of_far_couplings_measure_what_long_rows_do() {
+    for design in [blocks(), settled(), design(0.1, 1.0, 45.0, Base::L)] {
+        let footprint = design.footprint(0.5).unwrap();
+        let full = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let on = |parameters: &PunctureParameters| {
+            skin::puncture::solve(&design, &full, &Common::default(), parameters).unwrap()
+        };
+        let ours = on(&automatic());
+        let theirs = on(&on_row(2 * ours.measures.scales + 201));
+        assert_same_measures(&complete(&ours), &complete(&theirs), 1e-9);
+    }
 }
 
 #[test]

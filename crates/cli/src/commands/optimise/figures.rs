@@ -8,7 +8,7 @@ use report::{Figure, SearchFigure, SearchedDesign};
 pub fn figures(goal: &DesignGoal, found: &Found) -> Vec<Figure> {
     let mut figures = vec![history(goal, found)];
     if let Answer::Front(front) = &found.answer {
-        figures.push(self::front(goal, found, front));
+        figures.push(self::front(goal, found, &front.designs));
     }
     figures
 }

@@ -22,11 +22,16 @@ pub fn record(goal: &DesignGoal, found: &Found) -> Value {
     let (key, answer) = match &found.answer {
         Answer::Optimum(best) => ("optimum", design(goal, &words, best)),
         Answer::Front(front) => {
-            ("front", front.iter().map(|best| design(goal, &words, best)).collect())
+            ("front", front.designs.iter().map(|best| design(goal, &words, best)).collect())
         }
         Answer::Infeasible(nearest) => ("infeasible", infeasible(goal, &words, found, *nearest)),
     };
     record[key] = answer;
+    if goal.fitness.is_some() {
+        let ends = found.rescaled.iter();
+        let ends = ends.map(|ends| (ends.column.clone(), json!([ends.worst, ends.best])));
+        record["rescaled"] = Value::Object(ends.collect());
+    }
     record
 }
 
@@ -47,11 +52,20 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
             "price": words.price(binding, &best.target),
         })
     };
+    let mut measures: Map<String, Value> = measures.collect();
+    measures.extend(objectives(goal, best));
     json!({
         "variables": variables(goal, &best.candidate),
-        "values": measures.collect::<Map<_, _>>(),
+        "values": measures,
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
     })
+}
+
+/// The value of every objective, the fitness among them.
+fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
+    let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
+    let values = goal.objectives.iter().zip(&worth.objectives);
+    values.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
 }
 
 fn infeasible(

@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Judgement, Words};
+use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Front, Judgement, Words};
 use ranking::{Requirement, Unmet};
-use results::columns::Cell;
+use results::columns::{Cell, design_columns};
 
 use super::super::rank::obstacle;
 use crate::print::{aligned, counted, digits, rounded, time};
@@ -31,8 +31,20 @@ impl SearchReport<'_> {
             Answer::Front(front) => self.front(front),
             Answer::Infeasible(nearest) => self.infeasible(*nearest),
         };
-        let _ = write!(text, "\n{answer}");
+        let _ = write!(text, "\n{answer}{}", self.rescaled());
         text
+    }
+
+    /// The ends between which the criteria of the fitness were rescaled, as a line for the goal.
+    fn rescaled(&self) -> String {
+        let ends = self.found.rescaled.iter();
+        let ends = ends.map(|ends| {
+            format!("{} = [{}, {}]", ends.column, digits(ends.worst), digits(ends.best))
+        });
+        match ends.collect::<Vec<_>>().join(", ") {
+            ends if ends.is_empty() => ends,
+            ends => format!("\nFitness between the worst and the best: rescale = {{ {ends} }}\n"),
+        }
     }
 
     /// How many designs could not be counted on, and why.
@@ -87,12 +99,46 @@ impl SearchReport<'_> {
                 rows.push([column, digits(*value)]);
             }
         }
+        self.add_criteria(best, &mut rows);
         rows
     }
 
-    fn front(&self, front: &[BestDesign]) -> String {
+    /// Adds the criteria of the fitness that are not there yet.
+    fn add_criteria(&self, best: &BestDesign, rows: &mut Vec<[String; 2]>) {
+        let columns = design_columns(self.goal.space.sweep());
+        for criterion in self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria) {
+            let column = columns.iter().find(|column| column.name == criterion.column);
+            let Some(Cell::Number(value)) = column.map(|column| column.cell(&best.row)) else {
+                continue;
+            };
+            if !rows.iter().any(|[known, _]| *known == criterion.column) {
+                rows.push([criterion.column.to_string(), digits(value)]);
+            }
+        }
+    }
+
+    /// How many designs a front has, and why they are fewer than was asked for.
+    fn title(&self, front: &Front) -> String {
+        let (found, asked) = (front.designs.len(), self.goal.points);
+        let mut title = format!("Beaten by no other: {}\n", counted(found as u64, "design"));
+        if found < asked {
+            let reasons = [
+                (front.same, "came to the design of another: the front has a step there"),
+                (front.beaten, "came to a design that another beats"),
+                (front.empty, "came to none"),
+            ];
+            let of = |(count, why): &(usize, &str)| {
+                (*count > 0).then(|| format!("{} {why}", counted(*count as u64, "point")))
+            };
+            let reasons: Vec<String> = reasons.iter().filter_map(of).collect();
+            let _ = writeln!(title, "Fewer than the {asked} asked for: {}", reasons.join("; "));
+        }
+        title
+    }
+
+    fn front(&self, front: &Front) -> String {
         let words = Words::new(self.goal);
-        let title = format!("Beaten by no other: {}\n", counted(front.len() as u64, "design"));
+        let (title, front) = (self.title(front), &front.designs);
         let Some(first) = front.first() else { return title };
         let named =
             |best: &BestDesign| [self.variables(&best.candidate), self.values(best)].concat();

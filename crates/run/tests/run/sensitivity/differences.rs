@@ -7,6 +7,8 @@ use results::DesignResult;
 use run::Evaluator;
 use sweep::{Case, Measure, Parameter};
 
+use super::TOLERANCE;
+
 /// A direction in which parameters change together.
 pub type Direction = [(&'static Parameter, f64)];
 
@@ -37,27 +39,29 @@ impl<'a> Differences<'a> {
         Self { case, solved: RefCell::default() }
     }
 
-    /// How far a derivative along a direction is from the centred difference that is nearest to it, relative to it. `None` if the
+    /// How far a derivative along a direction is from a centred difference, relative to it: the first that is near enough, or else the nearest. `None` if the
     /// measure does not exist nearby, or has a kink nearby.
     pub fn off(&self, measure: &str, along: &Direction, ours: f64) -> Option<f64> {
         let at = |steps: i32| self.value(measure, along, steps);
-        let estimates = STEPS.map(|steps| {
+        let mut estimates = STEPS.into_iter().filter_map(|steps| {
             let difference = |steps: i32| -> Option<f64> {
                 Some((at(steps)? - at(-steps)?) / (2.0 * f64::from(steps) * STEP))
             };
             let (fine, rough) = (difference(steps)?, difference(2 * steps)?);
             Some((fine + (fine - rough) / 3.0, f64::from(steps) * STEP))
         });
-        let estimates: Vec<_> = estimates.into_iter().flatten().collect();
         // A difference is not better than it agrees with that of the next step; where none agrees there is a kink between.
-        let offs = estimates.windows(2).filter_map(|pair| {
-            let [(rough, _), (fine, step)] = [pair[0], pair[1]];
-            let spread = (rough - fine).abs() / ours.abs().max(1e-300);
-            let off = [rough, fine].map(|estimate| self.distance(measure, estimate, ours, step));
+        let (mut rough, _) = estimates.next()?;
+        let mut offs = estimates.filter_map(|(fine, step)| {
+            let pair = [std::mem::replace(&mut rough, fine), fine];
+            let spread = (pair[0] - fine).abs() / ours.abs().max(1e-300);
+            let off = pair.map(|estimate| self.distance(measure, estimate, ours, step));
             let nearest = off.into_iter().flatten().reduce(f64::min)?;
             (spread <= AGREE || nearest == 0.0).then_some((nearest - spread).max(0.0))
         });
-        offs.reduce(f64::min)
+        // Shorter steps are taken only where the longer ones do not do.
+        let first = offs.next()?;
+        if first <= TOLERANCE { Some(first) } else { Some(offs.fold(first, f64::min)) }
     }
 
     /// How far a derivative along a direction is from the difference of the solutions on that side, relative to it.

@@ -1,0 +1,128 @@
+//! The keys of the fitness in `[goal]`: the weights of its criteria, and the ends between which they are rescaled.
+
+use ranking::{CRITERIA, Criterion, Goal, Scale, Weights};
+use sweep::InvalidDefinition;
+use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
+
+use super::reader::not_accepted;
+use crate::fitness::{CriterionEnds, FitnessGoal};
+
+const WEIGHTS: &str = "weights of which none is negative and one is more than 0, of columns of which it is plain what is good, e.g. { coverage = 1, critical_force = 2 }";
+const RESCALE: &str = "the worst and the best value of columns, e.g. { coverage = [0, 0.9] }";
+
+/// The fitness as it is understood so far.
+#[derive(Default)]
+pub(super) struct FitnessSection {
+    weights: Option<(Vec<Criterion>, Weights, Place)>,
+    ends: Vec<(CriterionEnds, Place)>,
+}
+
+impl FitnessSection {
+    /// Understands `weights`.
+    pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let wrong = |value: &Value| {
+            not_accepted(&entry.place, "goal.weights", &value.to_string(), WEIGHTS.to_owned())
+        };
+        let weight = |inner: &KeyValue| match &inner.value {
+            Value::Number(text) if !inner.key.contains(':') => {
+                Some((inner.key.parse::<Criterion>().ok()?, text.parse::<f64>().ok()?))
+            }
+            _ => None,
+        };
+        let read = table(&entry.value).map(|inner| inner.iter().map(weight).collect());
+        let read: Option<Vec<(Criterion, f64)>> = read.flatten();
+        let (criteria, weights): (Vec<_>, Vec<_>) =
+            read.ok_or_else(|| wrong(&entry.value))?.into_iter().unzip();
+        let weights = Weights::new(&weights).map_err(|_| wrong(&entry.value))?;
+        self.weights = Some((criteria, weights, entry.place.clone()));
+        Ok(())
+    }
+
+    /// Understands `rescale`.
+    pub fn rescale(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let number = |value: &Value| match value {
+            Value::Number(text) => text.parse::<f64>().ok().filter(|number| number.is_finite()),
+            _ => None,
+        };
+        let ends = |inner: &KeyValue| match &inner.value {
+            Value::List(items) => match items.as_slice() {
+                [worst, best] => {
+                    let (worst, best) = (number(worst)?, number(best)?);
+                    Some((
+                        CriterionEnds { column: inner.key.clone(), worst, best },
+                        inner.place.clone(),
+                    ))
+                }
+                _ => None,
+            },
+            _ => None,
+        };
+        let read = table(&entry.value).map(|inner| inner.iter().map(ends).collect());
+        let read: Option<Vec<_>> = read.flatten();
+        self.ends = read.ok_or_else(|| {
+            let found = entry.value.to_string();
+            not_accepted(&entry.place, "goal.rescale", &found, RESCALE.to_owned())
+        })?;
+        Ok(())
+    }
+
+    /// The fitness, if the goal names it.
+    pub fn goal(&self, is_named: bool) -> Result<Option<FitnessGoal>, InvalidDefinition> {
+        if !is_named {
+            return self.unused().map_or(Ok(None), Err);
+        }
+        let (criteria, weights) = match &self.weights {
+            Some((criteria, weights, _)) => (criteria.clone(), *weights),
+            None => (CRITERIA.to_vec(), Weights::BALANCED),
+        };
+        for (ends, place) in &self.ends {
+            check(ends, &criteria, place)?;
+        }
+        let ends = self.ends.iter().map(|(ends, _)| ends.clone()).collect();
+        Ok(Some(FitnessGoal { criteria, weights, ends }))
+    }
+
+    /// What to say of keys that do nothing without a fitness.
+    fn unused(&self) -> Option<InvalidDefinition> {
+        let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
+        let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
+        let (key, place) = of_weights.chain(of_ends).next()?;
+        let expected = "it beside maximize = [\"fitness\"]".to_owned();
+        Some(not_accepted(place, key, "a goal without fitness", expected))
+    }
+}
+
+fn table(value: &Value) -> Option<&KeyValues> {
+    match value {
+        Value::Table(inner) if !inner.is_empty() => Some(inner),
+        _ => None,
+    }
+}
+
+/// Refuses ends of what is no criterion, or that stand the wrong way round.
+fn check(
+    ends: &CriterionEnds,
+    criteria: &[Criterion],
+    place: &Place,
+) -> Result<(), InvalidDefinition> {
+    let refused = |found: String, expected: String| {
+        Err(not_accepted(place, "goal.rescale", &found, expected))
+    };
+    let Some(criterion) = criteria.iter().find(|criterion| criterion.column == ends.column) else {
+        let names: Vec<&str> = criteria.iter().map(|c| c.column.as_ref()).collect();
+        return refused(ends.column.clone(), format!("one of {}", names.join(", ")));
+    };
+    let made = |value| Scale::Paper.criterion(criterion.goal, value);
+    let is_right = made(ends.worst).zip(made(ends.best)).is_some_and(|(worst, best)| worst < best);
+    if is_right {
+        return Ok(());
+    }
+    let found = format!("{} = [{}, {}]", ends.column, ends.worst, ends.best);
+    refused(
+        found,
+        match criterion.goal {
+            Goal::Maximize => "the worst value, then a larger one".to_owned(),
+            Goal::Minimize => "the worst value, then a smaller one above 0".to_owned(),
+        },
+    )
+}

@@ -1,0 +1,60 @@
+//! One-sided derivatives of a value.
+
+/// The derivatives of a value on both sides of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slopes {
+    pub left: Option<f64>,
+    pub right: Option<f64>,
+}
+
+impl Slopes {
+    /// The derivatives of a multiple.
+    pub fn scaled(self, factor: f64) -> Self {
+        Self { left: self.left.map(|x| x * factor), right: self.right.map(|x| x * factor) }
+    }
+
+    /// The derivatives of a sum.
+    pub fn plus(self, other: Self) -> Self {
+        let sum = |one: Option<f64>, other: Option<f64>| Some(one? + other?);
+        Self { left: sum(self.left, other.left), right: sum(self.right, other.right) }
+    }
+
+    /// The slope of the side on which the value rises the most, 0 if it falls on both. Of two sides that are the same, or one that is
+    /// missing, the other. `None` if both are.
+    pub fn uphill(self) -> Option<f64> {
+        let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
+        let (gain_left, gain_right) = (-left, right);
+        Some(match (gain_left > 0.0, gain_right > 0.0) {
+            _ if left == right => left,
+            (false, false) => 0.0,
+            _ if gain_left > gain_right => left,
+            _ => right,
+        })
+    }
+
+    /// The one slope; `None` at a kink.
+    pub fn smooth(self) -> Option<f64> {
+        let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
+        let size = left.abs().max(right.abs());
+        ((left - right).abs() <= 1e-6 * size).then_some(left)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn at_a_kink_the_way_up_counts() {
+        let slopes = |left, right| Slopes { left, right };
+        assert_eq!(slopes(Some(2.0), Some(2.0)).uphill(), Some(2.0));
+        assert_eq!(slopes(Some(1.0), Some(-3.0)).uphill(), Some(0.0));
+        assert_eq!(slopes(Some(-1.0), Some(3.0)).uphill(), Some(3.0));
+        assert_eq!(slopes(Some(-4.0), Some(3.0)).uphill(), Some(-4.0));
+        assert_eq!(slopes(Some(-4.0), Some(-3.0)).uphill(), Some(-4.0));
+        assert_eq!(slopes(None, Some(-3.0)).uphill(), Some(-3.0));
+        assert_eq!(slopes(None, None).uphill(), None);
+        assert_eq!(slopes(Some(1.0), Some(1.1)).smooth(), None);
+        assert_eq!(slopes(Some(1.0), Some(1.0)).smooth(), Some(1.0));
+    }
+}

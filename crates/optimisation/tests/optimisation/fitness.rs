@@ -1,0 +1,73 @@
+//! The fitness of the paper as an objective: its optimum and its derivatives.
+
+use optimisation::{Judge, Judgement, SpacePoint};
+use run::{Evaluator, Start};
+use sweep::Measure;
+
+use crate::searches::{found_in, goal, objectives, optimum};
+
+/// Coverage against mass, between given ends.
+const FITNESS: &str = "maximize = 'fitness'\nweights = { coverage = 1, areal_mass_kg_m2 = 3 }\n\
+    rescale = { coverage = [0.1, 0.9], areal_mass_kg_m2 = [1, 0.5] }";
+
+#[test]
+fn the_fittest_design_is_that_of_the_closed_form() {
+    let goal = goal(FITNESS);
+    let folder = tempfile::tempdir().expect("a folder");
+    let found = found_in(folder.path(), &goal, 1, Start::New);
+    let best = optimum(&found);
+    // At 60° λ = (S − d)/S, and m = 1/(1 + d), of which 1/m = 1 + d is rescaled from 1 to 2.
+    let reach = 60_f64.to_radians().tan();
+    let fitness = |d: f64| (((reach - d) / reach - 0.1) / 0.8).powf(0.25) * d.powf(0.75);
+    let fittest = (100..=1000).map(|k| fitness(f64::from(k) * 1e-3)).fold(0.0, f64::max);
+    assert!((objectives(best)[0] / fittest - 1.0).abs() < 1e-6, "{:?}", objectives(best));
+    assert_eq!(found.rescaled, goal.fitness.expect("a fitness").ends);
+}
+
+#[test]
+fn the_sample_gives_the_ends_that_the_goal_does_not() {
+    let (first, _) = FITNESS.rsplit_once('\n').expect("lines");
+    let goal = goal(first);
+    let folder = tempfile::tempdir().expect("a folder");
+    let found = found_in(folder.path(), &goal, 1, Start::New);
+    let ends: Vec<(f64, f64)> = found.rescaled.iter().map(|e| (e.worst, e.best)).collect();
+    // Corners are among the sample: the coverage of 0.1 is larger at 60° than that at any other, the mass lies between its ends.
+    let reach = 60_f64.to_radians().tan();
+    assert!(ends[0].0 > 0.0 && ends[0].1 >= (reach - 0.1) / reach - 0.1, "{ends:?}");
+    assert_eq!(ends[1], (1.0 / 1.1, 0.5));
+    assert!(objectives(optimum(&found))[0] > 0.5);
+}
+
+#[test]
+fn derivatives_of_the_fitness_are_those_of_differences() {
+    let text = "name = 'x'\n[variables]\ngap_over_t = { from = 0.2, to = 0.6 }\nlength_over_t = { from = 0.3, to = 1 }\n\
+        slant_deg = { from = 35, to = 75 }\n[goal]\nmaximize = 'fitness'\n\
+        rescale = { coverage = [0, 0.9], critical_force = [0, 3], penetration = [1, 0.01], compliance = [0, 0.9] }";
+    let goal = optimisation::DesignGoal::parse(text, "x.toml", &[]).expect("a goal");
+    let judge = Judge::new(&goal);
+    let number = goal.space.sweep().grid().number(0);
+    let (all, plain) = (Evaluator::new(&Measure::ALL), Evaluator::new(&Measure::USUAL));
+    let point = SpacePoint { shares: vec![0.31, 0.57, 0.43], chosen: Vec::new() };
+    let fitness = |shares: &[f64]| {
+        let at = SpacePoint { shares: shares.to_vec(), chosen: Vec::new() };
+        let row = plain.solve(number, &goal.space.case(&at)).row;
+        let Judgement::Judged(worth) = judge.verdict(&row) else { panic!("judged") };
+        worth.objectives[0]
+    };
+    let row = all.solve(number, &goal.space.case(&point)).row;
+    for (j, interval) in goal.space.intervals().iter().enumerate() {
+        let step = 1e-4;
+        let moved = |by: f64| {
+            let mut shares = point.shares.clone();
+            shares[j] += by;
+            fitness(&shares)
+        };
+        let difference = (moved(step) - moved(-step)) / (2.0 * step * interval.length());
+        let slope = judge.objective_slope(0, &row, interval.parameter).expect("smooth");
+        let key = interval.parameter.key;
+        assert!(
+            (slope - difference).abs() < 1e-4 * difference.abs(),
+            "{key}: {slope} {difference}"
+        );
+    }
+}

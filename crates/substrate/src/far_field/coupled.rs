@@ -1,0 +1,122 @@
+//! The far field where scales feel several neighbours.
+
+use faer::Mat;
+
+use super::Relief;
+use crate::dense_lu::DenseLu;
+use crate::{Neighbour, RowStiffness};
+
+/// Blocks after which a row counts as one in which nothing decays.
+const BLOCKS: usize = 400;
+
+/// Change of the relief by one more block, as a part of the stiffness, below which the row is as good as endless.
+const SETTLED: f64 = 1e-15;
+
+/// An endless row of free scales that feel `m` neighbours on each side, in blocks of `m`.
+///
+/// Each block feels itself, by `D`, and its neighbours, by `U` the next one. A block at whose end `n` more stand is held by `D − R_n`,
+///
+/// ```text
+/// R_0 = 0,   R_{n+1} = U (D − R_n)⁻¹ Uᵀ  →  R,      X_{j+1} = −(D − R)⁻¹ Uᵀ X_j         (S17)
+/// ```
+///
+/// with the displacements `X_j` of block `j`.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct CoupledRow {
+    /// Number `m` of scales in a block.
+    scales: usize,
+    /// `−(D − R)⁻¹ Uᵀ`, with scales in the order from left to right.
+    transfer: Mat<f64>,
+}
+
+impl CoupledRow {
+    /// The row, and what it takes from the stiffness of the block before it. `None` where nothing decays.
+    pub(super) fn endless(stiffness: &RowStiffness) -> Option<(Self, Vec<Relief>)> {
+        let scales = stiffness.neighbours.len();
+        let own = block(stiffness, 0);
+        let next = block(stiffness, scales);
+        let least = SETTLED * stiffness.direct.iter().copied().fold(0.0, f64::max);
+        let mut relief = Mat::zeros(3 * scales, 3 * scales);
+        for _ in 0..BLOCKS {
+            let follows = DenseLu::new(&own - &relief).solve(next.transpose().to_owned());
+            let before = std::mem::replace(&mut relief, &next * &follows);
+            let change = (&relief - &before).norm_max();
+            if change <= least {
+                let entries = entries(&relief, scales);
+                return Some((Self { scales, transfer: -follows }, entries));
+            }
+            if !change.is_finite() {
+                break;
+            }
+        }
+        None
+    }
+
+    /// Displacements of the first `count` scales beyond, by those of the scales at the end, counted from there.
+    pub(super) fn displacements(
+        &self,
+        end: impl Fn(usize) -> [f64; 3],
+        count: usize,
+    ) -> Vec<[f64; 3]> {
+        let mut block: Vec<f64> = (0..self.scales).rev().flat_map(end).collect();
+        let mut found = Vec::with_capacity(count + self.scales);
+        while found.len() < count {
+            block = self.next(&block);
+            found.extend_from_slice(block.as_chunks().0);
+        }
+        found.truncate(count);
+        found
+    }
+
+    /// Displacements of the block after one.
+    fn next(&self, block: &[f64]) -> Vec<f64> {
+        let mut next = vec![0.0; block.len()];
+        for (column, u) in self.transfer.col_iter().zip(block) {
+            for (next, factor) in next.iter_mut().zip(column.iter()) {
+                *next += factor * u;
+            }
+        }
+        next
+    }
+}
+
+/// The stiffness of a block for displacements of the block that begins so many scales farther to the right: `D` for 0.
+fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
+    let size = 3 * stiffness.neighbours.len();
+    Mat::from_fn(size, size, |row, column| {
+        let (force, displaced) = (row / 3, column / 3 + farther);
+        let (k, l) = (row % 3, column % 3);
+        // Seen from the right, force and displacement change places.
+        let (k, l) = if force <= displaced { (k, l) } else { (l, k) };
+        match force.abs_diff(displaced) {
+            0 if k == l => stiffness.direct[k],
+            0 => 0.0,
+            distance => stiffness.neighbours.get(distance - 1).map_or(0.0, |n| n.on_left(k, l)),
+        }
+    })
+}
+
+impl Neighbour {
+    /// Force `k` on the left scale for a unit displacement `l` of the right one (S9).
+    fn on_left(&self, k: usize, l: usize) -> f64 {
+        match (k, l) {
+            (1, 2) => -self.cross,
+            (2, 1) => self.cross,
+            _ if k == l => self.direct[k],
+            _ => 0.0,
+        }
+    }
+}
+
+/// The entries of a relief that are not zero, by the scales from the end. Those that mirror each other are made equal.
+fn entries(relief: &Mat<f64>, scales: usize) -> Vec<Relief> {
+    let place = |i: usize| [scales - 1 - i / 3, i % 3];
+    let size = 3 * scales;
+    let all = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+    let entry = |(i, j)| Relief {
+        force: place(i),
+        displacement: place(j),
+        value: f64::midpoint(relief[(i, j)], relief[(j, i)]),
+    };
+    all.map(entry).filter(|entry| entry.value != 0.0).collect()
+}

@@ -1,0 +1,154 @@
+//! The far field against rows that are solved whole.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use substrate::{Coupling, FarField, Footprint, Neighbour, RowStiffness, Springs};
+
+fn springs(alpha: f64, ratio: f64) -> RowStiffness {
+    let direct = [alpha, 2.0 * alpha, 0.5 * alpha];
+    let coupling = [0.5 * ratio, 0.4 * ratio, -0.45 * ratio];
+    let coupling = std::array::from_fn(|k| direct[k] * coupling[k]);
+    RowStiffness::from(&Springs { direct, coupling, error: 0.0 })
+}
+
+/// Displacements of the free scales of a row whose first scale is displaced by 1, and the force on that scale: by Thomas's
+/// algorithm, from the far end, in the direction `k`.
+fn finite_row(stiffness: &RowStiffness, k: usize, scales: usize) -> (Vec<f64>, f64) {
+    let (alpha, beta) = (stiffness.direct[k], -stiffness.neighbours[0].direct[k]);
+    let mut ratios = Vec::new();
+    let mut own = alpha;
+    for _ in 1..scales {
+        ratios.push(beta / own);
+        own = alpha - beta * beta / own;
+    }
+    let mut displacements = vec![1.0];
+    for ratio in ratios.iter().rev() {
+        displacements.push(ratio * displacements[displacements.len() - 1]);
+    }
+    (displacements, own)
+}
+
+/// What the far field leaves of the stiffness of a scale in one direction.
+fn held(stiffness: &RowStiffness, far: &FarField, k: usize) -> f64 {
+    let own = [0, k];
+    let relief = far.relief.iter().find(|r| r.force == own && r.displacement == own);
+    stiffness.direct[k] - relief.unwrap().value
+}
+
+#[test]
+fn a_long_row_behaves_like_an_endless_one() {
+    for ratio in [-0.98, -0.3, 0.0, 0.2, 0.7, 0.98] {
+        let stiffness = springs(3.0, ratio);
+        let far = stiffness.far_field(None).unwrap();
+        for k in 0..3 {
+            let (displacements, force) = finite_row(&stiffness, k, 400);
+            assert!((held(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
+            for (distance, displacement) in displacements.iter().enumerate().take(20).skip(1) {
+                let found = far.displacement(|_| [1.0; 3], distance)[k];
+                assert!(
+                    (found - displacement).abs() <= 1e-12 * displacement.abs(),
+                    "{k} {distance}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_row_that_ends_is_as_soft_as_its_scales_together() {
+    for ratio in [-0.98, 0.0, 0.2, 0.98] {
+        let stiffness = springs(3.0, ratio);
+        for beyond in [1, 2, 3, 10, 60] {
+            let far = stiffness.far_field(Some(beyond)).unwrap();
+            for k in 0..3 {
+                let (displacements, force) = finite_row(&stiffness, k, beyond + 1);
+                assert!((held(&stiffness, &far, k) / force - 1.0).abs() < 1e-13);
+                let found = far.displacements(|_| [1.0; 3], beyond);
+                for (found, displacement) in found.iter().zip(&displacements[1..]) {
+                    let off = found[k] - displacement;
+                    assert!(off.abs() <= 1e-12 * displacement.abs(), "{k} {beyond}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn rows_of_bases_on_a_half_space_decay() {
+    for [gap, width] in [[0.2, 2.0], [0.0125, 0.25], [40.0, 80.0], [0.2, 20.0]] {
+        let footprint = Footprint::new(gap, width, 0.5).unwrap();
+        let stiffness = RowStiffness::of(&footprint, Coupling::Nearest).unwrap();
+        let far = stiffness.far_field(None).unwrap();
+        let [x, y, rotation] = far.displacement(|_| [1.0; 3], 1);
+        // Shear and depth have one sign, rotations alternate.
+        assert!(0.0 < x && x < 1.0 && 0.0 < y && y < 1.0, "{x} {y}");
+        assert!(-1.0 < rotation && rotation < 0.0, "{rotation}");
+        for k in 0..3 {
+            let part = held(&stiffness, &far, k) / stiffness.direct[k];
+            assert!(0.5 < part && part < 1.0, "{k} {part}");
+        }
+    }
+}
+
+/// The stiffness of a row of so many scales, the couplings of (S9) written out.
+fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
+    let mut matrix = Mat::zeros(3 * scales, 3 * scales);
+    for i in 0..scales {
+        for k in 0..3 {
+            matrix[(3 * i + k, 3 * i + k)] = stiffness.direct[k];
+        }
+        for (j, neighbour) in (i + 1..scales).zip(&stiffness.neighbours) {
+            let mut couple = |force: usize, displaced: usize, value: f64| {
+                matrix[(force, displaced)] = value;
+                matrix[(displaced, force)] = value;
+            };
+            for k in 0..3 {
+                couple(3 * i + k, 3 * j + k, neighbour.direct[k]);
+            }
+            couple(3 * j + 1, 3 * i + 2, neighbour.cross);
+            couple(3 * i + 1, 3 * j + 2, -neighbour.cross);
+        }
+    }
+    matrix
+}
+
+/// Of an endless row with `m` couplings the last `m` scales take the place of the last one: against the static condensation of 400
+/// scales.
+#[test]
+fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
+    for ([gap, width], neighbours) in [([0.2, 2.0], 8), ([0.0125, 0.25], 3), ([8.0, 80.0], 1)] {
+        let footprint = Footprint::new(gap, width, 0.5).unwrap();
+        let stiffness = RowStiffness::solve(&footprint, neighbours).unwrap();
+        let far = stiffness.far_field(None).unwrap();
+        assert_eq!(stiffness.far_field(Some(5)), None);
+        let (last, all) = (3 * neighbours, 3 * (neighbours + 400));
+        let matrix = dense(&stiffness, neighbours + 400);
+        let inner = matrix.submatrix(last, last, all - last, all - last);
+        let follows = inner.partial_piv_lu().solve(matrix.submatrix(last, 0, all - last, last));
+        let relief = matrix.submatrix(0, last, last, all - last) * &follows;
+        let place = |[scale, direction]: [usize; 2]| 3 * (neighbours - 1 - scale) + direction;
+        let mut condensed = Mat::<f64>::zeros(last, last);
+        for entry in &far.relief {
+            condensed[(place(entry.force), place(entry.displacement))] = entry.value;
+        }
+        assert!((&relief - &condensed).norm_max() < 1e-13 * stiffness.direct[0]);
+        let end = |k: usize| [0.3 + k as f64, (k as f64).cos(), (3.0 * k as f64).sin()];
+        let held = Mat::from_fn(last, 1, |i, _| end(neighbours - 1 - i / 3)[i % 3]);
+        let moved = &follows * held;
+        for (scale, found) in far.displacements(end, 20).iter().enumerate() {
+            for (k, found) in found.iter().enumerate() {
+                assert!((found + moved[(3 * scale + k, 0)]).abs() < 1e-12, "{scale} {k}");
+            }
+            assert_eq!(*found, far.displacement(end, scale + 1));
+        }
+    }
+}
+
+#[test]
+fn nothing_decays_where_a_scale_is_held_by_its_neighbours_alone() {
+    let mut loose = springs(1.0, 0.5);
+    loose.neighbours = vec![Neighbour { direct: [-0.5, -0.1, 0.1], cross: 0.0 }];
+    assert_eq!(loose.far_field(None).or(loose.far_field(Some(3))), None);
+    loose.neighbours.push(Neighbour { direct: [-0.1, 0.0, 0.0], cross: 0.0 });
+    assert_eq!(loose.far_field(None), None);
+}

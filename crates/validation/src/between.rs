@@ -1,0 +1,230 @@
+//! What a search between the points of the grid finds that the 720 designs do not have.
+
+use std::fmt::Write as _;
+use std::sync::atomic::AtomicBool;
+use std::thread::available_parallelism;
+
+use optimisation::{Answer, BestDesign, DesignGoal, Found, Judgement, SearchMeter, SearchOptions};
+use ranking::{CRITERIA, RankedDesign, Ranking, TetrahedralGrid, Weights};
+use run::{Program, Start};
+use sweep::number;
+
+use crate::ValidationError;
+use crate::claims::{digits, named};
+use crate::study::{MeasuredDesign, Study};
+
+/// The box of the grid, and what the searches in it share. No design whose surface has folded counts.
+const BOX: &str = "name = \"between\"\nmeasures = [\"coverage\", \"puncture\", \"flexure\"]\n\
+    [variables]\ngap_over_t = { from = 0.1, to = 1 }\nlength_over_t = { from = 0.025, to = 1 }\nslant_deg = { from = 0, to = 75 }\n\
+    [goal]\nsamples = 256\n";
+
+/// The front that is compared with the grid, and the requirement of its goal.
+const FRONT: &str = "maximize = [\"critical_force\", \"coverage\"]\nrequire = [\"compliance >= 0.2\"]\npoints = 4\n";
+const LEAST_COMPLIANCE: f64 = 0.2;
+
+/// The best designs on the grid and between its points.
+#[derive(Clone, Debug)]
+pub struct BetweenPoints {
+    /// The best design for each of some weights.
+    pub fittest: Vec<FittestDesign>,
+    /// The front of critical force and coverage.
+    pub front: FrontOverGrid,
+}
+
+/// The fittest design by some weights, on the grid and between its points.
+#[derive(Clone, Debug)]
+pub struct FittestDesign {
+    /// The weights in words.
+    pub weights: String,
+    /// The design on the grid.
+    pub on_grid: String,
+    /// Its fitness.
+    pub grid_fitness: f64,
+    /// The design that the search finds.
+    pub found: String,
+    /// Its fitness, in which the best of the grid is 1 in every criterion.
+    pub found_fitness: f64,
+    /// The number of designs that the search solved.
+    pub solved: usize,
+}
+
+/// A front over the designs of the grid.
+#[derive(Clone, Debug)]
+pub struct FrontOverGrid {
+    /// The number of its designs.
+    pub designs: usize,
+    /// Designs of the grid that do not fold and bend well enough.
+    pub grid: usize,
+    /// Those among them that no design of the grid beats.
+    pub grid_front: usize,
+    /// Designs of the grid that no design of the front equals or beats in both.
+    pub undominated: usize,
+    /// The number of designs that the search solved.
+    pub solved: usize,
+}
+
+impl BetweenPoints {
+    /// Searches in the box of the grid of `study`.
+    ///
+    /// # Errors
+    /// If the grid cannot be ranked or the temporary folder cannot be written.
+    pub(crate) fn of(study: &Study) -> Result<Self, ValidationError> {
+        let rows = sound_rows(study);
+        let sound = study.results.only(&rows);
+        let ranking = Ranking::new(&sound, TetrahedralGrid::default())?;
+        let ends = ends(&ranking);
+        let alone = Weights::alone().zip(CRITERIA.iter().map(|criterion| criterion.name.as_ref()));
+        let weights = alone.chain([(Weights::BALANCED, "all four alike")]);
+        let fittest = weights.map(|weights| {
+            let winner = ranking.winner(weights.0);
+            let on_grid = named(&study.designs[rows[winner.row()]]);
+            fittest(weights, &ends, (winner.fitness, on_grid))
+        });
+        Ok(Self { fittest: fittest.collect::<Result<_, _>>()?, front: FrontOverGrid::of(study)? })
+    }
+
+    /// Returns the section of the page in Markdown.
+    pub(crate) fn section(&self) -> String {
+        let mut text = String::from(
+            "## Between the grid points\n\n\
+             The fittest design (Eq. 7) of the 720 whose surface does not fold and that cover, and what `squama optimise` finds in the same box of gap, aspect ratio \
+             and slant. Criteria are rescaled between the worst and the best of those designs, so more than 1 is better than any of them. Designs are `(d/t, L/t, slant)`.\n\n\
+             | Weights | Best of the grid | Fitness | Found between its points | Fitness | Gain | Designs solved |\n|---|---|--:|---|--:|--:|--:|\n",
+        );
+        for row in &self.fittest {
+            let _ = writeln!(text, "{}", row.row());
+        }
+        let FrontOverGrid { designs, grid, grid_front, undominated, solved } = self.front;
+        let _ = writeln!(
+            text,
+            "\nThe front of critical force and coverage with a compliance of at least {LEAST_COMPLIANCE} has {designs} designs, for which {solved} were solved. Of the {grid} designs of the grid that \
+             do not fold and bend so well, of which {grid_front} are beaten by no other of them, it equals or beats all but {undominated}."
+        );
+        text
+    }
+}
+
+impl FittestDesign {
+    /// How much fitter the design is that the search finds, relative to that of the grid.
+    pub fn gain(&self) -> f64 {
+        self.found_fitness / self.grid_fitness - 1.0
+    }
+
+    /// Returns the row of the table in Markdown.
+    fn row(&self) -> String {
+        format!(
+            "| {} | {} | {} | {} | {} | {:+.1} % | {} |",
+            self.weights,
+            self.on_grid,
+            digits(self.grid_fitness),
+            self.found,
+            digits(self.found_fitness),
+            100.0 * self.gain() + 0.0,
+            self.solved
+        )
+    }
+}
+
+impl FrontOverGrid {
+    fn of(study: &Study) -> Result<Self, ValidationError> {
+        let found = search(&format!("{BOX}{FRONT}"))?;
+        let Answer::Front(front) = &found.answer else { return Err(ValidationError::NoOptimum) };
+        let front: Vec<[f64; 2]> = front.designs.iter().filter_map(pair_of).collect();
+        let counts = |d: &&MeasuredDesign| d.compliance.is_some_and(|c| c >= LEAST_COMPLIANCE);
+        let pair = |d: &MeasuredDesign| Some([d.critical_force?, d.coverage?]);
+        let sound = study.designs.iter().filter(|design| is_sound(design));
+        let grid: Vec<[f64; 2]> = sound.filter(counts).filter_map(pair).collect();
+        let beaten = |a: &&[f64; 2]| grid.iter().any(|b| b != *a && at_least(b, a));
+        let reached = |a: &&[f64; 2]| front.iter().any(|b| at_least(b, a));
+        Ok(Self {
+            designs: front.len(),
+            grid: grid.len(),
+            grid_front: grid.iter().filter(|a| !beaten(a)).count(),
+            undominated: grid.iter().filter(|a| !reached(a)).count(),
+            solved: found.evaluations,
+        })
+    }
+}
+
+/// The first two objectives of a design.
+fn pair_of(best: &BestDesign) -> Option<[f64; 2]> {
+    match &best.candidate.verdict {
+        Judgement::Judged(worth) => Some([worth.objectives[0], worth.objectives[1]]),
+        _ => None,
+    }
+}
+
+/// Whether one is at least as good as the other in both, but for round-off.
+fn at_least(one: &[f64; 2], other: &[f64; 2]) -> bool {
+    one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
+}
+
+fn is_sound(design: &MeasuredDesign) -> bool {
+    design.fold_force.is_none() && design.gap_stretch_min.is_none_or(|least| least >= 0.0)
+}
+
+fn sound_rows(study: &Study) -> Vec<usize> {
+    (0..study.designs.len()).filter(|&row| is_sound(&study.designs[row])).collect()
+}
+
+/// The worst and the best value of every criterion over the designs of a ranking, as a goal has them.
+fn ends(ranking: &Ranking<'_>) -> String {
+    let designs = ranking.by_fitness(Weights::BALANCED);
+    let ends = CRITERIA.iter().enumerate().map(|(c, criterion)| {
+        let better = |a: &&RankedDesign<'_>, b: &&RankedDesign<'_>| {
+            a.criteria()[c].total_cmp(&b.criteria()[c])
+        };
+        let value = |design: Option<&RankedDesign<'_>>| {
+            number::text(design.map_or(f64::NAN, |design| design.values()[c]))
+        };
+        let (worst, best) = (designs.iter().min_by(better), designs.iter().max_by(better));
+        format!("{} = [{}, {}]", criterion.column, value(worst), value(best))
+    });
+    format!("{{ {} }}", ends.collect::<Vec<_>>().join(", "))
+}
+
+/// The fittest design by `weights` between the points of the grid, on which the fittest has that fitness and name.
+fn fittest(
+    weights: (Weights, &str),
+    ends: &str,
+    (grid_fitness, on_grid): (f64, String),
+) -> Result<FittestDesign, ValidationError> {
+    let (weights, name) = weights;
+    let weighted = CRITERIA.iter().zip(weights.values());
+    let weighted: Vec<_> =
+        weighted.map(|(c, weight)| format!("{} = {}", c.column, number::text(*weight))).collect();
+    let found = search(&format!(
+        "{BOX}maximize = \"fitness\"\nrequire = \"coverage > 0\"\nweights = {{ {} }}\nrescale = {ends}\n",
+        weighted.join(", ")
+    ))?;
+    let Answer::Optimum(best) = &found.answer else { return Err(ValidationError::NoOptimum) };
+    let Judgement::Judged(worth) = &best.candidate.verdict else {
+        return Err(ValidationError::NoOptimum);
+    };
+    let design = best.row.case.design;
+    let [gap, length, slant] = [design.gap, design.length, design.slant_deg].map(three_digits);
+    Ok(FittestDesign {
+        weights: name.to_owned(),
+        on_grid,
+        grid_fitness,
+        found: format!("({gap}, {length}, {slant}°)"),
+        found_fitness: worth.objectives[0],
+        solved: found.evaluations,
+    })
+}
+
+/// A number to three digits, without zeros at its end.
+fn three_digits(number: f64) -> String {
+    format!("{number:.2e}").parse().map_or_else(|_| number.to_string(), number::text)
+}
+
+fn search(goal: &str) -> Result<Found, ValidationError> {
+    let goal = DesignGoal::parse(goal, "between", &[])?;
+    let (folder, stop) = (tempfile::tempdir()?, AtomicBool::new(false));
+    let threads = available_parallelism().map_or(1, usize::from);
+    let meter = SearchMeter::default();
+    let options = SearchOptions { threads, start: Start::New, stop: &stop, meter: &meter };
+    let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
+    let found = optimisation::optimise(&goal, folder.path(), &options, &program)?;
+    found.ok_or(ValidationError::NoOptimum)
+}
