@@ -1,6 +1,6 @@
 //! The columns that a goal names: those of `designs.csv`, and the fitness.
 
-use results::{Cell, Column, DesignRow, SlopeSide};
+use results::{Column, DesignRow, SlopeSide};
 use sweep::Parameter;
 
 use crate::fitness::Fitness;
@@ -43,18 +43,14 @@ impl NumberColumn {
 
 /// The number of a row in a column.
 pub(crate) fn number(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
-    match column.cell(row) {
-        Cell::Number(number) => Some(number).filter(|number| number.is_finite()),
-        Cell::Count(count) => Some(count as f64),
-        Cell::Empty | Cell::Text(_) => None,
-    }
+    column.cell(row).number()
 }
 
 /// The derivatives of a column with respect to a parameter, from rows that are extrapolated by those of the measures.
 pub(crate) fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let on = |side| {
         let step = STEP * parameter.size(&row.case)?;
-        let at = |by| number(column, &row.extrapolated(parameter, by, side)?);
+        let at = |by| number(column, &row.extrapolated_by(parameter, by, side)?);
         Some((at(step)? - at(-step)?) / (2.0 * step))
     };
     Slopes { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }

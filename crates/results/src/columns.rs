@@ -31,7 +31,7 @@ pub use path::{
     BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
     PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
-pub use physical::physical_source;
+pub use physical::{AREAL_MASS, physical_source};
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
 
@@ -52,10 +52,14 @@ pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
     value.or_else(|| explain_tilt_value(name)).or_else(|| explain_physical(name))
 }
 
+/// The value that the column `name` is about: of one in physical units the dimensionless value, of any other itself.
+pub fn measure_name(name: &str) -> &str {
+    physical_source(name).map_or(name, |(source, _)| source)
+}
+
 /// The measure that the column `name` belongs to; `None` if it is one of parameters, or of how designs were solved.
 pub fn measure_of(name: &str) -> Option<Measure> {
-    let source = physical_source(name).map_or(name, |(source, _)| source);
-    let tables = measured_value(source)?.tables;
+    let tables = measured_value(measure_name(name))?.tables;
     let of = |(table, measure): &(&str, Measure)| tables.contains(table).then_some(*measure);
     MEASURE_TABLES.iter().find_map(of)
 }

@@ -1,7 +1,7 @@
 //! How far the measures of a design move with its gap, found by solving it again.
 
 use results::columns::design_columns;
-use results::{Cell, Column, DesignRow};
+use results::{Column, DesignRow};
 use skin::Imperfection;
 use substrate::Coupling;
 use sweep::{Case, Measure, Sweep};
@@ -61,12 +61,7 @@ impl GapChange {
 }
 
 fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<MeasureChange> {
-    let [value, smaller, larger] = solved.each_ref().map(|row| match column.cell(row) {
-        Cell::Number(number) => Some(number),
-        // A count in a table, far below 2^53.
-        Cell::Count(count) => Some(count as f64),
-        Cell::Empty | Cell::Text(_) => None,
-    });
+    let [value, smaller, larger] = solved.each_ref().map(|row| column.cell(row).number());
     Some(MeasureChange {
         column: column.name.to_string(),
         value: value?,

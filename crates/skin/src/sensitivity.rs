@@ -41,6 +41,13 @@ pub struct Derivative {
     pub kink: Option<String>,
 }
 
+/// The derivatives of a measure on both sides of a parameter; `right` is the other but at a kink.
+struct SidedDerivative {
+    left: Option<f64>,
+    right: Option<f64>,
+    kink: Option<String>,
+}
+
 /// A quantity of an equilibrium, which may be the largest of one for each scale.
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
@@ -81,10 +88,12 @@ pub(crate) fn derivatives<S: Skin>(
         let mut linearised = Linearised { system, settings, here, turns };
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
-            let of = |(parameter, sides): (usize, &BothSides<S>)| {
-                linearised.derivative(quantity, parameter, &variations[parameter], sides)
+            let value = quantity.value_at(system, linearised.here.place());
+            let of = |(parameter, (sides, variation))| {
+                let SidedDerivative { left, right, kink } = quantity.derivative(variation, sides);
+                Derivative { measure: quantity.measure, parameter, value, left, right, kink }
             };
-            derivatives.extend(sides.iter().enumerate().map(of));
+            derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
         }
     }
     derivatives
@@ -183,22 +192,28 @@ impl<S: Skin> Linearised<'_, S> {
         let scale = scale.map_or(String::new(), |scale| format!(" right of scale {scale}"));
         format!("{edge}{scale} {}", ContactChange::of(after, change).name())
     }
+}
 
+impl<S: Skin> MeasuredQuantity<S> {
+    /// The value at a place.
+    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
+        let scale = self.largest.map_or(0, |f| f(system, &place.state));
+        (self.value)(system, &place.state, &place.direction, scale)
+    }
+
+    /// The derivatives on both sides of a parameter.
     fn derivative(
         &self,
-        quantity: &MeasuredQuantity<S>,
-        parameter: usize,
         variation: &Variation<S>,
         (left, right): &BothSides<S>,
-    ) -> Derivative {
-        let place = self.here.place();
-        let largest = |state: &SkinState| quantity.largest.map_or(0, |f| f(self.system, state));
-        let scale = largest(&place.state);
-        let value = (quantity.value)(self.system, &place.state, &place.direction, scale);
+    ) -> SidedDerivative {
         let beyond = variation.right.as_ref();
         let of_right = beyond.map_or(&variation.neighbours, |(neighbours, _)| neighbours);
-        let left_rate = quantity.rate(&variation.neighbours, left, 0);
-        let right_rate = quantity.rate(of_right, right.as_ref().unwrap_or(left), 1);
+        let left_rate = self.rate(&variation.neighbours, left, 0);
+        let right_rate = match right {
+            None if self.largest.is_none() => left_rate,
+            right => self.rate(of_right, right.as_ref().unwrap_or(left), 1),
+        };
         let named = right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
         let kink = || match (named, beyond) {
             (Some(change), _) => change.clone(),
@@ -206,7 +221,7 @@ impl<S: Skin> Linearised<'_, S> {
             (None, None) => "another scale takes over".to_owned(),
         };
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
-        let jumps = quantity.turns && named.is_some();
+        let jumps = self.turns && named.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
         let [left, right] = [left_rate, right_rate].map(known);
         let smooth = left.zip(right).is_some_and(|(left, right)| {
@@ -214,11 +229,9 @@ impl<S: Skin> Linearised<'_, S> {
         });
         let kink = (!smooth).then(kink);
         let right = if smooth { left } else { right };
-        Derivative { measure: quantity.measure, parameter, value, left, right, kink }
+        SidedDerivative { left, right, kink }
     }
-}
 
-impl<S: Skin> MeasuredQuantity<S> {
     /// The derivative on one side. The scale is the one that is the largest there.
     fn rate(
         &self,

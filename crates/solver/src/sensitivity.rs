@@ -68,6 +68,8 @@ pub struct Linearisation<M> {
     newton: Newton,
     /// The section of the path that the place stays in.
     section: Vec<(usize, f64)>,
+    /// The inactive constraints that a small motion may violate.
+    near: Vec<usize>,
 }
 
 impl<M: Clone> Linearisation<M> {
@@ -83,7 +85,8 @@ impl<M: Clone> Linearisation<M> {
         let condition = Condition { row: section.clone(), value: 0.0 };
         let mut newton = Newton::new(system);
         let direction = newton.tangent(system, &place.state, &condition)?;
-        Ok(Self { place: AnchoredPoint { direction, ..place }, newton, section })
+        let near = near(system, &place);
+        Ok(Self { place: AnchoredPoint { direction, ..place }, newton, section, near })
     }
 
     /// The place.
@@ -173,10 +176,13 @@ impl<M: Clone> Linearisation<M> {
     /// The change of sides that the motion of the place calls for on one side of the parameter: that of the constraint whose
     /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
     pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
-        let guards = Newton::guards(system, &moved.state);
+        let active = &self.place.state.active;
         let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
-        let violated = guards.iter().enumerate().filter(|&(c, guard)| *guard < -FLOOR && !held(c));
-        let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(b.1))?;
+        let loaded = (0..active.len()).filter(|&c| active[c]);
+        let candidates = loaded.chain(self.near.iter().copied()).filter(|&c| !held(c));
+        let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
+        let violated = guards.filter(|(_, guard)| *guard < -FLOOR);
+        let (constraint, _) = violated.min_by(|a, b| a.1.total_cmp(&b.1))?;
         Some(Change { constraint, activated: !self.place.state.active[constraint] })
     }
 
@@ -255,6 +261,9 @@ impl<M: Clone> AnchoredPoint<M> {
         Self { anchor, ..self }
     }
 }
+
+/// An inactive constraint whose guard is larger is not violated within the step of a difference, some millionths of a parameter.
+const NEAR: f64 = 1e-3;
 
 /// First step of the search for a stationary place, and that at which the search ends, as parts of the way over which the state
 /// changes; the largest step, as a part of the path.
@@ -352,6 +361,13 @@ fn turning<S: System>(
     };
     let change = difference(product(0), product(1), step);
     rates(newton, sides[0], &states[0], change)
+}
+
+/// The inactive constraints that a small motion from a place may violate.
+fn near<S: System>(system: &S, place: &AnchoredPoint<S::Mode>) -> Vec<usize> {
+    let guards = Newton::guards(system, &place.state).into_iter().enumerate();
+    let inactive = guards.filter(|&(c, guard)| !place.state.active[c] && guard <= NEAR);
+    inactive.map(|(constraint, _)| constraint).collect()
 }
 
 /// Solves for minus a change of the equations, which the section and the constraints at rest do not take part in.

@@ -29,6 +29,7 @@ use crate::Footprint;
 use crate::dense_lu::DenseLu;
 use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
+use moving::SeenLines;
 
 /// A row of rectangles that double precision cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -164,7 +165,7 @@ impl Tractions {
 
 impl Mesh {
     fn reactions(&self, footprint: &Footprint) -> RowReactions {
-        let equations = Equations::assemble(self, footprint.poisson_ratio());
+        let equations = Equations::assemble(self, footprint.poisson_ratio(), None);
         let factors = equations.factorised();
         self.sums(footprint, &factors.solve(self.displacements()))
     }
@@ -180,7 +181,7 @@ impl Mesh {
         Tractions { shear: push.clone(), normal: push, rotation: self.imposed(&loads) }
     }
 
-    /// Returns the reactions that tractions add up to.
+    /// Returns the reactions that tractions add up to; without the columns of displaced neighbours, without their moments.
     fn sums(&self, footprint: &Footprint, tractions: &Tractions) -> RowReactions {
         let count = self.neighbours.len();
         let odd = &tractions.rotation;
@@ -195,7 +196,8 @@ impl Mesh {
             ]
         };
         let cross = |k: usize| {
-            let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
+            let displaced = odd.col_iter().nth(k + 1);
+            let moment = displaced.map_or(0.0, |column| 0.5 * self.middle_sum(column, ARM));
             CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment }
         };
         RowReactions {
@@ -267,14 +269,16 @@ struct Equations {
 }
 
 impl Equations {
-    fn assemble(mesh: &Mesh, poisson_ratio: f64) -> Self {
+    /// Assembles the matrices, and puts what each field point sees behind each other into `seen`.
+    fn assemble(mesh: &Mesh, poisson_ratio: f64, mut seen: Option<&mut SeenLines>) -> Self {
         let n = mesh.unknowns();
         let mut equations =
             Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
         for (k, &z) in mesh.depth.points().iter().enumerate() {
-            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            let line = CornerLine::new(mesh.depth.mirrored_edges(), z);
+            let mut columns = CellColumns::new(line, seen.as_deref_mut());
             let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
             for (i, &x) in fields.iter().enumerate() {
                 columns.both_sides(mesh, x, &mut sides);
@@ -297,17 +301,18 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct CellColumns {
+struct CellColumns<'s> {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
+    seen: Option<&'s mut SeenLines>,
 }
 
-impl CellColumns {
+impl<'s> CellColumns<'s> {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
-    fn new(line: CornerLine) -> Self {
+    fn new(line: CornerLine, seen: Option<&'s mut SeenLines>) -> Self {
         let blank = vec![Influence::default(); line.len()];
-        Self { line, last: blank.clone(), next: blank }
+        Self { line, last: blank.clone(), next: blank, seen }
     }
 
     /// The influence at `x` of the cells on the right and of their mirror images on the left.
@@ -326,6 +331,9 @@ impl CellColumns {
         for (column, offset) in offsets.enumerate() {
             std::mem::swap(&mut self.last, &mut self.next);
             self.line.evaluate(offset, &mut self.next);
+            if let Some(seen) = &mut self.seen {
+                seen.push(self.line.logarithms());
+            }
             if column > 0 {
                 append_cells(&self.last, &self.next, into);
             }

@@ -116,35 +116,25 @@ impl CornerLine {
     ///
     /// The field point must not be a corner (a collocation point never is).
     pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
-        for (corner, angles) in corners.iter_mut().zip(self.angles(x)) {
-            corner.across = x * angles.across;
-            corner.along = angles.z * angles.along;
-        }
-    }
-
-    /// Returns the inverse hyperbolic sines of the corner functions along the line at the offset `x`.
-    pub fn angles(&mut self, x: f64) -> impl Iterator<Item = CornerAngles> + '_ {
         self.arch.dispatch(Logarithms { x, z: &self.z, of: &mut self.logarithms });
         let (across, along) = self.logarithms.split_at(self.z.len());
         let ln_x = ln_or_zero(x);
-        let logarithms = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
-        logarithms.map(move |((across, along), (&z, ln_z))| CornerAngles {
-            z,
-            across: (across - ln_x).copysign(z),
-            along: (along - ln_z).copysign(x),
-        })
+        let numbers = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
+        for (corner, ((across, along), (&z, ln_z))) in corners.iter_mut().zip(numbers) {
+            corner.across = x * (across - ln_x).copysign(z);
+            corner.along = z * (along - ln_z).copysign(x);
+        }
     }
-}
 
-/// The inverse hyperbolic sines of the functions (S3) of a corner at the offset `(X, Z)`.
-#[derive(Clone, Copy, Debug)]
-pub struct CornerAngles {
-    /// `Z`.
-    pub z: f64,
-    /// `asinh(Z/|X|)`.
-    pub across: f64,
-    /// `asinh(X/|Z|)`.
-    pub along: f64,
+    /// Returns the line as it was evaluated last: `ln(|Z| + r)` of each corner, and `ln(|X| + r)` of each behind them.
+    pub(crate) fn logarithms(&self) -> &[f64] {
+        &self.logarithms[..2 * self.len()]
+    }
+
+    /// Returns `Z` of each corner, and `ln|Z|` of each.
+    pub(crate) fn depths(&self) -> [&[f64]; 2] {
+        [&self.z, &self.ln]
+    }
 }
 
 /// The logarithms of a line, evaluated in vectors as wide as the processor has them.
@@ -171,7 +161,7 @@ impl NullaryFnOnce for Logarithms<'_> {
 }
 
 /// Returns `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
-fn ln_or_zero(s: f64) -> f64 {
+pub(crate) fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
 }
 

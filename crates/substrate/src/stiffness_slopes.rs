@@ -54,7 +54,9 @@ impl StiffnessSlopes {
         }
         let [coarse, medium, fine] = CELLS;
         let coarse = row_reactions(footprint, neighbours, coarse)?;
-        let on_mesh = |cells| row_reactions_and_rates(footprint, neighbours, cells, &changes);
+        // Eq. (1) has no force from rotation.
+        let of = (neighbours, coupling == Coupling::Full);
+        let on_mesh = |cells| row_reactions_and_rates(footprint, of, cells, &changes);
         let [(medium, medium_rates), (fine, fine_rates)] = [on_mesh(medium)?, on_mesh(fine)?];
         let stiffness = stiffness(coupling, [&coarse, &medium, &fine]);
         let slope = |change: usize| {
@@ -89,7 +91,6 @@ fn slope(coupling: Coupling, numbers: &[f64]) -> RowStiffness {
     let mut slope = RowStiffness::from_numbers(numbers, 0.0);
     (slope.error, slope.truncation) = (0.0, 0.0);
     if coupling == Coupling::Nearest {
-        // Eq. (1) has no force from rotation.
         slope.neighbours.iter_mut().for_each(|neighbour| neighbour.cross = 0.0);
     }
     slope

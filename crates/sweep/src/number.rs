@@ -1,16 +1,29 @@
 //! Numbers as text.
 
+use std::fmt::{self, Write};
+
 /// The shortest text that reads back as `value`: `0.3`, `1`, `1e-7`.
 ///
 /// Very small and very large numbers take the exponent form, which spreadsheets read as well.
 pub fn text(value: f64) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut text, value);
+    text
+}
+
+/// Writes what [`text`] returns.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
     let size = value.abs();
     if size == 0.0 {
-        "0".to_owned()
+        to.write_char('0')
     } else if (1e-5..1e15).contains(&size) {
-        format!("{value}")
+        write!(to, "{value}")
     } else {
-        format!("{value:e}")
+        write!(to, "{value:e}")
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
+use results::columns::{AREAL_MASS, measure_name};
 use results::{DesignRow, sha256};
 use run::{Evaluator, Program};
 use skin::Imperfection;
@@ -10,7 +11,7 @@ use sweep::{Case, Measure, Sweep};
 
 use crate::draw;
 use crate::linear::{Gradients, LinearSpread};
-use crate::measured::{MeasuredColumns, Origin};
+use crate::measured::MeasuredColumns;
 use crate::no_analysis::NoAnalysis;
 use crate::sampled::Sampled;
 use crate::store::{SampleStore, SolvedSample};
@@ -143,20 +144,17 @@ impl<'a> Analysis<'a> {
         required: &[usize],
         samples: &dyn Fn(usize) -> Vec<Option<f64>>,
     ) -> Vec<MeasureTolerance> {
-        let mut scattered = *case;
-        draw::scatter(&mut scattered, self.sweep.deviations());
-        let scatters = !scattered.imperfection.is_none();
+        let mut scattered = DesignRow { case: *case, ..drawn.clone() };
+        draw::scatter(&mut scattered.case, self.sweep.deviations());
+        let scatters = !scattered.case.imperfection.is_none();
         let single = if scatters { self.sampling.scatter(case) } else { Vec::new() };
-        let gradients = Gradients {
-            case: &scattered,
-            deviations: self.sweep.deviations(),
-            common: &drawn.result.sensitivity,
-            single: &single,
-        };
+        let deviations = self.sweep.deviations();
+        let gradients = Gradients { design: &scattered, deviations, single: &single };
         let values = measured.values(drawn);
         let measure = |(k, column): (usize, &results::Column<DesignRow>)| {
             let name = column.name.as_ref();
-            let is_listed = required.contains(&k) || is_measure(name, drawn);
+            let has_derivatives = has_derivatives(name, drawn);
+            let is_listed = required.contains(&k) || has_derivatives;
             is_listed.then(|| {
                 let all = samples(k);
                 let with_value: Vec<f64> = all.iter().copied().flatten().collect();
@@ -164,7 +162,9 @@ impl<'a> Analysis<'a> {
                     name: name.to_owned(),
                     unit: column.unit,
                     value: values[k],
-                    linear: values[k].and_then(|_| gradients.spread(name)),
+                    linear: values[k]
+                        .filter(|_| has_derivatives)
+                        .and_then(|_| gradients.spread(column)),
                     sampled: Sampled::of(&with_value),
                     failed: all.len() - with_value.len(),
                 }
@@ -189,11 +189,11 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Whether a column is about a measure with derivatives, or about the mass.
-fn is_measure(name: &str, drawn: &DesignRow) -> bool {
-    let derivatives = &drawn.result.sensitivity;
-    let measure = Origin::of(name).measure();
-    measure.is_none_or(|measure| derivatives.iter().any(|d| d.measure == measure))
+/// Whether a column is about a measure with derivatives, or about the mass, which parameters alone make.
+fn has_derivatives(name: &str, drawn: &DesignRow) -> bool {
+    let measure = measure_name(name);
+    let mut derivatives = drawn.result.sensitivity.iter();
+    measure == AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
 /// The digest of all that the samples of a sweep depend on.

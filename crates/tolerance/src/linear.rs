@@ -1,9 +1,9 @@
 //! The spread of a measure as its derivatives predict it.
 
-use results::ParameterDerivative;
-use sweep::{BatchDeviation, Case, Deviation, PARAMETERS, Parameter};
+use results::columns::measure_name;
+use results::{Column, DesignRow, ParameterDerivative, SlopeSide};
+use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
-use crate::measured::Origin;
 use crate::moments::Slopes;
 
 /// Part of a standard deviation over which slopes are taken.
@@ -44,89 +44,63 @@ pub struct LinearSpread {
 
 /// A design with its derivatives and deviations.
 pub(crate) struct Gradients<'a> {
-    /// The design as it is drawn, with its scatter from scale to scale.
-    pub(crate) case: &'a Case,
+    /// The design as it is drawn, with its scatter from scale to scale and the derivatives with respect to its parameters.
+    pub(crate) design: &'a DesignRow,
     pub(crate) deviations: &'a [Deviation],
-    /// Derivatives with respect to the parameters.
-    pub(crate) common: &'a [ParameterDerivative],
     /// Derivatives with respect to the gaps and slants of single scales.
     pub(crate) single: &'a [ParameterDerivative],
 }
 
 impl Gradients<'_> {
-    /// The spread of the column `name`. `None` if it has no derivatives, or a kink without one of its sides.
-    pub(crate) fn spread(&self, name: &str) -> Option<LinearSpread> {
-        let origin = Origin::of(name);
-        let value = match origin.measure() {
-            Some(measure) => self.common.iter().find(|d| d.measure == measure)?.value,
-            None => 0.0,
-        };
+    /// The spread of a column. `None` where it has a kink without one of its sides.
+    pub(crate) fn spread(&self, column: &Column<DesignRow>) -> Option<LinearSpread> {
         let mut sources = Vec::new();
         for deviation in self.deviations {
             let Some(batch) = deviation.batch() else { continue };
-            let variance = self.slopes(origin, value, deviation, batch)?.variance(batch);
+            let variance = self.slopes(column, deviation, batch)?.variance(batch);
             let (source, deviation) = (deviation.key(), batch.standard_deviation());
             sources.push((source, DeviationLevel::Batch, deviation, variance));
         }
         for (parameter, sd) in self.scattered() {
-            let variance = self.scatter(origin, value, parameter.key, sd)?;
+            let variance = self.scatter(column, parameter.key, sd)?;
             sources.push((self.key(parameter), DeviationLevel::Scale, sd, variance));
         }
         Some(LinearSpread::of(sources))
     }
 
-    /// The slopes of a value against a deviation.
+    /// The slopes of a column against a deviation.
     fn slopes(
         &self,
-        origin: Origin<'_>,
-        value: f64,
+        column: &Column<DesignRow>,
         deviation: &Deviation,
         batch: BatchDeviation,
     ) -> Option<Slopes> {
+        let case = &self.design.case;
         let step = STEP * batch.standard_deviation();
-        let here = origin.value(value, self.case)?;
-        let slope = |by: f64| {
-            let moved = deviation.moved(self.case, by)?;
-            let change = origin.measure().map_or(Some(0.0), |m| self.change(m, &moved))?;
-            Some((origin.value(value + change, &moved)? - here) / by)
-        };
+        let value =
+            |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
+        let here = value(case)?;
+        let slope = |by: f64| Some((value(&deviation.moved(case, by)?)? - here) / by);
         Some(Slopes { left: slope(-step)?, right: slope(step)? })
-    }
-
-    /// The change of a measure from this case to a neighbouring one.
-    fn change(&self, measure: &str, moved: &Case) -> Option<f64> {
-        let continuous = PARAMETERS.iter().filter(|parameter| parameter.is_continuous());
-        continuous.map(|parameter| self.change_by(measure, parameter, moved)).sum()
-    }
-
-    /// The part of one parameter in the change of a measure.
-    fn change_by(&self, measure: &str, parameter: &Parameter, moved: &Case) -> Option<f64> {
-        let by = parameter.get(moved).number()? - parameter.get(self.case).number()?;
-        let belongs =
-            |d: &&ParameterDerivative| d.measure == measure && d.parameter == parameter.key;
-        match self.common.iter().find(belongs) {
-            Some(derivative) if by > 0.0 => Some(derivative.right? * by),
-            Some(derivative) if by < 0.0 => Some(derivative.left? * by),
-            // A parameter without derivative has no part in the measure.
-            _ => Some(0.0),
-        }
     }
 
     /// The parameters that differ from scale to scale, with their standard deviations.
     fn scattered(&self) -> Vec<(&'static Parameter, f64)> {
-        let (imperfection, gap) = (self.case.imperfection, self.case.design.gap);
+        let (imperfection, gap) = (self.design.case.imperfection, self.design.case.design.gap);
         let all =
             [("gap_over_t", imperfection.gap_cv * gap), ("slant_deg", imperfection.slant_sd_deg)];
         let named = |(key, sd)| Some((Parameter::named(key)?, sd));
         all.into_iter().filter_map(named).filter(|(_, sd)| *sd > 0.0).collect()
     }
 
-    /// The variance of a value under independent deviations of the gaps, or slants, of all scales.
-    fn scatter(&self, origin: Origin<'_>, value: f64, key: &str, sd: f64) -> Option<f64> {
-        let Some(measure) = origin.measure() else { return Some(0.0) };
-        let here = origin.value(value, self.case)?;
-        let step = STEP * value.abs().max(f64::MIN_POSITIVE);
-        let factor = (origin.value(value + step, self.case)? - here) / step;
+    /// The variance of a column under independent deviations of the gaps, or slants, of all scales.
+    fn scatter(&self, column: &Column<DesignRow>, key: &str, sd: f64) -> Option<f64> {
+        let measure = measure_name(&column.name);
+        let mut derivatives = self.design.result.sensitivity.iter();
+        let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
+        let at = |value: f64| column.cell(&self.design.with_value(measure, value)?).number();
+        let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
+        let factor = (at(known.value + step)? - at(known.value)?) / step;
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
         let variance = |derivative: &ParameterDerivative| {

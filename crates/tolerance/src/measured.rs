@@ -1,8 +1,8 @@
-//! The values of a design that deviations change, and how they come from its parameters and derivatives.
+//! The values of a design that deviations change.
 
-use results::columns::{design_columns, physical_source};
-use results::{Cell, Column, DesignRow, Quantity, areal_mass};
-use sweep::{Case, Measure, Sweep, nearest};
+use results::columns::design_columns;
+use results::{Cell, Column, DesignRow};
+use sweep::{Measure, Sweep, nearest};
 
 /// A column that no design has, or that holds no numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,7 +30,7 @@ impl MeasuredColumns {
 
     /// The values of a row, `None` where there is none.
     pub(crate) fn values(&self, row: &DesignRow) -> Vec<Option<f64>> {
-        self.0.iter().map(|column| number(&column.cell(row))).collect()
+        self.0.iter().map(|column| column.cell(row).number()).collect()
     }
 
     /// The index of the column of that name.
@@ -48,7 +48,7 @@ impl MeasuredColumns {
     ) -> Result<usize, NoSuchColumn> {
         let index = self.index(name)?;
         let is_whole = Measure::USUAL.iter().all(|measure| measures.contains(measure));
-        let has_value = number(&self.0[index].cell(row)).is_some();
+        let has_value = self.0[index].cell(row).number().is_some();
         if has_value || is_whole || row.result.failed() {
             return Ok(index);
         }
@@ -64,52 +64,5 @@ impl MeasuredColumns {
             None => "expected one of designs.csv, e.g. critical_force".to_owned(),
         };
         NoSuchColumn { found: found.to_owned(), hint }
-    }
-}
-
-fn number(cell: &Cell) -> Option<f64> {
-    match cell {
-        Cell::Number(number) => results::finite(*number),
-        Cell::Count(count) => Some(*count as f64),
-        Cell::Empty | Cell::Text(_) => None,
-    }
-}
-
-/// How a value follows from a measure with derivatives and from the parameters.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Origin<'n> {
-    /// The measure itself.
-    Measure(&'n str),
-    /// The measure in physical units.
-    Physical(&'n str, Quantity),
-    /// The mass of the scales, from the parameters alone.
-    Mass,
-}
-
-impl<'n> Origin<'n> {
-    /// The origin of the column `name`.
-    pub(crate) fn of(name: &'n str) -> Self {
-        match physical_source(name) {
-            Some((measure, quantity)) => Self::Physical(measure, quantity),
-            None if name == "areal_mass_kg_m2" => Self::Mass,
-            None => Self::Measure(name),
-        }
-    }
-
-    /// The measure that it depends on.
-    pub(crate) fn measure(self) -> Option<&'n str> {
-        match self {
-            Self::Measure(measure) | Self::Physical(measure, _) => Some(measure),
-            Self::Mass => None,
-        }
-    }
-
-    /// The value for a value of the measure in a case.
-    pub(crate) fn value(self, measure: f64, case: &Case) -> Option<f64> {
-        match self {
-            Self::Measure(_) => Some(measure),
-            Self::Physical(_, quantity) => quantity.physical(measure, case),
-            Self::Mass => areal_mass(case),
-        }
     }
 }

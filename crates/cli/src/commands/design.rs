@@ -159,7 +159,7 @@ fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
             (None, Some(elasticity)) => format!("{elasticity:+.3} %"),
             (None, None) => "none".to_owned(),
         };
-        [derivative.measure.clone(), derivative.parameter.clone(), change]
+        [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
     };
     let lines: Vec<_> = derivatives.iter().map(line).collect();
     format!("\nChange for one per cent of a parameter\n{}", aligned(&lines))

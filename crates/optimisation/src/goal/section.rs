@@ -53,35 +53,24 @@ impl GoalSection {
     /// Understands one key.
     pub fn entry(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
         match entry.key.as_str() {
-            "maximize" => self.objectives(entry, Goal::Maximize),
-            "minimize" => self.objectives(entry, Goal::Minimize),
-            "require" => self.requirements(entry),
-            "weights" => self.fitness.weights(entry),
-            "rescale" => self.fitness.rescale(entry),
-            "sound" => {
-                self.sound = switch(entry)?;
-                Ok(())
-            }
-            "samples" => {
-                self.samples = count(entry, 2, 10_000_000)?;
-                Ok(())
-            }
-            "points" => {
-                self.points = count(entry, 2, 1000)?;
-                Ok(())
-            }
-            "seed" => {
-                self.seed = count(entry, 0, 1_000_000_000)? as u64;
-                Ok(())
-            }
+            "maximize" => self.objectives(entry, Goal::Maximize)?,
+            "minimize" => self.objectives(entry, Goal::Minimize)?,
+            "require" => self.requirements(entry)?,
+            "weights" => self.fitness.weights(entry)?,
+            "rescale" => self.fitness.rescale(entry)?,
+            "sound" => self.sound = switch(entry)?,
+            "samples" => self.samples = count(entry, 2, 10_000_000)?,
+            "points" => self.points = count(entry, 2, 1000)?,
+            "seed" => self.seed = count(entry, 0, 1_000_000_000)? as u64,
             key => {
                 let hint = match nearest(key, &KEYS) {
                     Some(near) => format!("did you mean goal.{near}?"),
                     None => format!("expected one of {}", KEYS.join(", ")),
                 };
-                Err(unknown(&entry.place, &format!("goal.{key}"), &entry.value, hint))
+                return Err(unknown(&entry.place, &format!("goal.{key}"), &entry.value, hint));
             }
         }
+        Ok(())
     }
 
     /// The columns of objectives and requirements, with the keys and the places where they are named.

@@ -5,6 +5,8 @@ use std::fmt;
 
 use sweep::{Scalar, number};
 
+use crate::design::failure::finite;
+
 /// One cell of a table, not yet text, so that each format writes it in its own way.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
@@ -18,10 +20,22 @@ pub enum Cell {
     Text(Cow<'static, str>),
 }
 
+impl Cell {
+    /// The number in the cell, if it is finite.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) => finite(*number),
+            // A count in a table, far below 2^53.
+            Self::Count(count) => Some(*count as f64),
+            Self::Empty | Self::Text(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(number) if number.is_finite() => f.write_str(&number::text(*number)),
+            Self::Number(number) if number.is_finite() => number::write(f, *number),
             Self::Empty | Self::Number(_) => Ok(()),
             Self::Count(count) => write!(f, "{count}"),
             Self::Text(text) => f.write_str(text),

@@ -104,9 +104,9 @@ static PHYSICAL_VALUES: &[PhysicalValue] = &[
     ),
 ];
 
-/// The mass of the scales, which needs no solution.
-const AREAL_MASS: (&str, &str, &str) =
-    ("areal_mass_kg_m2", "kg/m^2", "mass of the scales over the area of the skin");
+/// The column of the mass of the scales, which needs no solution.
+pub const AREAL_MASS: &str = "areal_mass_kg_m2";
+const MASS_EXPLANATION: (&str, &str) = ("kg/m^2", "mass of the scales over the area of the skin");
 
 impl PhysicalValue {
     /// The dimensionless value, if a run has it.
@@ -144,9 +144,9 @@ pub(super) fn physical_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column
     let mut columns: Vec<_> = values.map(column).collect();
     let has_mass = table.is_none_or(|table| table == "coverage");
     if has_mass && MASS_NEEDS.iter().all(|key| sweep.gives(key)) {
-        let (name, unit, meaning) = AREAL_MASS;
-        columns
-            .push(Column::new(name, unit, meaning, |row: &DesignRow| areal_mass(&row.case).into()));
+        let (unit, meaning) = MASS_EXPLANATION;
+        let mass = |row: &DesignRow| areal_mass(&row.case).into();
+        columns.push(Column::new(AREAL_MASS, unit, meaning, mass));
     }
     columns
 }
@@ -159,8 +159,8 @@ pub fn physical_source(name: &str) -> Option<(&'static str, Quantity)> {
 
 /// The unit of a value in physical units and what it is, by its name.
 pub(super) fn explain_physical(name: &str) -> Option<(&'static str, &'static str)> {
-    if name == AREAL_MASS.0 {
-        return Some((AREAL_MASS.1, AREAL_MASS.2));
+    if name == AREAL_MASS {
+        return Some(MASS_EXPLANATION);
     }
     let value = PHYSICAL_VALUES.iter().find(|value| value.name == name)?;
     Some((value.quantity.unit(), value.meaning()))

@@ -9,11 +9,9 @@ pub static DERIVATIVE_COLUMNS: &[Column<DerivativeRow>] = &[
         r.design.to_string().into()
     }),
     Column::new("measure", "-", "the measure, by the name of its column", |r| {
-        r.derivative.measure.clone().into()
+        r.derivative.measure.into()
     }),
-    Column::new("parameter", "-", "the parameter, by its key", |r| {
-        r.derivative.parameter.clone().into()
-    }),
+    Column::new("parameter", "-", "the parameter, by its key", |r| r.derivative.parameter.into()),
     Column::new("value", "as the measure", "value of the measure", |r| r.derivative.value.into()),
     Column::new(
         "derivative",

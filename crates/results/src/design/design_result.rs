@@ -84,13 +84,17 @@ impl PunctureResult {
 
     /// The result of a solved puncture; if one of its numbers is not finite, all are left out.
     pub fn new(puncture: &Puncture, calibration_error: f64) -> Self {
-        let measures = puncture.measures;
+        let mut measures = puncture.measures;
         let few = puncture::PunctureMeasures {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
         };
-        let (outcome, measures) =
-            finite_or(puncture_numbers(&measures), puncture.status.into(), measures, few);
+        let (outcome, measures) = finite_or(
+            measures.named().iter().all(is_finite),
+            puncture.status.into(),
+            measures,
+            few,
+        );
         Self {
             outcome,
             measures,
@@ -123,63 +127,28 @@ impl FlexureResult {
 
     /// The result of a solved bending; if one of its numbers is not finite, all are left out.
     pub fn new(flexure: &Flexure) -> Self {
-        let measures = flexure.measures;
+        let mut measures = flexure.measures;
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
         let (outcome, measures) =
-            finite_or(flexure_numbers(&measures), flexure.status.into(), measures, few);
+            finite_or(measures.named().iter().all(is_finite), flexure.status.into(), measures, few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
 }
 
+/// Whether a number is finite, if it exists.
+fn is_finite((_, number): &(&str, &mut Option<f64>)) -> bool {
+    number.is_none_or(f64::is_finite)
+}
+
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.
-fn finite_or<M, const N: usize>(
-    numbers: [Option<f64>; N],
-    outcome: Outcome,
-    measures: M,
-    few: M,
-) -> (Outcome, M) {
+fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome, M) {
     match outcome {
-        _ if numbers.into_iter().flatten().all(f64::is_finite) => (outcome, measures),
+        _ if finite => (outcome, measures),
         Outcome::Complete => (Outcome::NotFinite, few),
         stopped => (stopped, few),
     }
-}
-
-fn puncture_numbers(measures: &puncture::PunctureMeasures) -> [Option<f64>; 19] {
-    [
-        measures.critical_force,
-        measures.peak_force,
-        measures.critical_displacement,
-        measures.penetration,
-        measures.sink,
-        measures.first_contact_displacement,
-        measures.initial_stiffness,
-        measures.max_stiffness,
-        measures.secant_stiffness,
-        measures.peak_displacement,
-        measures.peak_tilt_deg,
-        measures.load_stability_force,
-        measures.depth_stability_force,
-        measures.gap_stretch_min,
-        measures.gap_stretch_max,
-        measures.fold_force,
-        measures.fold_displacement,
-        measures.fold_tilt_deg,
-        measures.sound_force,
-    ]
-}
-
-fn flexure_numbers(measures: &flexure::FlexureMeasures) -> [Option<f64>; 6] {
-    [
-        measures.compliance,
-        measures.initial_compliance,
-        measures.first_contact_curvature,
-        measures.max_moment,
-        measures.axial_energy_share,
-        measures.membrane_strain_max,
-    ]
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! The row of a design near a solved one, by the derivatives of its measures.
 
 use skin::flexure::FlexureMeasures;
-use skin::puncture::PunctureMeasures;
-use sweep::{Measure, Parameter};
+use sweep::{Case, Measure, PARAMETERS, Parameter};
 
 use super::design_result::DesignResult;
 use super::parameter_derivative::ParameterDerivative;
@@ -12,48 +11,94 @@ use super::sample_statistics::SampleStatistics;
 /// Which of the two one-sided derivatives a row is extrapolated by; away from kinks they are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlopeSide {
-    /// The derivative where the parameter decreases.
+    /// The derivatives where parameters decrease.
     Left,
-    /// The derivative where the parameter increases.
+    /// The derivatives where parameters increase.
     Right,
+    /// The derivative on the side to which each parameter moves.
+    Ahead,
+}
+
+/// A parameter that is larger `by` so much.
+struct ParameterChange<'p> {
+    parameter: &'p Parameter,
+    by: f64,
+}
+
+impl DesignRow {
+    /// The row of a neighbouring case, its measures extrapolated by their derivatives: `m + Σ Δq dm/dq`. A column of such rows
+    /// has the derivatives of the column, whatever it makes of measures and parameters.
+    ///
+    /// A measure that depends on what changes and has no derivatives does not exist in the row, nor does one at a kink without
+    /// the side that is asked for. A parameter by which a measure has none, though it has others, has no part in it. Counts stay.
+    #[must_use]
+    pub fn extrapolated(&self, to: &Case, side: SlopeSide) -> Self {
+        self.changed(to, &changes(&self.case, to), side)
+    }
+
+    /// As [`Self::extrapolated`], of the case whose `parameter` is larger `by` so much; `None` if the parameter is no number.
+    pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
+        let to = parameter.moved(&self.case, by)?;
+        Some(self.changed(&to, &[ParameterChange { parameter, by }], side))
+    }
+
+    fn changed(&self, to: &Case, changes: &[ParameterChange<'_>], side: SlopeSide) -> Self {
+        let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
+        let derivatives = &self.result.sensitivity;
+        for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
+            if let Some(value) = row.result.value_mut(of_measure[0].measure) {
+                *value = extrapolated(of_measure, changes, side);
+            }
+        }
+        row
+    }
+
+    /// The row with another value of a continuous measure; `None` if no such measure has that name, or it was not asked for.
+    pub fn with_value(&self, measure: &str, value: f64) -> Option<Self> {
+        let mut row = self.clone();
+        *row.result.value_mut(measure)? = Some(value);
+        Some(row)
+    }
+}
+
+/// The parameters that differ between two cases.
+fn changes(from: &Case, to: &Case) -> Vec<ParameterChange<'static>> {
+    let change = |parameter: &'static Parameter| {
+        let by = parameter.get(to).number()? - parameter.get(from).number()?;
+        (by != 0.0).then_some(ParameterChange { parameter, by })
+    };
+    PARAMETERS.iter().filter_map(change).collect()
+}
+
+/// A measure that has these derivatives.
+fn extrapolated(
+    derivatives: &[ParameterDerivative],
+    changes: &[ParameterChange<'_>],
+    side: SlopeSide,
+) -> Option<f64> {
+    let part = |ParameterChange { parameter, by }: &ParameterChange<'_>| {
+        let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
+        derivative.map_or(Some(0.0), |derivative| Some(by * side.of(derivative, *by)?))
+    };
+    let change: Option<f64> = changes.iter().map(part).sum();
+    Some(derivatives[0].value + change?)
 }
 
 impl SlopeSide {
     /// The derivative on this side.
-    fn of(self, derivative: &ParameterDerivative) -> Option<f64> {
-        match self {
-            Self::Left => derivative.left,
-            Self::Right => derivative.right,
-        }
-    }
-}
-
-impl DesignRow {
-    /// The row of the design whose `parameter` is larger `by` so much, its measures extrapolated by their derivatives on one
-    /// side: `m + by dm/dq`. A column of such rows has the derivatives of the column, whatever it makes of measures and
-    /// parameters.
-    ///
-    /// A measure that depends on the parameter and has no derivative does not exist in the row. Counts stay. `None` if the
-    /// parameter is no number.
-    pub fn extrapolated(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
-        let case = parameter.moved(&self.case, by)?;
-        let mut result = self.result.without_dependent_values(parameter);
-        for derivative in &self.result.sensitivity {
-            if derivative.parameter == parameter.key
-                && let Some(slope) = side.of(derivative)
-                && let Some(value) = result.value_mut(&derivative.measure)
-            {
-                *value = Some(derivative.value + by * slope);
-            }
-        }
-        Some(Self { case, result, ..*self })
+    fn of(self, derivative: &ParameterDerivative, by: f64) -> Option<f64> {
+        let is_left = self == Self::Left || (self == Self::Ahead && by < 0.0);
+        if is_left { derivative.left } else { derivative.right }
     }
 }
 
 impl DesignResult {
-    /// The result without the values that depend on `parameter`.
-    fn without_dependent_values(&self, parameter: &Parameter) -> Self {
-        let depends = |measure: Measure| measure.sections().contains(&parameter.section);
+    /// The result without the values that depend on what changes.
+    fn without_dependents(&self, changes: &[ParameterChange<'_>]) -> Self {
+        let depends = |measure: Measure| {
+            let sections = measure.sections();
+            changes.iter().any(|change| sections.contains(&change.parameter.section))
+        };
         let mut result = Self {
             samples: SampleStatistics::default(),
             sensitivity: Vec::new(),
@@ -66,9 +111,8 @@ impl DesignResult {
         }
         if depends(Measure::Puncture) {
             result.at_tilts.clear();
-            if let Some(puncture) = &mut result.puncture {
-                puncture.measures = counts_of(&puncture.measures);
-            }
+            let puncture = result.puncture.iter_mut();
+            puncture.flat_map(|p| p.measures.named()).for_each(|(_, value)| *value = None);
         }
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
@@ -79,62 +123,11 @@ impl DesignResult {
         result
     }
 
-    /// The value of the measure of that name, to be changed; `None` if no measure that has derivatives has that name, or it was not
-    /// asked for.
+    /// The value of the continuous measure of that name, to be changed; `None` if there is none, or it was not asked for.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
-        if measure == "coverage" {
-            return Some(&mut self.coverage);
-        }
-        let puncture =
-            self.puncture.as_mut().and_then(|p| puncture_value(&mut p.measures, measure));
-        let flexure = self.flexure.as_mut().and_then(|f| flexure_value(&mut f.measures, measure));
-        puncture.or(flexure)
+        let puncture = self.puncture.iter_mut().flat_map(|p| p.measures.named());
+        let flexure = self.flexure.iter_mut().flat_map(|f| f.measures.named());
+        let mut all = [("coverage", &mut self.coverage)].into_iter().chain(puncture).chain(flexure);
+        all.find_map(|(name, value)| (name == measure).then_some(value))
     }
-}
-
-/// The measures of a puncture that are counts or answers, not continuous values.
-fn counts_of(measures: &PunctureMeasures) -> PunctureMeasures {
-    let PunctureMeasures { contacts, engaged_scales, scales, snaps, .. } = *measures;
-    let PunctureMeasures { stable_under_load, stable_under_depth, .. } = *measures;
-    PunctureMeasures {
-        contacts,
-        engaged_scales,
-        scales,
-        snaps,
-        stable_under_load,
-        stable_under_depth,
-        ..PunctureMeasures::default()
-    }
-}
-
-fn puncture_value<'m>(m: &'m mut PunctureMeasures, name: &str) -> Option<&'m mut Option<f64>> {
-    Some(match name {
-        "critical_force" => &mut m.critical_force,
-        "peak_force" => &mut m.peak_force,
-        "critical_displacement" => &mut m.critical_displacement,
-        "penetration" => &mut m.penetration,
-        "sink" => &mut m.sink,
-        "first_contact_displacement" => &mut m.first_contact_displacement,
-        "initial_stiffness" => &mut m.initial_stiffness,
-        "max_stiffness" => &mut m.max_stiffness,
-        "secant_stiffness" => &mut m.secant_stiffness,
-        "peak_displacement" => &mut m.peak_displacement,
-        "peak_tilt_deg" => &mut m.peak_tilt_deg,
-        "gap_stretch_min" => &mut m.gap_stretch_min,
-        "gap_stretch_max" => &mut m.gap_stretch_max,
-        "sound_force" => &mut m.sound_force,
-        _ => return None,
-    })
-}
-
-fn flexure_value<'m>(m: &'m mut FlexureMeasures, name: &str) -> Option<&'m mut Option<f64>> {
-    Some(match name {
-        "compliance" => &mut m.compliance,
-        "initial_compliance" => &mut m.initial_compliance,
-        "first_contact_curvature" => &mut m.first_contact_curvature,
-        "max_moment" => &mut m.max_moment,
-        "axial_energy_share" => &mut m.axial_energy_share,
-        "membrane_strain_max" => &mut m.membrane_strain_max,
-        _ => return None,
-    })
 }

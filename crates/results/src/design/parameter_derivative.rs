@@ -8,9 +8,9 @@ use super::failure::finite;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ParameterDerivative {
     /// Name of the measure, as its column.
-    pub measure: String,
+    pub measure: &'static str,
     /// Key of the parameter.
-    pub parameter: String,
+    pub parameter: &'static str,
     /// Value of the parameter.
     pub at: f64,
     /// Value of the measure.
@@ -25,11 +25,11 @@ pub struct ParameterDerivative {
 
 impl ParameterDerivative {
     /// The derivative with respect to the parameter `key` where it has the value `at`.
-    pub fn new(key: &str, at: f64, derivative: Derivative) -> Self {
+    pub fn new(key: &'static str, at: f64, derivative: Derivative) -> Self {
         let Derivative { measure, value, left, right, kink, .. } = derivative;
         Self {
-            measure: measure.to_owned(),
-            parameter: key.to_owned(),
+            measure,
+            parameter: key,
             at,
             value,
             left: left.and_then(finite),

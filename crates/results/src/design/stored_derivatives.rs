@@ -1,21 +1,48 @@
 //! Derivatives as a journal keeps them: measures by parameters, the names of both once.
 
+use std::borrow::Cow;
+
+use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use skin::flexure::FlexureMeasures;
+use skin::puncture::PunctureMeasures;
+use sweep::Parameter;
 
 use super::parameter_derivative::ParameterDerivative;
+
+/// The name of a continuous measure, or the key of a parameter.
+#[derive(Clone, Copy, Debug, Serialize)]
+struct KnownName(&'static str);
+
+impl KnownName {
+    fn of(text: &str) -> Option<Self> {
+        let (mut puncture, mut flexure) = <(PunctureMeasures, FlexureMeasures)>::default();
+        let numbers = puncture.named().into_iter().chain(flexure.named());
+        let mut measures = numbers.map(|(name, _)| name).chain(["coverage"]);
+        let measure = measures.find(|name| *name == text);
+        measure.or_else(|| Parameter::named(text).map(|parameter| parameter.key)).map(Self)
+    }
+}
+
+impl<'de> Deserialize<'de> for KnownName {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = Cow::<str>::deserialize(deserializer)?;
+        Self::of(&text).ok_or_else(|| D::Error::custom(format!("no measure or parameter {text}")))
+    }
+}
 
 /// Measures with the same parameters.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Matrix {
     /// Keys and values of the parameters.
-    by: Vec<(String, f64)>,
+    by: Vec<(KnownName, f64)>,
     of: Vec<Measure>,
 }
 
 /// The derivatives of a measure: its name, its value, the derivatives where the parameters decrease, and kinks.
 #[derive(Debug, Serialize, Deserialize)]
-struct Measure(String, f64, Vec<Option<f64>>, Vec<Kink>);
+struct Measure(KnownName, f64, Vec<Option<f64>>, Vec<Kink>);
 
 /// A kink: the position of the parameter, the derivative where it increases, and the change.
 #[derive(Debug, Serialize, Deserialize)]
@@ -24,13 +51,13 @@ struct Kink(usize, Option<f64>, String);
 impl Matrix {
     /// Whether it is one of measures with the parameters of these derivatives.
     fn fits(&self, derivatives: &[ParameterDerivative]) -> bool {
-        let parameters = derivatives.iter().map(|d| (&d.parameter, d.at.to_bits()));
-        self.by.iter().map(|(key, at)| (key, at.to_bits())).eq(parameters)
+        let parameters = derivatives.iter().map(|d| (d.parameter, d.at.to_bits()));
+        self.by.iter().map(|(key, at)| (key.0, at.to_bits())).eq(parameters)
     }
 
     /// A matrix of no measures with the parameters of these derivatives.
     fn of_parameters(derivatives: &[ParameterDerivative]) -> Self {
-        let by = derivatives.iter().map(|d| (d.parameter.clone(), d.at)).collect();
+        let by = derivatives.iter().map(|d| (KnownName(d.parameter), d.at)).collect();
         Self { by, of: Vec::new() }
     }
 
@@ -41,7 +68,7 @@ impl Matrix {
 
 impl Measure {
     fn new(derivatives: &[ParameterDerivative]) -> Self {
-        let (measure, value) = (derivatives[0].measure.clone(), derivatives[0].value);
+        let (measure, value) = (KnownName(derivatives[0].measure), derivatives[0].value);
         let left = derivatives.iter().map(|derivative| derivative.left).collect();
         let kink = |(position, derivative): (usize, &ParameterDerivative)| {
             Some(Kink(position, derivative.right, derivative.kink.clone()?))
@@ -51,14 +78,14 @@ impl Measure {
 
     fn derivatives<'a>(
         &'a self,
-        by: &'a [(String, f64)],
+        by: &'a [(KnownName, f64)],
     ) -> impl Iterator<Item = ParameterDerivative> + 'a {
         let Self(measure, value, left, kinks) = self;
         by.iter().zip(left).enumerate().map(move |(position, ((parameter, at), &left))| {
             let kink = kinks.iter().find(|kink| kink.0 == position);
             ParameterDerivative {
-                measure: measure.clone(),
-                parameter: parameter.clone(),
+                measure: measure.0,
+                parameter: parameter.0,
                 at: *at,
                 value: *value,
                 left,
@@ -98,10 +125,14 @@ pub fn deserialize<'de, D: Deserializer<'de>>(
 mod tests {
     use super::{ParameterDerivative, deserialize, serialize};
 
-    fn derivative(measure: &str, parameter: &str, left: f64) -> ParameterDerivative {
+    fn derivative(
+        measure: &'static str,
+        parameter: &'static str,
+        left: f64,
+    ) -> ParameterDerivative {
         ParameterDerivative {
-            measure: measure.to_owned(),
-            parameter: parameter.to_owned(),
+            measure,
+            parameter,
             at: 0.1,
             value: 2.0,
             left: Some(left),

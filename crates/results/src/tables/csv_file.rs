@@ -1,6 +1,7 @@
 //! Tables as CSV files, the only place where rows become cells of a file.
 
 use std::borrow::Borrow;
+use std::fmt::Write as _;
 use std::io;
 
 use super::csv_format::CsvFormat;
@@ -12,6 +13,8 @@ pub struct CsvFile<'c, R> {
     csv: csv::Writer<AtomicFile>,
     format: CsvFormat,
     columns: &'c [Column<R>],
+    /// The text of the cell that is written.
+    text: String,
 }
 
 impl<'c, R> CsvFile<'c, R> {
@@ -28,7 +31,7 @@ impl<'c, R> CsvFile<'c, R> {
         let file = folder.create(name)?;
         let path = file.path().to_owned();
         let csv = format.writer(file).map_err(|error| OutputError::file(&path, &error))?;
-        let mut table = Self { csv, format, columns };
+        let mut table = Self { csv, format, columns, text: String::new() };
         let header = table.csv.write_record(columns.iter().map(|column| column.name.as_ref()));
         table.checked(header)?;
         Ok(table)
@@ -40,8 +43,10 @@ impl<'c, R> CsvFile<'c, R> {
     /// If the disk does not take it.
     pub fn write(&mut self, row: &R) -> Result<(), OutputError> {
         for column in self.columns {
-            let cell = column.cell(row).to_string();
-            let written = self.csv.write_field(self.format.cell(&cell).as_bytes());
+            self.text.clear();
+            // Writing to a string cannot fail.
+            let _ = write!(self.text, "{}", column.cell(row));
+            let written = self.csv.write_field(self.format.cell(&self.text).as_bytes());
             self.checked(written)?;
         }
         let ended = self.csv.write_record(None::<&[u8]>);

@@ -62,7 +62,7 @@ pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRang
     let mut fixed = *case;
     fixed.flexure.gaps = Some(gaps);
     let (_, mut derivatives) = sensitivity::flexure(&fixed)?;
-    derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter.as_str()));
+    derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));
     let share = (gaps as f64).sqrt().recip();
     for derivative in &mut derivatives {
         derivative.left = derivative.left.map(|slope| share * slope);

@@ -31,10 +31,10 @@ fn compare(case: &Case) -> usize {
     let mut compared = 0;
     for derivative in &derivatives {
         let Some(ours) = derivative.derivative() else { continue };
-        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let parameter = Parameter::named(derivative.parameter).unwrap();
         let size = parameter.size(case).unwrap();
         let along = [(parameter, size)];
-        let Some(off) = differences.off(&derivative.measure, &along, ours * size) else { continue };
+        let Some(off) = differences.off(derivative.measure, &along, ours * size) else { continue };
         let ParameterDerivative { measure, parameter, .. } = derivative;
         assert!(off <= TOLERANCE, "{measure} by {parameter}: {ours:e} is off by {off:e}, {case:?}");
         compared += 1;
@@ -48,13 +48,13 @@ fn compare_along_gradients(
     derivatives: &[ParameterDerivative],
     differences: &Differences,
 ) -> usize {
-    let mut measures: Vec<_> = derivatives.iter().map(|d| d.measure.as_str()).collect();
+    let mut measures: Vec<_> = derivatives.iter().map(|d| d.measure).collect();
     measures.dedup();
     let mut compared = 0;
     for measure in measures {
         let mut gradient = Vec::new();
         for derivative in derivatives.iter().filter(|d| d.measure == measure) {
-            let parameter = Parameter::named(&derivative.parameter).unwrap();
+            let parameter = Parameter::named(derivative.parameter).unwrap();
             let size = parameter.size(case).unwrap();
             gradient.extend(derivative.derivative().map(|slope| (parameter, size, slope * size)));
         }

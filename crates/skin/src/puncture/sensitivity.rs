@@ -177,19 +177,20 @@ fn critical() -> Vec<MeasuredQuantity<Chain>> {
 /// The pair whose gap is stretched most, or least with the `sign` −1. Beyond the last pair there are those that are not solved for.
 fn extreme(chain: &Chain, state: &SkinState, sign: f64) -> usize {
     let pairs = chain.layout.scales() - 1;
-    let signed = |pair: usize| sign * chain.gap_stretch(state, pair);
-    let within = (0..pairs).max_by(|&i, &j| signed(i).total_cmp(&signed(j)));
+    let within = (0..pairs).map(|pair| sign * chain.gap_stretch(state, pair));
     let beyond = sign * stretch(chain, state, pairs, sign);
-    within.filter(|&pair| signed(pair) >= beyond).unwrap_or(pairs)
+    let is_beyond = |within: f64| within < beyond;
+    largest_of(within).filter(|(_, within)| !is_beyond(*within)).map_or(pairs, |(pair, _)| pair)
 }
 
-/// The stretch of the gap of a pair, or the largest or least of all for a pair that is not solved for.
+/// The stretch of the gap of a pair, or the largest or least of those that are not solved for.
 fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
     if pair < chain.layout.scales() - 1 {
         return chain.gap_stretch(state, pair);
     }
-    let all = chain.gap_stretches(state);
-    all.map_or(f64::NAN, |all| if sign > 0.0 { all.max } else { all.min })
+    let beyond = chain.stretches_beyond(&state.z).into_iter();
+    let beyond = largest_of(beyond.map(|stretch| sign * stretch));
+    beyond.map_or(f64::NAN, |(_, stretch)| sign * stretch)
 }
 
 fn force(measure: &'static str) -> MeasuredQuantity<Chain> {
@@ -220,6 +221,10 @@ fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {
 
 /// The scale for which a number is the largest.
 fn largest(chain: &Chain, f: impl Fn(usize) -> f64) -> usize {
-    let scales = 0..chain.layout.scales();
-    scales.max_by(|&i, &j| f(i).total_cmp(&f(j))).unwrap_or_default()
+    largest_of((0..chain.layout.scales()).map(f)).map_or(0, |(scale, _)| scale)
+}
+
+/// The largest of some numbers, the last of equal ones, and its position; `None` of none.
+fn largest_of(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
+    numbers.enumerate().reduce(|largest, next| if next.1 >= largest.1 { next } else { largest })
 }

@@ -6,61 +6,48 @@ use faer::{ColRef, Mat};
 use pulp::{Arch, NullaryFnOnce};
 
 use super::Tractions;
-use crate::Footprint;
-use crate::half_space::{CornerLine, LANES};
-use crate::mesh::{GradedAxis, Mesh};
-
-/// Rates of the edges and of the points of an axis.
-#[derive(Clone, Debug)]
-struct AxisMotion {
-    edges: Vec<f64>,
-    points: Vec<f64>,
-}
-
-impl AxisMotion {
-    fn at_rest(axis: &GradedAxis) -> Self {
-        Self { edges: vec![0.0; axis.edges().len()], points: vec![0.0; axis.cells()] }
-    }
-
-    fn add(&mut self, axis: &GradedAxis, weight: f64) {
-        let add = |rates: &mut [f64], places: &[f64]| {
-            rates.iter_mut().zip(places).for_each(|(rate, place)| *rate += weight * place);
-        };
-        add(&mut self.edges, axis.edges());
-        add(&mut self.points, axis.points());
-    }
-}
+use crate::half_space::{CornerLine, LANES, ln_or_zero};
+use crate::mesh::{Mesh, MeshMotion};
 
 /// The motion of a mesh, and of Poisson's ratio with it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Motion {
-    /// Of the axes along `x`, the middle rectangle's first.
-    across: Vec<AxisMotion>,
-    depth: Option<AxisMotion>,
-    poisson_ratio: f64,
+    pub(super) mesh: MeshMotion,
+    pub(super) poisson_ratio: f64,
 }
 
 impl Motion {
-    /// A motion of `mesh` that does not move it yet.
-    pub(super) fn of(mesh: &Mesh, poisson_ratio: f64) -> Self {
-        let across = mesh.across().map(AxisMotion::at_rest).collect();
-        Self { across, depth: Some(AxisMotion::at_rest(&mesh.depth)), poisson_ratio }
-    }
-
-    /// Adds the places of a mesh to the rates.
-    pub(super) fn add(&mut self, mesh: &Mesh, weight: f64) {
-        let axes = self.across.iter_mut().zip(mesh.across());
-        axes.for_each(|(motion, axis)| motion.add(axis, weight));
-        if let Some(depth) = &mut self.depth {
-            depth.add(&mesh.depth, weight);
-        }
-    }
-
     /// Rates of the corners of a line, from mirror image to mirror image.
     fn corners(&self) -> Vec<f64> {
-        let Some(depth) = &self.depth else { return Vec::new() };
-        let mirrored = depth.edges.iter().skip(1).rev().map(|rate| -rate);
-        mirrored.chain(depth.edges.iter().copied()).collect()
+        let edges = &self.mesh.depth.edges;
+        let mirrored = edges.iter().skip(1).rev().map(|rate| -rate);
+        mirrored.chain(edges.iter().copied()).collect()
+    }
+}
+
+/// The logarithms of all lines of corners as each field point sees them, kept from the assembly of (S5): those on the right of each
+/// rectangle and then their mirror images, rectangle by rectangle.
+#[derive(Debug)]
+pub(super) struct SeenLines {
+    /// Numbers of a line: logarithms for the offset `X`, for `Z`, and zeros that fill the last block of these.
+    stride: usize,
+    numbers: Vec<f64>,
+}
+
+impl SeenLines {
+    /// Nothing yet, with room for what a mesh sees.
+    pub(super) fn of(mesh: &Mesh) -> Self {
+        let corners = 2 * mesh.depth.cells() + 1;
+        let stride = corners + corners.next_multiple_of(CORNERS);
+        let lines: usize = mesh.across().map(|axis| 2 * axis.edges().len()).sum();
+        Self { stride, numbers: Vec::with_capacity(mesh.unknowns() * lines * stride) }
+    }
+
+    /// Adds a line.
+    pub(super) fn push(&mut self, logarithms: &[f64]) {
+        let end = self.numbers.len() + self.stride;
+        self.numbers.extend_from_slice(logarithms);
+        self.numbers.resize(end, 0.0);
     }
 }
 
@@ -73,35 +60,43 @@ impl Motion {
 /// (asinh(Z/|X|) + κ Z/r) dX + (asinh(X/|Z|) + κ (asinh(X/|Z|) − X/r)) dZ + B dκ                (S15)
 /// ```
 ///
-/// whose inverse hyperbolic sines are those of the functions (S3) themselves. A corner belongs to four cells and to their mirror
-/// images: its weight is the second difference of their tractions, the same for every field point. So a line of corners is
-/// evaluated once for all motions and problems, and the influence of a single cell is never formed.
+/// whose inverse hyperbolic sines are those of the functions (S3) themselves, which the assembly of (S5) has `seen`. A corner belongs to
+/// four cells and to their mirror images: its weight is the second difference of their tractions, the same for every field point. So a
+/// line of corners is looked at once for all motions and problems, and the influence of a single cell is never formed.
 pub(super) fn products(
     mesh: &Mesh,
-    footprint: &Footprint,
+    poisson_ratio: f64,
     motions: &[Motion],
     tractions: &Tractions,
+    seen: &SeenLines,
 ) -> Vec<Tractions> {
-    let mut moving = Moving::new(mesh, footprint.poisson_ratio(), motions, tractions);
+    let mut moving = Moving::new(mesh, poisson_ratio, motions, tractions);
     let mut products: Vec<_> = motions.iter().map(|_| tractions.zeros()).collect();
-    let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
-    let depth = mesh.depth.cells();
-    for k in 0..depth {
-        moving.look_from(k);
-        for (i, &x) in fields.iter().enumerate() {
-            let sums = moving.sums(i, x);
-            for (motion, product) in products.iter_mut().enumerate() {
-                let rates = sums.iter().skip(motion).step_by(motions.len());
-                product.set_row(i * depth + k, rates.map(|sum| sum / PI));
-            }
+    let (points, depth) = (moving.points.len(), mesh.depth.cells());
+    let views = seen.numbers.chunks_exact(seen.stride * moving.lines.len());
+    for (view, seen) in views.enumerate() {
+        let (k, i) = (view / points, view % points);
+        if i == 0 {
+            moving.look_from(k);
+        }
+        let sums = moving.sums(i, seen);
+        for (motion, product) in products.iter_mut().enumerate() {
+            let rates = sums.iter().skip(motion).step_by(motions.len());
+            product.set_row(i * depth + k, rates.map(|sum| sum.iter().sum::<f64>() / PI));
         }
     }
     products
 }
 
 impl Tractions {
+    /// These without the columns of displaced neighbours.
+    pub(super) fn without_moments(mut self) -> Self {
+        self.rotation.resize_with(self.rotation.nrows(), 1, |_, _| 0.0);
+        self
+    }
+
     /// As many columns of zeros.
-    fn zeros(&self) -> Self {
+    pub(super) fn zeros(&self) -> Self {
         let zeros = |of: &Mat<f64>| Mat::zeros(of.nrows(), of.ncols());
         let Self { shear, normal, rotation } = self;
         Self { shear: zeros(shear), normal: zeros(normal), rotation: zeros(rotation) }
@@ -138,11 +133,23 @@ struct Weights {
     lines: Vec<LineWeights>,
 }
 
-/// Weights of the corners of a line, filled up with zeros to whole vectors.
+/// Numbers of as many corners as a vector takes.
+type Lanes = [f64; LANES];
+
+/// Vectors in a block: those of a line of the finest mesh that springs are solved on, a number that the compiler knows.
+const VECTORS: usize = 5;
+
+/// Numbers of a block of corners.
+type Block = [Lanes; VECTORS];
+
+/// Corners of a block.
+const CORNERS: usize = VECTORS * LANES;
+
+/// Weights of the corners of a line, filled up with zeros to whole blocks.
 struct LineWeights {
-    weights: Vec<f64>,
+    weights: Vec<Block>,
     /// Weights times the rates of the corners along `z`, for each motion; none where these rest.
-    moved: Vec<Vec<f64>>,
+    moved: Vec<Vec<Block>>,
 }
 
 impl Mesh {
@@ -166,6 +173,39 @@ impl Mesh {
         }
         lines
     }
+
+    /// The lines of corners in the order in which the assembly sees them.
+    fn line_places(&self, motions: &[Motion]) -> Vec<LinePlace> {
+        let (mut lines, mut before) = (Vec::new(), 0);
+        for (body, axis) in self.across().enumerate() {
+            for is_image in [false, true] {
+                let side = if is_image { -1.0 } else { 1.0 };
+                lines.extend(axis.edges().iter().enumerate().map(|(k, edge)| {
+                    let rates = motions.iter().map(|m| side * m.mesh.across[body].edges[k]);
+                    LinePlace {
+                        number: before + k,
+                        x: side * edge,
+                        is_image,
+                        rates: rates.collect(),
+                    }
+                }));
+            }
+            before += axis.edges().len();
+        }
+        lines
+    }
+
+    /// The field points at one depth.
+    fn point_places(&self, motions: &[Motion]) -> Vec<PointPlace> {
+        let across = self.across().enumerate();
+        let places = across.flat_map(|(body, axis)| {
+            axis.points().iter().enumerate().map(move |(k, &x)| {
+                let rates = motions.iter().map(|m| m.mesh.across[body].points[k]);
+                PointPlace { x, rates: rates.collect() }
+            })
+        });
+        places.collect()
+    }
 }
 
 impl LineWeights {
@@ -180,79 +220,118 @@ impl LineWeights {
         let moved = corners.iter().map(|rates| {
             let products = weights.iter().zip(rates).map(|(weight, rate)| weight * rate);
             let rests = rates.iter().all(|&rate| rate == 0.0);
-            if rests { Vec::new() } else { filled(products.collect()) }
+            if rests { Vec::new() } else { filled(&products.collect::<Vec<_>>()) }
         });
-        Self { moved: moved.collect(), weights: filled(weights) }
+        Self { moved: moved.collect(), weights: filled(&weights) }
     }
 }
 
-/// The numbers and as many zeros as fill the last vector.
-fn filled(mut numbers: Vec<f64>) -> Vec<f64> {
-    numbers.resize(numbers.len().next_multiple_of(LANES), 0.0);
-    numbers
+/// The numbers and as many zeros as fill the last block.
+fn filled(numbers: &[f64]) -> Vec<Block> {
+    let block = |numbers: &[f64]| {
+        let mut block = [[0.0; LANES]; VECTORS];
+        block.as_flattened_mut()[..numbers.len()].copy_from_slice(numbers);
+        block
+    };
+    numbers.chunks(CORNERS).map(block).collect()
 }
 
-/// Contributions of the corners of a line, differentiated with respect to `X`, `Z` (S15).
+/// The place of a line of corners along `x`, or of its mirror image on the left.
+struct LinePlace {
+    /// Which of the lines it is; a mirror image has the number of its line.
+    number: usize,
+    x: f64,
+    is_image: bool,
+    /// Rates of `x` in each motion.
+    rates: Vec<f64>,
+}
+
+/// The place of a field point along `x`.
+struct PointPlace {
+    x: f64,
+    /// Rates of `x` in each motion.
+    rates: Vec<f64>,
+}
+
+/// Contributions of a block of corners, differentiated with respect to `X`, `Z`, `κ` (S15).
+#[derive(Clone, Copy, Default)]
 struct Slopes {
-    by_x: Vec<f64>,
-    by_z: Vec<f64>,
-}
-
-impl Slopes {
-    fn new(corners: usize) -> Self {
-        Self { by_x: filled(vec![0.0; corners]), by_z: filled(vec![0.0; corners]) }
-    }
+    normal_by_x: Block,
+    normal_by_z: Block,
+    shear_by_x: Block,
+    shear_by_z: Block,
+    /// `B`.
+    shear_by_softness: Block,
 }
 
 /// A line of corners, seen from one field point.
 struct Line {
-    corners: CornerLine,
-    normal: Slopes,
-    shear: Slopes,
-    /// `B`, the derivative with respect to `κ`.
-    by_softness: Vec<f64>,
+    corners: usize,
+    /// `Z` and `ln|Z|` of each corner.
+    z: Vec<Block>,
+    ln: Vec<Block>,
+    slopes: Vec<Slopes>,
 }
 
 impl Line {
-    /// Looks at the line at the offset `x`.
-    fn look(&mut self, x: f64, softness: f64) {
-        let Self { corners, normal, shear, by_softness } = self;
-        let normal = normal.by_x.iter_mut().zip(&mut normal.by_z);
-        let shear = shear.by_x.iter_mut().zip(&mut shear.by_z);
-        let numbers = normal.zip(shear).zip(by_softness);
-        for (angles, ((normal, shear), by_softness)) in corners.angles(x).zip(numbers) {
-            let inverse = (x * x + angles.z * angles.z).sqrt().recip();
-            (*normal.0, *normal.1) = (angles.across, angles.along);
-            *shear.0 = angles.across + softness * (angles.z * inverse);
-            *shear.1 = angles.along + softness * (angles.along - x * inverse);
-            *by_softness = angles.z * angles.along;
+    /// Looks at the line at the offset `x`, of which the logarithms are known.
+    #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
+    #[inline(always)]
+    fn look(&mut self, x: f64, softness: f64, seen: &[f64]) {
+        let ln_x = ln_or_zero(x);
+        // Corners that fill the last block see the numbers of others, and have no weight.
+        let across = seen.as_chunks::<CORNERS>().0;
+        let along = seen[self.corners..].as_chunks::<CORNERS>().0;
+        let numbers = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
+        for (slopes, ((across, along), (z, ln))) in self.slopes.iter_mut().zip(numbers) {
+            let views = across.as_chunks().0.iter().zip(along.as_chunks().0);
+            for (vector, (across, along)) in views.enumerate() {
+                let view = [across, along, &z[vector], &ln[vector]];
+                slopes.look(vector, [x, ln_x, softness], view);
+            }
         }
     }
 }
 
-/// How a line moves against the field point in one motion.
-struct LineRate {
-    /// Rate of the offset `X`.
-    x: f64,
-    /// Rate of the depth of the field point.
-    depth: f64,
-    /// Rate of `κ`.
-    softness: f64,
+impl Slopes {
+    /// Looks at the corners of a vector.
+    #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
+    #[inline(always)]
+    fn look(
+        &mut self,
+        vector: usize,
+        [x, ln_x, softness]: [f64; 3],
+        [across, along, z, ln]: [&Lanes; 4],
+    ) {
+        for lane in 0..LANES {
+            let across = (across[lane] - ln_x).copysign(z[lane]);
+            let along = (along[lane] - ln[lane]).copysign(x);
+            let inverse = (x * x + z[lane] * z[lane]).sqrt().recip();
+            self.normal_by_x[vector][lane] = across;
+            self.normal_by_z[vector][lane] = along;
+            self.shear_by_x[vector][lane] = across + softness * (z[lane] * inverse);
+            self.shear_by_z[vector][lane] = along + softness * (along - x * inverse);
+            self.shear_by_softness[vector][lane] = z[lane] * along;
+        }
+    }
 }
 
 /// The rates of the influence of all tractions on one field point after the other.
 struct Moving<'a> {
     mesh: &'a Mesh,
-    poisson_ratio: f64,
     motions: &'a [Motion],
+    points: Vec<PointPlace>,
+    lines: Vec<LinePlace>,
     weights: Vec<Weights>,
     line: Line,
+    /// `κ`, and its rate in each motion.
+    softness: f64,
+    softer: Vec<f64>,
+    /// Rates of the depth of the field point in each motion.
+    deeper: Vec<f64>,
     arch: Arch,
-    rates: Vec<LineRate>,
-    /// The rates of the influences, of each column for all motions.
-    sums: Vec<f64>,
-    /// Which point of the depth is looked from.
-    depth: usize,
+    /// The rates of the influences, of each column for all motions, in parts that add up.
+    sums: Vec<Lanes>,
 }
 
 impl<'a> Moving<'a> {
@@ -263,111 +342,110 @@ impl<'a> Moving<'a> {
         tractions: &Tractions,
     ) -> Self {
         let corners = 2 * mesh.depth.cells() + 1;
-        let line = Line {
-            corners: CornerLine::new([], 0.0),
-            normal: Slopes::new(corners),
-            shear: Slopes::new(corners),
-            by_softness: filled(vec![0.0; corners]),
-        };
+        let slopes = vec![Slopes::default(); corners.div_ceil(CORNERS)];
         let weights = tractions.weights(mesh, motions);
-        let sums = vec![0.0; weights.len() * motions.len()];
-        let rates = Vec::with_capacity(motions.len());
-        let arch = Arch::new();
-        Self { mesh, poisson_ratio, motions, weights, line, arch, rates, sums, depth: 0 }
+        let by_ratio = (1.0 - poisson_ratio).powi(-2);
+        Self {
+            mesh,
+            motions,
+            points: mesh.point_places(motions),
+            lines: mesh.line_places(motions),
+            line: Line { corners, z: Vec::new(), ln: Vec::new(), slopes },
+            softness: poisson_ratio / (1.0 - poisson_ratio),
+            softer: motions.iter().map(|motion| by_ratio * motion.poisson_ratio).collect(),
+            deeper: Vec::new(),
+            arch: Arch::new(),
+            sums: vec![[0.0; LANES]; weights.len() * motions.len()],
+            weights,
+        }
     }
 
     /// Takes the depth of point `k` for that of the field points.
     fn look_from(&mut self, k: usize) {
-        self.depth = k;
         let depth = &self.mesh.depth;
-        self.line.corners = CornerLine::new(depth.mirrored_edges(), depth.points()[k]);
+        let corners = CornerLine::new(depth.mirrored_edges(), depth.points()[k]);
+        let [z, ln] = corners.depths();
+        (self.line.z, self.line.ln) = (filled(z), filled(ln));
+        self.deeper = self.motions.iter().map(|motion| motion.mesh.depth.points[k]).collect();
     }
 
-    /// The sums over all lines of corners, and over their mirror images on the left, seen from the field point `i`, at `x`.
-    fn sums(&mut self, i: usize, x: f64) -> &[f64] {
-        self.sums.fill(0.0);
-        let mesh = self.mesh;
-        let edges = mesh.across().enumerate().flat_map(|(body, axis)| {
-            axis.edges().iter().enumerate().map(move |(column, edge)| (body, column, edge))
-        });
-        for (number, (body, column, edge)) in edges.enumerate() {
-            for is_image in [false, true] {
-                let side = if is_image { -1.0 } else { 1.0 };
-                self.set_rates(i, side, [body, column]);
-                self.arch.dispatch(AddLine {
-                    x: side * edge - x,
-                    softness: self.poisson_ratio / (1.0 - self.poisson_ratio),
-                    line: &mut self.line,
-                    weights: &self.weights,
-                    rates: &self.rates,
-                    number,
-                    is_image,
-                    sums: &mut self.sums,
-                });
-            }
-        }
+    /// The sums over all lines of corners, and over their mirror images on the left, as the field point `i` has `seen` them.
+    fn sums(&mut self, i: usize, seen: &[f64]) -> &[Lanes] {
+        self.sums.fill([0.0; LANES]);
+        let arch = self.arch;
+        arch.dispatch(AddLines { point: i, seen, to: self });
         &self.sums
     }
-
-    /// Sets the rates at which the line at an edge of a rectangle, or its image, moves against the field point `i`.
-    fn set_rates(&mut self, i: usize, side: f64, [body, column]: [usize; 2]) {
-        self.rates.clear();
-        let cells = self.mesh.depth.cells();
-        self.rates.extend(self.motions.iter().map(|motion| {
-            let points = &motion.across[i / cells].points;
-            let depth = motion.depth.as_ref().map_or(0.0, |depth| depth.points[self.depth]);
-            let softness = motion.poisson_ratio / (1.0 - self.poisson_ratio).powi(2);
-            let x = side * motion.across[body].edges[column] - points[i % cells];
-            LineRate { x, depth, softness }
-        }));
-    }
 }
 
-/// Adds a line of corners at the offset `x` to the sums.
-struct AddLine<'a> {
-    x: f64,
-    softness: f64,
-    line: &'a mut Line,
-    weights: &'a [Weights],
-    rates: &'a [LineRate],
-    number: usize,
-    is_image: bool,
-    sums: &'a mut [f64],
+/// Adds the lines of corners that a field point has seen to its sums.
+struct AddLines<'m, 'a> {
+    point: usize,
+    seen: &'m [f64],
+    to: &'m mut Moving<'a>,
 }
 
-impl NullaryFnOnce for AddLine<'_> {
+impl NullaryFnOnce for AddLines<'_, '_> {
     type Output = ();
 
     #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
     #[inline(always)]
     fn call(self) {
-        self.line.look(self.x, self.softness);
-        let Line { normal, shear, by_softness, .. } = &*self.line;
-        let columns = self.weights.iter().zip(self.sums.chunks_mut(self.rates.len()));
-        for (column, sums) in columns {
-            let slopes = if column.is_shear { shear } else { normal };
-            let LineWeights { weights, moved } = &column.lines[self.number];
-            let by_x = dot(weights, &slopes.by_x);
-            let by_depth = dot(weights, &slopes.by_z);
-            let by_softness = if column.is_shear { dot(weights, by_softness) } else { 0.0 };
-            let factor = if self.is_image { column.image } else { 1.0 };
-            for ((sum, rate), moved) in sums.iter_mut().zip(self.rates).zip(moved) {
-                let by_z = dot(moved, &slopes.by_z) - rate.depth * by_depth;
-                *sum += factor * (rate.x * by_x + by_z + rate.softness * by_softness);
+        let Moving { points, lines, weights, line, softness, softer, deeper, sums, .. } = self.to;
+        let point = &points[self.point];
+        let seen = self.seen.chunks_exact(self.seen.len() / lines.len());
+        for (place, seen) in lines.iter().zip(seen) {
+            line.look(place.x - point.x, *softness, seen);
+            let columns = weights.iter().zip(sums.chunks_mut(softer.len()));
+            for (column, sums) in columns {
+                column.add_line(place, &line.slopes, [&point.rates, deeper, softer], sums);
             }
         }
     }
 }
 
-/// The scalar product of numbers that fill whole vectors.
-#[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
-#[inline(always)]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    for (a, b) in a.as_chunks::<LANES>().0.iter().zip(b.as_chunks::<LANES>().0) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
+impl Weights {
+    /// Adds a line to the sums of this column, with the rates of `X`, `Z` and `κ` at the field point in each motion.
+    #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
+    #[inline(always)]
+    fn add_line<'s>(
+        &self,
+        place: &LinePlace,
+        slopes: &'s [Slopes],
+        [across, deeper, softer]: [&[f64]; 3],
+        sums: &mut [Lanes],
+    ) {
+        let LineWeights { weights, moved } = &self.lines[place.number];
+        let is_shear = self.is_shear;
+        let along_z = |s: &'s Slopes| if is_shear { &s.shear_by_z } else { &s.normal_by_z };
+        let by_x = dot(weights, slopes, |s| if is_shear { &s.shear_by_x } else { &s.normal_by_x });
+        let by_depth = dot(weights, slopes, along_z);
+        let by_softness =
+            if is_shear { dot(weights, slopes, |s| &s.shear_by_softness) } else { [0.0; LANES] };
+        let factor = if place.is_image { self.image } else { 1.0 };
+        for (motion, (sum, moved)) in sums.iter_mut().zip(moved).enumerate() {
+            let x = place.rates[motion] - across[motion];
+            let (depth, softness) = (deeper[motion], softer[motion]);
+            let by_z = dot(moved, slopes, along_z);
+            for lane in 0..LANES {
+                let by_z = by_z[lane] - depth * by_depth[lane];
+                sum[lane] += factor * (x * by_x[lane] + by_z + softness * by_softness[lane]);
+            }
         }
     }
-    sums.iter().sum()
+}
+
+/// The scalar product of weights and numbers of the corners, in parts that add up.
+#[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
+#[inline(always)]
+fn dot<'s>(weights: &[Block], slopes: &'s [Slopes], of: impl Fn(&'s Slopes) -> &'s Block) -> Lanes {
+    let mut sums = [0.0; LANES];
+    for (weights, slopes) in weights.iter().zip(slopes) {
+        for (weights, slopes) in weights.iter().zip(of(slopes)) {
+            for lane in 0..LANES {
+                sums[lane] += weights[lane] * slopes[lane];
+            }
+        }
+    }
+    sums
 }

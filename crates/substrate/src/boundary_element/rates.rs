@@ -2,10 +2,10 @@
 
 use std::ops::{AddAssign, Mul};
 
-use super::moving::{self, Motion};
+use super::moving::{self, Motion, SeenLines};
 use super::{Equations, Factors, RowReactions, Tractions, Unresolved};
 use crate::Footprint;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshMotion};
 
 /// A direction in which a footprint changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,15 +18,8 @@ pub struct FootprintChange {
     pub poisson_ratio: f64,
 }
 
-/// A step of a difference of the mesh, as a part of what changes.
+/// A step of a difference of what a footprint imposes, as a part of what changes.
 const STEP: f64 = 1e-5;
-
-/// Weights of a derivative by values at a distance: from both sides, or from one alone.
-const CENTRAL: [(f64, f64); 2] = [(-1.0, -0.5), (1.0, 0.5)];
-const FORWARD: [(f64, f64); 3] = [(0.0, -1.5), (1.0, 2.0), (2.0, -0.5)];
-
-/// Lengths that are equal to this part change places within a difference of the mesh.
-const TIED: f64 = 3.0 * STEP;
 
 /// Returns the reactions of [`row_reactions`](super::row_reactions) and their rates where the footprint changes in each of the
 /// `changes`. With the tractions `p` of (S5),
@@ -35,15 +28,15 @@ const TIED: f64 = 3.0 * STEP;
 /// dp = G⁻¹ (du − dG p)                                                               (S14)
 /// ```
 ///
-/// on the factors of the tractions themselves. That of the matrix is exact in the motion of the mesh; the motion, displacements and sums are
-/// differences of explicit functions. Where two of the lengths that grade the mesh are equal the rate is that of the side to which the change
-/// leads.
+/// on the factors of the tractions themselves. That of the matrix is exact in the motion of the mesh, and so is the motion; displacements and sums
+/// are differences of explicit functions. Where two of the lengths that grade the mesh are equal the rate is that of the side to which the change
+/// leads. The moments of displaced neighbours, which only a coupling beyond Eq. (1) has, have rates if `moments` says so.
 ///
 /// # Errors
 /// As [`reactions`](super::reactions).
 pub fn row_reactions_and_rates(
     footprint: &Footprint,
-    neighbours: usize,
+    (neighbours, moments): (usize, bool),
     n: usize,
     changes: &[FootprintChange],
 ) -> Result<(RowReactions, Vec<RowReactions>), Unresolved> {
@@ -52,11 +45,13 @@ pub fn row_reactions_and_rates(
     if !mesh.is_resolved() {
         return Err(unresolved);
     }
-    let factors = Equations::assemble(&mesh, footprint.poisson_ratio()).factorised();
+    let mut seen = SeenLines::of(&mesh);
+    let equations = Equations::assemble(&mesh, footprint.poisson_ratio(), Some(&mut seen));
+    let factors = equations.factorised();
     let tractions = factors.solve(mesh.displacements());
-    let solved = Solved { footprint, mesh, n, factors, tractions };
-    let reactions = solved.mesh.sums(footprint, &solved.tractions);
-    let rates = solved.rates(changes);
+    let reactions = mesh.sums(footprint, &tractions);
+    let tractions = if moments { tractions } else { tractions.without_moments() };
+    let rates = Solved { footprint, mesh, factors, tractions, seen }.rates(changes);
     let finite = [&reactions].into_iter().chain(&rates).all(RowReactions::is_finite);
     if finite { Ok((reactions, rates)) } else { Err(unresolved) }
 }
@@ -65,20 +60,23 @@ pub fn row_reactions_and_rates(
 struct Solved<'a> {
     footprint: &'a Footprint,
     mesh: Mesh,
-    n: usize,
     factors: Factors,
     tractions: Tractions,
+    seen: SeenLines,
 }
 
 impl Solved<'_> {
     /// The rates of the reactions for each change.
     fn rates(&self, changes: &[FootprintChange]) -> Vec<RowReactions> {
-        let mut rates: Vec<_> = changes.iter().map(|change| self.imposed_rates(change)).collect();
-        let motions: Vec<_> =
-            rates.iter_mut().map(|rates| std::mem::take(&mut rates.motion)).collect();
-        let products = moving::products(&self.mesh, self.footprint, &motions, &self.tractions);
-        let of_change = |(rates, product): (ImposedRates, Tractions)| {
-            let ImposedRates { mut sums, displacements, .. } = rates;
+        let motion = |change: &FootprintChange| Motion {
+            mesh: self.mesh.motion(self.footprint, change),
+            poisson_ratio: change.poisson_ratio,
+        };
+        let motions: Vec<_> = changes.iter().map(motion).collect();
+        let ratio = self.footprint.poisson_ratio();
+        let products = moving::products(&self.mesh, ratio, &motions, &self.tractions, &self.seen);
+        let of_change = |(change, (motion, product)): (&FootprintChange, (&Motion, Tractions))| {
+            let (mut sums, displacements) = self.imposed_rates(change, &motion.mesh);
             let right = Tractions {
                 shear: displacements.shear - product.shear,
                 normal: displacements.normal - product.normal,
@@ -87,65 +85,42 @@ impl Solved<'_> {
             sums += self.mesh.sums(self.footprint, &self.factors.solve(right));
             sums
         };
-        rates.into_iter().zip(products).map(of_change).collect()
+        changes.iter().zip(motions.iter().zip(products)).map(of_change).collect()
     }
 
-    /// The rates of what is imposed: differences of explicit functions of the mesh.
-    fn imposed_rates(&self, change: &FootprintChange) -> ImposedRates {
+    /// The rates of the sums of the same tractions and of the imposed displacements: differences of explicit functions of the mesh.
+    fn imposed_rates(
+        &self,
+        change: &FootprintChange,
+        motion: &MeshMotion,
+    ) -> (RowReactions, Tractions) {
         let mut sums = self.mesh.sums(self.footprint, &self.tractions) * 0.0;
-        let mut displacements = self.mesh.displacements().map(|zero| zero * 0.0);
-        let mut motion = Motion::of(&self.mesh, change.poisson_ratio);
-        let Stencil { weights, step } = Stencil::of(self.footprint, change);
-        for &(place, weight) in weights {
-            let Some(footprint) = self.footprint.moved(change, place * step) else { continue };
-            let (mesh, weight) =
-                (Mesh::row(&footprint, self.mesh.neighbours.len(), self.n), weight / step);
+        let mut displacements = self.tractions.zeros();
+        let relative = (change.gap_over_a / self.footprint.gap_over_a()).abs();
+        let relative = relative.max((change.width_over_a / self.footprint.width_over_a()).abs());
+        if relative == 0.0 {
+            return (sums, displacements);
+        }
+        let step = STEP / relative;
+        for by in [-step, step] {
+            let Some(footprint) = self.footprint.moved(change, by) else { continue };
+            let (mesh, weight) = (self.mesh.moved(motion, by), 0.5 / by);
             sums += mesh.sums(&footprint, &self.tractions) * weight;
             let there = mesh.displacements();
+            let there = if self.has_moments() { there } else { there.without_moments() };
             displacements.shear += weight * there.shear;
             displacements.normal += weight * there.normal;
             displacements.rotation += weight * there.rotation;
-            motion.add(&mesh, weight);
         }
-        ImposedRates { sums, displacements, motion }
+        (sums, displacements)
     }
-}
 
-/// The rates of what a footprint imposes on given tractions.
-struct ImposedRates {
-    sums: RowReactions,
-    displacements: Tractions,
-    motion: Motion,
-}
-
-/// How a derivative with respect to the mesh is taken.
-struct Stencil {
-    weights: &'static [(f64, f64)],
-    step: f64,
-}
-
-impl Stencil {
-    fn of(footprint: &Footprint, change: &FootprintChange) -> Self {
-        let relative = (change.gap_over_a / footprint.gap_over_a()).abs();
-        let relative = relative.max((change.width_over_a / footprint.width_over_a()).abs());
-        let weights: &[_] = match relative {
-            0.0 => &[],
-            _ if footprint.is_tied() => &FORWARD,
-            _ => &CENTRAL,
-        };
-        Self { weights, step: STEP / relative }
+    fn has_moments(&self) -> bool {
+        self.tractions.rotation.ncols() > 1
     }
 }
 
 impl Footprint {
-    /// Whether lengths that grade the mesh are equal: where one takes the place of another as the smaller, the numerical
-    /// reactions have a kink.
-    pub fn is_tied(&self) -> bool {
-        let [gap, width] = [self.gap_over_a(), self.width_over_a()];
-        let tied = |a: f64, b: f64| (a - b).abs() <= TIED * a;
-        tied(width, 2.0) || tied(gap, width.min(2.0))
-    }
-
     /// The footprint with other lengths, as far as there is one.
     fn moved(&self, change: &FootprintChange, distance: f64) -> Option<Self> {
         let gap = self.gap_over_a() + distance * change.gap_over_a;

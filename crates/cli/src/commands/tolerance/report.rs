@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use ranking::Requirement;
 use results::MEASURE_TABLES;
-use results::columns::physical_source;
+use results::columns::measure_name;
 use sweep::Sweep;
 use tolerance::{DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled};
 
@@ -52,7 +52,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
 
 /// Whether people see a measure: what the tables are about, in all units, and what is required.
 pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
-    let measure = physical_source(name).map_or(name, |(measure, _)| measure);
+    let measure = measure_name(name);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
     leads || requirements.iter().any(|requirement| requirement.column == name)
 }

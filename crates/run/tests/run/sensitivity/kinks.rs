@@ -14,16 +14,16 @@ fn compare_sides(case: &Case) -> Vec<ParameterDerivative> {
     let mut kinks = derivatives(case);
     kinks.retain(|derivative| derivative.kink.is_some());
     for derivative in &kinks {
-        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let parameter = Parameter::named(derivative.parameter).unwrap();
         let size = parameter.size(case).unwrap();
         for (side, ours) in [(-size, derivative.left), (size, derivative.right)] {
-            let jumps = ["max_stiffness", "compliance"].contains(&derivative.measure.as_str());
+            let jumps = ["max_stiffness", "compliance"].contains(&derivative.measure);
             let Some(ours) = ours else {
                 assert!(jumps, "no derivative: {derivative:?}");
                 continue;
             };
             let along = [(parameter, side)];
-            let off = differences.off_one_sided(&derivative.measure, &along, ours * side);
+            let off = differences.off_one_sided(derivative.measure, &along, ours * side);
             assert!(off.unwrap() <= TOLERANCE, "{off:?} {side} {derivative:?} {case:?}");
         }
     }
@@ -108,15 +108,15 @@ fn at_the_end_of_a_range_derivatives_are_those_of_the_side_that_exists() {
     let differences = Differences::of(&case);
     let mut compared = 0;
     for derivative in derivatives(&case) {
-        let side = match derivative.parameter.as_str() {
+        let side = match derivative.parameter {
             "slant_deg" => 1.0,
             "poisson_ratio" | "load_position" => -1.0,
             _ => continue,
         };
         let Some(ours) = derivative.derivative() else { continue };
-        let parameter = Parameter::named(&derivative.parameter).unwrap();
+        let parameter = Parameter::named(derivative.parameter).unwrap();
         let along = [(parameter, side)];
-        let Some(off) = differences.off_one_sided(&derivative.measure, &along, ours * side) else {
+        let Some(off) = differences.off_one_sided(derivative.measure, &along, ours * side) else {
             continue;
         };
         assert!(off <= TOLERANCE, "{off} {derivative:?}");
