@@ -44,8 +44,6 @@ pub struct FittestDesign {
     pub found: String,
     /// Its fitness, in which the best of the grid is 1 in every criterion.
     pub found_fitness: f64,
-    /// The number of designs that the search solved.
-    pub solved: usize,
 }
 
 /// A front over the designs of the grid.
@@ -59,8 +57,6 @@ pub struct FrontOverGrid {
     pub grid_front: usize,
     /// Designs of the grid that no design of the front equals or beats in both.
     pub undominated: usize,
-    /// The number of designs that the search solved.
-    pub solved: usize,
 }
 
 impl BetweenPoints {
@@ -89,16 +85,16 @@ impl BetweenPoints {
             "## Between the grid points\n\n\
              The fittest design (Eq. 7) of the 720 whose surface does not fold and that cover, and what `squama optimise` finds in the same box of gap, aspect ratio \
              and slant. Criteria are rescaled between the worst and the best of those designs, so more than 1 is better than any of them. Designs are `(d/t, L/t, slant)`.\n\n\
-             | Weights | Best of the grid | Fitness | Found between its points | Fitness | Gain | Designs solved |\n|---|---|--:|---|--:|--:|--:|\n",
+             | Weights | Best of the grid | Fitness | Found between its points | Fitness | Gain |\n|---|---|--:|---|--:|--:|\n",
         );
         for row in &self.fittest {
             let _ = writeln!(text, "{}", row.row());
         }
-        let FrontOverGrid { designs, grid, grid_front, undominated, solved } = self.front;
+        let FrontOverGrid { designs, grid, grid_front, undominated } = self.front;
         let _ = writeln!(
             text,
-            "\nThe front of critical force and coverage with a compliance of at least {LEAST_COMPLIANCE} has {designs} designs, for which {solved} were solved. Of the {grid} designs of the grid that \
-             do not fold and bend so well, of which {grid_front} are beaten by no other of them, it equals or beats all but {undominated}."
+            "\nThe front of critical force and coverage with a compliance of at least {LEAST_COMPLIANCE} has {designs} designs. Of the {grid} designs of the grid that \
+             do not fold and bend so well, of which {grid_front} are beaten by no other of them, {undominated} are neither equalled nor beaten by one of it."
         );
         text
     }
@@ -113,14 +109,13 @@ impl FittestDesign {
     /// Returns the row of the table in Markdown.
     fn row(&self) -> String {
         format!(
-            "| {} | {} | {} | {} | {} | {:+.1} % | {} |",
+            "| {} | {} | {} | {} | {} | {:+.1} % |",
             self.weights,
             self.on_grid,
             digits(self.grid_fitness),
             self.found,
             digits(self.found_fitness),
-            100.0 * self.gain() + 0.0,
-            self.solved
+            100.0 * self.gain() + 0.0
         )
     }
 }
@@ -141,7 +136,6 @@ impl FrontOverGrid {
             grid: grid.len(),
             grid_front: grid.iter().filter(|a| !beaten(a)).count(),
             undominated: grid.iter().filter(|a| !reached(a)).count(),
-            solved: found.evaluations,
         })
     }
 }
@@ -209,7 +203,6 @@ fn fittest(
         grid_fitness,
         found: format!("({gap}, {length}, {slant}°)"),
         found_fitness: worth.objectives[0],
-        solved: found.evaluations,
     })
 }
 

@@ -65,8 +65,8 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// Where the model holds, and the claims on a substrate that cannot fold.
     pub soundness: Soundness,
-    /// The best designs between the points of the grid.
-    pub between: BetweenPoints,
+    /// The best designs between the points of the grid, if they were searched for.
+    pub between: Option<BetweenPoints>,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
     pub gap_counts: Vec<GapCount>,
     /// The main results for each value of each open choice.
@@ -87,14 +87,17 @@ pub struct PartProgress<'a> {
 }
 
 impl Validation {
-    /// Carries out all parts; `progress` is called when a part begins.
+    /// Carries out all parts, the `searches` between the grid points if they are asked for; `progress` is called when a part begins.
     ///
     /// # Errors
     /// If a benchmark has no result or the temporary folder cannot be written.
-    pub fn run(mut progress: impl FnMut(PartProgress<'_>)) -> Result<Self, ValidationError> {
+    pub fn run(
+        searches: bool,
+        mut progress: impl FnMut(PartProgress<'_>),
+    ) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
         // Benchmarks, two sweeps on two substrates, claims, searches, strips of equal gaps, and a part for each setting.
-        let parts = 4 + 2 * SWEEPS.len() + settings.len();
+        let parts = 3 + usize::from(searches) + 2 * SWEEPS.len() + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
             progress(PartProgress { done, parts, part });
@@ -112,8 +115,11 @@ impl Validation {
         let (linear, neo_hookean) = ([&paper, &as_written], [&other_paper, &other_as_written]);
         let (claims, others) = (claims::check(linear)?, claims::check(neo_hookean)?);
         let soundness = Soundness::of(linear, neo_hookean, [&claims, &others]);
-        begin("between the grid points");
-        let between = BetweenPoints::of(&paper)?;
+        let between = searches.then(|| {
+            begin("between the grid points");
+            BetweenPoints::of(&paper)
+        });
+        let between = between.transpose()?;
         begin("strips of equal gaps");
         let gap_counts = GapCount::all()?;
         let (sensitivity, coupling) =

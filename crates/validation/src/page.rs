@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::{
-    Benchmark, CheckedClaim, CheckedStatement, Claim, CouplingEffect, GapCount, Headlines,
-    Sensitivity, Validation, Verdict,
+    Benchmark, BetweenPoints, CheckedClaim, CheckedStatement, Claim, CouplingEffect, GapCount,
+    Headlines, Sensitivity, Validation, Verdict,
 };
 
 /// The rules by which claims are judged, as the page states them.
@@ -35,11 +35,12 @@ impl Validation {
             self.benchmark_section(),
             self.claim_section(),
             self.soundness.section(),
-            self.between.section(),
             GapCount::section(&self.gap_counts),
             self.sensitivity_section(),
             self.coupling_section(),
         ];
+        let between = self.between.iter().map(BetweenPoints::section);
+        let sections: Vec<String> = sections.into_iter().chain(between).collect();
         page.push_str(&sections.join("\n"));
         page
     }

@@ -27,7 +27,7 @@ pub fn validate(arguments: &args::ValidateArguments) -> anyhow::Result<u8> {
     require_folder_of("--out", out)?;
     let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    let validation = with_bar(|progress| Validation::run(progress))?;
+    let validation = with_bar(|progress| Validation::run(!arguments.quick, progress))?;
     let page = validation.page();
     results::write_text(folder, &name.to_string_lossy(), &page)?;
     print(&page)?;
