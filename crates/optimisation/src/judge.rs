@@ -39,6 +39,15 @@ pub struct Worth {
     pub met: bool,
 }
 
+impl Worth {
+    /// The columns of the objectives of `goal`, then of its requirements, each with the value of the design.
+    pub fn values<'a>(&'a self, goal: &'a DesignGoal) -> impl Iterator<Item = (&'a str, f64)> {
+        let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
+        let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
+        columns.zip(self.objectives.iter().chain(&self.required).copied())
+    }
+}
+
 /// A requirement with its column.
 struct RequiredColumn {
     requirement: Requirement,

@@ -174,10 +174,7 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
 /// The value that a design is judged by in a column of the goal.
 fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
     let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
-    let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
-    let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
-    let values = worth.objectives.iter().chain(&worth.required);
-    columns.zip(values).find(|(name, _)| *name == column).map(|(_, value)| *value).into()
+    worth.values(goal).find(|(name, _)| *name == column).map(|(_, value)| value).into()
 }
 
 fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {

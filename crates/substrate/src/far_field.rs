@@ -30,7 +30,7 @@ use crate::RowStiffness;
 pub struct FarField {
     /// By how much the row takes the stiffness of the scales at the end down, entry by entry.
     pub relief: Vec<Relief>,
-    motion: Motion,
+    motion: FreeMotion,
 }
 
 /// An entry of the stiffness that free scales take from those at whose end they stand; in the units of [`RowStiffness`].
@@ -46,7 +46,7 @@ pub struct Relief {
 
 /// How the scales beyond follow those at the end.
 #[derive(Clone, Debug, PartialEq)]
-enum Motion {
+enum FreeMotion {
     /// With the decay `r` of each direction; of a row that ends, the number of scales beyond.
     Chain([f64; 3], Option<usize>),
     Coupled(CoupledRow),
@@ -56,19 +56,19 @@ impl FarField {
     /// Displacements of the first `count` scales beyond, by those of the scales at the end.
     pub fn displacements(&self, end: impl Fn(usize) -> [f64; 3], count: usize) -> Vec<[f64; 3]> {
         match &self.motion {
-            Motion::Chain(..) => (1..=count).map(|k| self.displacement(&end, k)).collect(),
-            Motion::Coupled(row) => row.displacements(end, count),
+            FreeMotion::Chain(..) => (1..=count).map(|k| self.displacement(&end, k)).collect(),
+            FreeMotion::Coupled(row) => row.displacements(end, count),
         }
     }
 
     /// Displacements of the scale `distance > 0` places beyond the end.
     pub fn displacement(&self, end: impl Fn(usize) -> [f64; 3], distance: usize) -> [f64; 3] {
         match &self.motion {
-            Motion::Chain(decay, scales) => {
+            FreeMotion::Chain(decay, scales) => {
                 let end = end(0);
                 std::array::from_fn(|k| decayed(decay[k], *scales, distance) * end[k])
             }
-            Motion::Coupled(row) => row.displacements(end, distance).pop().unwrap_or_default(),
+            FreeMotion::Coupled(row) => row.displacements(end, distance).pop().unwrap_or_default(),
         }
     }
 }
@@ -107,12 +107,12 @@ impl RowStiffness {
             displacement: [0, k],
             value: beta[k] * decayed(decay[k], scales, 1),
         });
-        Some(FarField { relief: relief.collect(), motion: Motion::Chain(decay, scales) })
+        Some(FarField { relief: relief.collect(), motion: FreeMotion::Chain(decay, scales) })
     }
 
     /// The far field of an endless row in which scales feel several neighbours.
     fn coupled(&self) -> Option<FarField> {
         let (row, relief) = CoupledRow::endless(self)?;
-        Some(FarField { relief, motion: Motion::Coupled(row) })
+        Some(FarField { relief, motion: FreeMotion::Coupled(row) })
     }
 }

@@ -4,7 +4,7 @@ use results::columns::measure_name;
 use results::{Column, DesignRow, ParameterDerivative, SlopeSide};
 use sweep::{BatchDeviation, Case, Deviation, Parameter};
 
-use crate::moments::Slopes;
+use crate::moments::DeviationSlopes;
 
 /// Part of a standard deviation over which slopes are taken.
 const STEP: f64 = 1e-5;
@@ -74,14 +74,14 @@ impl Gradients<'_> {
         column: &Column<DesignRow>,
         deviation: &Deviation,
         batch: BatchDeviation,
-    ) -> Option<Slopes> {
+    ) -> Option<DeviationSlopes> {
         let case = &self.design.case;
         let step = STEP * batch.standard_deviation();
         let value =
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
         let here = value(case)?;
         let slope = |by: f64| Some((value(&deviation.moved(case, by)?)? - here) / by);
-        Some(Slopes { left: slope(-step)?, right: slope(step)? })
+        Some(DeviationSlopes { left: slope(-step)?, right: slope(step)? })
     }
 
     /// The parameters that differ from scale to scale, with their standard deviations.
@@ -104,8 +104,10 @@ impl Gradients<'_> {
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);
         let variance = |derivative: &ParameterDerivative| {
-            let slopes =
-                Slopes { left: factor * derivative.left?, right: factor * derivative.right? };
+            let slopes = DeviationSlopes {
+                left: factor * derivative.left?,
+                right: factor * derivative.right?,
+            };
             Some(slopes.variance(BatchDeviation::Normal(sd)))
         };
         of_measure.map(variance).sum()

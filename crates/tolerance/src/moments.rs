@@ -4,12 +4,12 @@ use sweep::BatchDeviation;
 
 /// The slopes of a measure where a deviation is negative and where it is positive; equal but at a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Slopes {
+pub(crate) struct DeviationSlopes {
     pub(crate) left: f64,
     pub(crate) right: f64,
 }
 
-impl Slopes {
+impl DeviationSlopes {
     /// The variance of a measure with these slopes under a `deviation` of mean 0 (T2).
     pub(crate) fn variance(self, deviation: BatchDeviation) -> f64 {
         let squares = self.left.powi(2) + self.right.powi(2);
@@ -30,7 +30,7 @@ mod tests {
 
     #[test]
     fn a_smooth_measure_spreads_by_slope_times_deviation() {
-        let slopes = Slopes { left: -3.0, right: -3.0 };
+        let slopes = DeviationSlopes { left: -3.0, right: -3.0 };
         for deviation in [BatchDeviation::Normal(0.2), BatchDeviation::Uniform(0.2)] {
             let expected = 9.0 * deviation.standard_deviation().powi(2);
             assert!((slopes.variance(deviation) - expected).abs() < 1e-15);
@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn a_kink_has_the_moments_of_the_folded_distribution() {
-        let slopes = Slopes { left: -1.0, right: 1.0 };
+        let slopes = DeviationSlopes { left: -1.0, right: 1.0 };
         // |z|: 1 − 2/π, and w²/3 − w²/4.
         let normal = slopes.variance(BatchDeviation::Normal(1.0));
         assert!((normal - (1.0 - 2.0 / std::f64::consts::PI)).abs() < 1e-15);

@@ -20,7 +20,7 @@ pub enum SlopeSide {
 }
 
 /// A parameter that is larger `by` so much.
-struct ParameterChange<'p> {
+struct MovedParameter<'p> {
     parameter: &'p Parameter,
     by: f64,
 }
@@ -39,10 +39,10 @@ impl DesignRow {
     /// As [`Self::extrapolated`], of the case whose `parameter` is larger `by` so much; `None` if the parameter is no number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
-        Some(self.changed(&to, &[ParameterChange { parameter, by }], side))
+        Some(self.changed(&to, &[MovedParameter { parameter, by }], side))
     }
 
-    fn changed(&self, to: &Case, changes: &[ParameterChange<'_>], side: SlopeSide) -> Self {
+    fn changed(&self, to: &Case, changes: &[MovedParameter<'_>], side: SlopeSide) -> Self {
         let mut row = Self { case: *to, result: self.result.without_dependents(changes), ..*self };
         let derivatives = &self.result.sensitivity;
         for of_measure in derivatives.chunk_by(|one, next| one.measure == next.measure) {
@@ -62,10 +62,10 @@ impl DesignRow {
 }
 
 /// The parameters that differ between two cases.
-fn changes(from: &Case, to: &Case) -> Vec<ParameterChange<'static>> {
+fn changes(from: &Case, to: &Case) -> Vec<MovedParameter<'static>> {
     let change = |parameter: &'static Parameter| {
         let by = parameter.get(to).number()? - parameter.get(from).number()?;
-        (by != 0.0).then_some(ParameterChange { parameter, by })
+        (by != 0.0).then_some(MovedParameter { parameter, by })
     };
     PARAMETERS.iter().filter_map(change).collect()
 }
@@ -73,10 +73,10 @@ fn changes(from: &Case, to: &Case) -> Vec<ParameterChange<'static>> {
 /// A measure that has these derivatives.
 fn extrapolated(
     derivatives: &[ParameterDerivative],
-    changes: &[ParameterChange<'_>],
+    changes: &[MovedParameter<'_>],
     side: SlopeSide,
 ) -> Option<f64> {
-    let part = |ParameterChange { parameter, by }: &ParameterChange<'_>| {
+    let part = |MovedParameter { parameter, by }: &MovedParameter<'_>| {
         let derivative = derivatives.iter().find(|d| d.parameter == parameter.key);
         derivative.map_or(Some(0.0), |derivative| Some(by * side.of(derivative, *by)?))
     };
@@ -94,7 +94,7 @@ impl SlopeSide {
 
 impl DesignResult {
     /// The result without the values that depend on what changes.
-    fn without_dependents(&self, changes: &[ParameterChange<'_>]) -> Self {
+    fn without_dependents(&self, changes: &[MovedParameter<'_>]) -> Self {
         let depends = |measure: Measure| {
             let sections = measure.sections();
             changes.iter().any(|change| sections.contains(&change.parameter.section))

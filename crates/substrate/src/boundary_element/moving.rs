@@ -255,7 +255,7 @@ struct PointPlace {
 
 /// Contributions of a block of corners, differentiated with respect to `X`, `Z`, `κ` (S15).
 #[derive(Clone, Copy, Default)]
-struct Slopes {
+struct CornerSlopes {
     normal_by_x: Block,
     normal_by_z: Block,
     shear_by_x: Block,
@@ -270,7 +270,7 @@ struct Line {
     /// `Z` and `ln|Z|` of each corner.
     z: Vec<Block>,
     ln: Vec<Block>,
-    slopes: Vec<Slopes>,
+    slopes: Vec<CornerSlopes>,
 }
 
 impl Line {
@@ -293,7 +293,7 @@ impl Line {
     }
 }
 
-impl Slopes {
+impl CornerSlopes {
     /// Looks at the corners of a vector.
     #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
     #[inline(always)]
@@ -342,7 +342,7 @@ impl<'a> Moving<'a> {
         tractions: &Tractions,
     ) -> Self {
         let corners = 2 * mesh.depth.cells() + 1;
-        let slopes = vec![Slopes::default(); corners.div_ceil(CORNERS)];
+        let slopes = vec![CornerSlopes::default(); corners.div_ceil(CORNERS)];
         let weights = tractions.weights(mesh, motions);
         let by_ratio = (1.0 - poisson_ratio).powi(-2);
         Self {
@@ -411,13 +411,13 @@ impl Weights {
     fn add_line<'s>(
         &self,
         place: &LinePlace,
-        slopes: &'s [Slopes],
+        slopes: &'s [CornerSlopes],
         [across, deeper, softer]: [&[f64]; 3],
         sums: &mut [Lanes],
     ) {
         let LineWeights { weights, moved } = &self.lines[place.number];
         let is_shear = self.is_shear;
-        let along_z = |s: &'s Slopes| if is_shear { &s.shear_by_z } else { &s.normal_by_z };
+        let along_z = |s: &'s CornerSlopes| if is_shear { &s.shear_by_z } else { &s.normal_by_z };
         let by_x = dot(weights, slopes, |s| if is_shear { &s.shear_by_x } else { &s.normal_by_x });
         let by_depth = dot(weights, slopes, along_z);
         let by_softness =
@@ -438,7 +438,11 @@ impl Weights {
 /// The scalar product of weights and numbers of the corners, in parts that add up.
 #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
 #[inline(always)]
-fn dot<'s>(weights: &[Block], slopes: &'s [Slopes], of: impl Fn(&'s Slopes) -> &'s Block) -> Lanes {
+fn dot<'s>(
+    weights: &[Block],
+    slopes: &'s [CornerSlopes],
+    of: impl Fn(&'s CornerSlopes) -> &'s Block,
+) -> Lanes {
     let mut sums = [0.0; LANES];
     for (weights, slopes) in weights.iter().zip(slopes) {
         for (weights, slopes) in weights.iter().zip(of(slopes)) {

@@ -89,14 +89,11 @@ impl SearchReport<'_> {
     /// Objectives and required columns, each once.
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
-        let objectives = self.goal.objectives.iter().map(|o| o.column.to_string());
-        let required = self.goal.requirements.iter().map(|r| r.column.clone());
-        let values = worth.objectives.iter().chain(&worth.required);
         let mut rows: Vec<[String; 2]> = Vec::new();
-        for (column, value) in objectives.chain(required).zip(values) {
+        for (column, value) in worth.values(self.goal) {
             let is_variable = self.goal.space.parameters().any(|p| p.key == column);
             if !is_variable && !rows.iter().any(|[known, _]| *known == column) {
-                rows.push([column, digits(*value)]);
+                rows.push([column.to_owned(), digits(value)]);
             }
         }
         self.add_criteria(best, &mut rows);
