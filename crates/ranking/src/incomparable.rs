@@ -166,7 +166,8 @@ fn values(
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let mut values: Vec<f64> = Vec::new();
     for row in 0..results.len() {
-        let Some(value) = results.number(row, column)? else { continue };
+        // A friction may be the word for none.
+        let Ok(Some(value)) = results.number(row, column) else { continue };
         if !values.contains(&value) && filter.first_unmet(row)?.is_none() {
             values.push(value);
         }
