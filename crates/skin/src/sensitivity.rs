@@ -42,10 +42,26 @@ pub struct Derivative {
 }
 
 /// The derivatives of a measure on both sides of a parameter; `right` is the other but at a kink.
-struct SidedDerivative {
-    left: Option<f64>,
-    right: Option<f64>,
-    kink: Option<String>,
+pub(crate) struct SidedDerivative {
+    pub(crate) left: Option<f64>,
+    pub(crate) right: Option<f64>,
+    pub(crate) kink: Option<String>,
+}
+
+impl SidedDerivative {
+    /// The derivatives of a measure of this `value` by differences over twice the `step`. Those that are alike but for round-off are one.
+    pub(crate) fn new(
+        [left, right]: [Option<f64>; 2],
+        value: f64,
+        step: f64,
+        kink: impl FnOnce() -> String,
+    ) -> Self {
+        let smooth = left.zip(right).is_some_and(|(left, right)| {
+            let round_off = ROUND_OFF * value.abs() / step;
+            (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
+        });
+        Self { left, right: if smooth { left } else { right }, kink: (!smooth).then(kink) }
+    }
 }
 
 /// A quantity of an equilibrium, which may be the largest of one for each scale.
@@ -69,6 +85,9 @@ pub(crate) struct MeasuredPoint<S: Skin> {
 /// One-sided derivatives that differ by less than this part belong to a smooth measure.
 const SMOOTH: f64 = 1e-9;
 
+/// Round-off of a measure, as a part of its value.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
+
 /// Contacts that change within the step of a difference, one after the other, are at most so many.
 const MOST_CHANGES: usize = 8;
 
@@ -90,7 +109,8 @@ pub(crate) fn derivatives<S: Skin>(
         for quantity in &quantities {
             let value = quantity.value_at(system, linearised.here.place());
             let of = |(parameter, (sides, variation))| {
-                let SidedDerivative { left, right, kink } = quantity.derivative(variation, sides);
+                let derivative = quantity.derivative(value, variation, sides);
+                let SidedDerivative { left, right, kink } = derivative;
                 Derivative { measure: quantity.measure, parameter, value, left, right, kink }
             };
             derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
@@ -201,9 +221,10 @@ impl<S: Skin> MeasuredQuantity<S> {
         (self.value)(system, &place.state, &place.direction, scale)
     }
 
-    /// The derivatives on both sides of a parameter.
+    /// The derivatives on both sides of a parameter, at a place with this `value`.
     fn derivative(
         &self,
+        value: f64,
         variation: &Variation<S>,
         (left, right): &BothSides<S>,
     ) -> SidedDerivative {
@@ -223,13 +244,8 @@ impl<S: Skin> MeasuredQuantity<S> {
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
         let jumps = self.turns && named.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
-        let [left, right] = [left_rate, right_rate].map(known);
-        let smooth = left.zip(right).is_some_and(|(left, right)| {
-            (left - right).abs() <= SMOOTH * left.abs().max(right.abs())
-        });
-        let kink = (!smooth).then(kink);
-        let right = if smooth { left } else { right };
-        SidedDerivative { left, right, kink }
+        let rates = [left_rate, right_rate].map(known);
+        SidedDerivative::new(rates, value, variation.neighbours.step, kink)
     }
 
     /// The derivative on one side. The scale is the one that is the largest there.
