@@ -13,7 +13,7 @@ use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::Skin;
 
-pub(crate) use places::{end, first_contact, is_held, rest, summit};
+pub(crate) use places::{end, first_contact, is_held, rest, summit, turn};
 
 /// A problem for values of a parameter near its own.
 #[derive(Clone, Debug)]
@@ -42,10 +42,26 @@ pub struct Derivative {
 }
 
 /// The derivatives of a measure on both sides of a parameter; `right` is the other but at a kink.
-struct SidedDerivative {
-    left: Option<f64>,
-    right: Option<f64>,
-    kink: Option<String>,
+pub(crate) struct SidedDerivative {
+    pub(crate) left: Option<f64>,
+    pub(crate) right: Option<f64>,
+    pub(crate) kink: Option<String>,
+}
+
+impl SidedDerivative {
+    /// The derivatives of a measure of this `value` by differences over twice the `step`. Those that are alike but for round-off are one.
+    pub(crate) fn new(
+        [left, right]: [Option<f64>; 2],
+        value: f64,
+        step: f64,
+        kink: impl FnOnce() -> String,
+    ) -> Self {
+        let smooth = left.zip(right).is_some_and(|(left, right)| {
+            let round_off = ROUND_OFF * value.abs() / step;
+            (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
+        });
+        Self { left, right: if smooth { left } else { right }, kink: (!smooth).then(kink) }
+    }
 }
 
 /// A quantity of an equilibrium, which may be the largest or the least of several.
@@ -90,7 +106,7 @@ const SMOOTH: f64 = 1e-9;
 /// millionths of a parameter.
 const NEAR: f64 = 1e-3;
 
-/// Round-off of a value, relative to it.
+/// Round-off of a measure, as a part of its value.
 const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// Contacts that change within the step of a difference, one after the other, are at most so many.
@@ -115,8 +131,8 @@ pub(crate) fn derivatives<S: Skin>(
             let candidates = quantity.value_at(system, linearised.here.place());
             let value = candidates.value;
             let of = |(parameter, (sides, variation))| {
-                let SidedDerivative { left, right, kink } =
-                    quantity.derivative(variation, sides, &candidates);
+                let derivative = quantity.derivative(variation, sides, &candidates);
+                let SidedDerivative { left, right, kink } = derivative;
                 Derivative { measure: quantity.measure, parameter, value, left, right, kink }
             };
             derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
@@ -263,14 +279,8 @@ impl<S: Skin> MeasuredQuantity<S> {
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
         let jumps = self.turns && named.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
-        let [left, right] = [left_rate, right_rate].map(known);
-        let round_off = ROUND_OFF * value.abs() / variation.neighbours.step;
-        let smooth = left.zip(right).is_some_and(|(left, right)| {
-            (left - right).abs() <= round_off.max(SMOOTH * left.abs().max(right.abs()))
-        });
-        let kink = (!smooth).then(kink);
-        let right = if smooth { left } else { right };
-        SidedDerivative { left, right, kink }
+        let rates = [left_rate, right_rate].map(known);
+        SidedDerivative::new(rates, *value, variation.neighbours.step, kink)
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.

@@ -6,10 +6,11 @@ use solver::{AnchoredPoint, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
-use super::system::{Chain, Layout};
+use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
+use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{PathFunction, Record, Skin};
+use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
     self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
     first_contact, rest,
@@ -62,8 +63,8 @@ impl Problem<'_> {
         followed: &mut Followed,
         variations: &[Variation<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let Followed { record, folds, path, .. } = followed;
-        let spots = self.spots(record, path, folds);
+        let Followed { watch, path, .. } = followed;
+        let spots = self.spots(watch, path);
         let system = path.system();
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
@@ -74,9 +75,8 @@ impl Problem<'_> {
     /// The places of the path at which measures are taken.
     fn spots(
         &self,
-        record: &Record<Chain>,
+        PathWatch { record, needle, folds: FoldWatch { folds, first }, .. }: &PathWatch,
         path: &mut Path<Chain>,
-        FoldWatch { folds, first }: &FoldWatch,
     ) -> Vec<MeasuredPoint<Chain>> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
@@ -85,9 +85,12 @@ impl Problem<'_> {
         let highest = record.highest_point(LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
-        let is_held = |place| sensitivity::is_held(path.system(), place);
-        let at_peak = at_peak(highest.as_ref().is_some_and(is_held));
         let chain = path.system();
+        let peak = highest.as_ref().map(|place| chain.extremum(place));
+        let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
+        let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
+        let depth_limit = needle.depth_limit.as_ref();
+        let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
         let touching = record.touching().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
@@ -96,7 +99,10 @@ impl Problem<'_> {
         vec![
             spot(Some(end(path)), end_quantities),
             spot(folded, fold_quantities),
-            spot(highest, at_peak),
+            spot(highest, vec![force("peak_force")]),
+            at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
+            at_turn(load_limit, [force("load_stability_force")]),
+            at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
             spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
             spot(stiffest, vec![stiffness("max_stiffness")]),
@@ -116,6 +122,18 @@ impl PunctureInput {
 }
 
 impl Chain {
+    /// The place of the largest load: held by that where nothing else holds it.
+    fn extremum(
+        &self,
+        place: &AnchoredPoint<Vec<CornerContact>>,
+    ) -> AnchoredPoint<Vec<CornerContact>> {
+        let anchor = match sensitivity::is_held(self, place) {
+            true => place.anchor,
+            false => PathAnchor::Stationary(LOAD_RATE),
+        };
+        AnchoredPoint { anchor, ..place.clone() }
+    }
+
     /// The equilibrium at which a gap vanishes.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<Vec<CornerContact>> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
@@ -127,13 +145,15 @@ impl Chain {
     }
 }
 
-/// The quantities at the largest force, those besides it only where its place is known to first order.
-fn at_peak(with_place: bool) -> Vec<MeasuredQuantity<Chain>> {
-    let mut quantities = vec![force("peak_force")];
-    if with_place {
-        quantities.extend([depth("peak_displacement"), tilt("peak_tilt_deg")]);
-    }
-    quantities
+/// Quantities at a place. Where load or depth turns back smoothly, the direction of the path tells the place.
+fn at_turn<const N: usize>(
+    place: Option<AnchoredPoint<Vec<CornerContact>>>,
+    quantities: [MeasuredQuantity<Chain>; N],
+) -> MeasuredPoint<Chain> {
+    let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
+    let quantities = quantities.into_iter();
+    let quantities = quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }).collect();
+    MeasuredPoint { place, quantities }
 }
 
 /// The quantities at the critical tilt and at the first fold. The model can answer for the force at that of the two that comes first.
