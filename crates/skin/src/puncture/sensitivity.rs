@@ -12,8 +12,8 @@ use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
-    rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
+    first_contact, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -167,48 +167,43 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
+    // Beyond the last gap there are those that are not solved for, as one.
+    let scales = |chain: &Chain| chain.layout.scales();
     vec![
         force("critical_force"),
         depth("critical_displacement"),
         MeasuredQuantity {
-            largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
+            extreme: Extreme::Largest(scales),
             ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
         },
         MeasuredQuantity {
-            largest: Some(|chain, state| largest(chain, |i| sink(chain, state, i))),
-            ..quantity("sink", |chain, state, _, i| sink(chain, state, i))
+            extreme: Extreme::Largest(scales),
+            ..quantity("sink", |chain, state, _, i| -chain.displacement(&state.z, i)[1])
         },
         quantity("secant_stiffness", |chain, state, _, _| {
             chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
         }),
         MeasuredQuantity {
-            largest: Some(|chain, state| extreme(chain, state, -1.0)),
-            ..quantity("gap_stretch_min", |chain, state, _, pair| stretch(chain, state, pair, -1.0))
+            extreme: Extreme::Least(scales),
+            ..quantity("gap_stretch_min", |chain, state, _, gap| {
+                stretch(chain, state, gap, f64::min)
+            })
         },
         MeasuredQuantity {
-            largest: Some(|chain, state| extreme(chain, state, 1.0)),
-            ..quantity("gap_stretch_max", |chain, state, _, pair| stretch(chain, state, pair, 1.0))
+            extreme: Extreme::Largest(scales),
+            ..quantity("gap_stretch_max", |chain, state, _, gap| {
+                stretch(chain, state, gap, f64::max)
+            })
         },
     ]
 }
 
-/// The pair whose gap is stretched most, or least with the `sign` −1. Beyond the last pair there are those that are not solved for.
-fn extreme(chain: &Chain, state: &SkinState, sign: f64) -> usize {
-    let pairs = chain.layout.scales() - 1;
-    let within = (0..pairs).map(|pair| sign * chain.gap_stretch(state, pair));
-    let beyond = sign * stretch(chain, state, pairs, sign);
-    let is_beyond = |within: f64| within < beyond;
-    largest_of(within).filter(|(_, within)| !is_beyond(*within)).map_or(pairs, |(pair, _)| pair)
-}
-
-/// The stretch of the gap of a pair, or the largest or least of those that are not solved for.
-fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
-    if pair < chain.layout.scales() - 1 {
-        return chain.gap_stretch(state, pair);
+/// The stretch of a gap, or, beyond the last one, the outer of those that are not solved for; no number, if there are none.
+fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
+    if gap < chain.layout.scales() - 1 {
+        return chain.gap_stretch(state, gap);
     }
-    let beyond = chain.stretches_beyond(&state.z).into_iter();
-    let beyond = largest_of(beyond.map(|stretch| sign * stretch));
-    beyond.map_or(f64::NAN, |(_, stretch)| sign * stretch)
+    chain.stretches_beyond(&state.z).into_iter().reduce(outer).unwrap_or(f64::NAN)
 }
 
 fn force(measure: &'static str) -> MeasuredQuantity<Chain> {
@@ -219,7 +214,7 @@ fn quantity(
     measure: &'static str,
     value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
 ) -> MeasuredQuantity<Chain> {
-    MeasuredQuantity { measure, value, largest: None, turns: false }
+    MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false }
 }
 
 fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {
@@ -231,18 +226,4 @@ fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
         chain.plane_modulus * chain.stiffness(state, direction)
     };
     MeasuredQuantity { turns: true, ..quantity(measure, value) }
-}
-
-fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {
-    -chain.displacement(&state.z, scale)[1]
-}
-
-/// The scale for which a number is the largest.
-fn largest(chain: &Chain, f: impl Fn(usize) -> f64) -> usize {
-    largest_of((0..chain.layout.scales()).map(f)).map_or(0, |(scale, _)| scale)
-}
-
-/// The largest of some numbers, the last of equal ones, and its position; `None` of none.
-fn largest_of(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
-    numbers.enumerate().reduce(|largest, next| if next.1 >= largest.1 { next } else { largest })
 }
