@@ -33,7 +33,7 @@ fn varied_parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
 }
 
 /// Derivatives of paths, and those with respect to the prefactor of the contact law, which follow from those with respect to the modulus.
-fn with_prefactor(case: &Case, derivatives: Vec<ParameterDerivative>) -> Vec<ParameterDerivative> {
+fn with_prefactor(case: &Case, derivatives: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let by_prefactor = |by_modulus: &ParameterDerivative| {
         let scaled = |derivative: Option<f64>| derivative.map(|d| d * by_modulus.at / c1);
@@ -61,7 +61,7 @@ pub(super) fn puncture(
         parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
-    Ok((puncture, with_prefactor(case, named(case, &parameters, derivatives))))
+    Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
 /// Bends the design of `case`, and differentiates its measures.
@@ -71,7 +71,7 @@ pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>)
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::bent)).collect();
     let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
-    Ok((flexure, with_prefactor(case, named(case, &parameters, derivatives))))
+    Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
 /// The derivatives of the coverage of `case`.
