@@ -15,6 +15,8 @@ pub enum SearchStage {
     Sample,
     /// A step along derivatives.
     Gradient,
+    /// A step along a ridge, by derivatives on both sides of it.
+    Ridge,
     /// A step of the search without derivatives.
     Polish,
 }
@@ -25,6 +27,7 @@ impl SearchStage {
         match self {
             Self::Sample => "sample",
             Self::Gradient => "gradient",
+            Self::Ridge => "ridge",
             Self::Polish => "polish",
         }
     }

@@ -1,7 +1,11 @@
-//! The search from one design to a better one near by: along exact derivatives, then without them where those end at a kink.
+//! The search from one design to a better one near by: along exact derivatives, along ridges where those end at kinks, and without
+//! derivatives where values jump.
 
+mod bundle;
 mod climb;
 mod polish;
+mod problem;
+mod ridge;
 mod room;
 
 use std::cell::RefCell;
@@ -16,7 +20,7 @@ use crate::judge::{Judge, Judgement};
 use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
 
-/// Rounds of derivatives and of what does without, at most.
+/// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
 
 /// A relative gain below which a round has come to its end.
@@ -35,19 +39,21 @@ pub(crate) struct Search<'a> {
 pub(crate) struct Effort {
     /// Rounds.
     pub rounds: usize,
-    /// First step without derivatives, a share of the intervals.
+    /// First step along ridges and without derivatives, a share of the intervals.
     pub reach: f64,
+    /// Designs along ridges in a round, for each variable.
+    pub ridge: usize,
     /// Designs without derivatives in a round, for each variable.
     pub polish: usize,
 }
 
 impl Effort {
     /// Along derivatives alone.
-    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, polish: 0 };
+    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
     /// To the end.
-    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, polish: 40 };
+    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8 };
     /// From a design that is nearly the best.
-    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, polish: 15 };
+    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
 }
 
 impl Search<'_> {
@@ -95,7 +101,7 @@ impl Search<'_> {
         start: &Candidate,
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
-        let mut walk = LocalSearch {
+        let walk = LocalSearch {
             search: self,
             target,
             best: RefCell::new(start.clone()),
@@ -104,15 +110,16 @@ impl Search<'_> {
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
-        let mut reach = effort.reach;
+        let (mut reach, variables) = (effort.reach, start.point.shares.len());
         walk.climb()?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
-            walk.polish(reach, effort.polish * start.point.shares.len())?;
-            walk.climb()?;
+            walk.follow(reach, effort.ridge * variables)?;
+            walk.polish(reach, effort.polish * variables)?;
             if !gained(before, walk.best_merit()) {
                 break;
             }
+            walk.climb()?;
             reach *= 0.3;
         }
         Ok(walk.log.take())
