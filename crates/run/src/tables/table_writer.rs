@@ -106,7 +106,9 @@ impl<'a> TableWriter<'a> {
             let lines = || rows.par_chunks(PORTION).map(|rows| tables.lines(rows)).collect();
             let lines: Result<Vec<_>, OutputError> = pool.install(lines);
             lines?.iter().try_for_each(|lines| tables.append(lines))?;
-            rows.iter().for_each(|row| summary.add(row));
+            for row in &rows {
+                summary.add(row);
+            }
         }
         let mut files = tables.finish()?;
         files.extend(changes::write(archive, folder, format)?);
