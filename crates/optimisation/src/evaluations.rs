@@ -108,6 +108,8 @@ impl<'a> Evaluations<'a> {
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
         let mut result = evaluator.solve(self.number(0), &self.space.case(point)).row.result;
         result.sensitivity.retain(|d| self.space.parameters().any(|p| p.key == d.parameter));
+        // Few of the parameters vary, and every result is kept to the end.
+        result.sensitivity.shrink_to_fit();
         let line = JournalLine {
             differentiated,
             shares: point.shares.clone(),

@@ -97,7 +97,7 @@ impl<'a> TableWriter<'a> {
         let layouts = tables(archive.sweep());
         let failures = failure_columns(archive.sweep());
         let mut tables = OpenTables::create(folder, format, archive.sweep(), &layouts, &failures)?;
-        let mut summary = Summary::default();
+        let mut summary = Summary::new(archive.sweep());
         let mut entries = archive.entries()?.in_order().peekable();
         while entries.peek().is_some() {
             let some = entries.by_ref().take(PORTION * self.threads);
