@@ -31,6 +31,10 @@ pub(super) fn rates<S: System>(
     state: &State<S::Mode>,
     change: Vec<f64>,
 ) -> Vec<f64> {
+    if change.iter().all(|change| *change == 0.0) {
+        // A parameter of an anchor alone leaves the equations as they are.
+        return change;
+    }
     let mut x: Vec<f64> = change.into_iter().map(|change| -change).collect();
     x[system.load()] = 0.0;
     for index in inactive(system, state) {
