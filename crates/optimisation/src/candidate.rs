@@ -17,6 +17,8 @@ pub enum SearchStage {
     Gradient,
     /// A step of the search without derivatives.
     Polish,
+    /// A best design as it is drawn, of which skins are made.
+    Skins,
 }
 
 impl SearchStage {
@@ -26,6 +28,7 @@ impl SearchStage {
             Self::Sample => "sample",
             Self::Gradient => "gradient",
             Self::Polish => "polish",
+            Self::Skins => "skins",
         }
     }
 }

@@ -6,13 +6,12 @@ mod room;
 
 use std::cell::RefCell;
 
-use results::DesignRow;
-
 pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::{Judge, Judgement};
+use crate::looked::LookedRow;
 use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
 
@@ -48,6 +47,11 @@ impl Effort {
     pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, polish: 40 };
     /// From a design that is nearly the best.
     pub const SHORT: Self = Self { rounds: 1, reach: 0.01, polish: 15 };
+
+    /// As much as it may take where each design costs as many solutions as skins are made of it.
+    fn on_skins(self) -> Self {
+        Self { rounds: self.rounds.min(2), polish: self.polish / 4, ..self }
+    }
 }
 
 impl Search<'_> {
@@ -57,12 +61,21 @@ impl Search<'_> {
         stage: SearchStage,
         point: &SpacePoint,
         differentiated: bool,
-    ) -> Result<(Candidate, DesignRow), Halt> {
+    ) -> Result<(Candidate, LookedRow), Halt> {
         let result = self.evaluations.solve(point, differentiated)?;
-        let row = self.evaluations.row(0, point, &result);
-        let verdict = self.judge.verdict(&row);
+        let drawn = self.evaluations.row(0, point, &result);
+        let skins = match self.judge.made().filter(|made| made.admits(&drawn)) {
+            Some(made) => Some(self.evaluations.skins(point, 1, made.skins, made)?),
+            None => None,
+        };
+        let verdict = self.judge.verdict_with(&drawn, skins.as_deref());
+        let made = match skins.filter(|_| differentiated) {
+            Some(skins) => self.made_slopes(point, &skins)?,
+            None => Vec::new(),
+        };
         self.meter.look();
-        Ok((Candidate { stage, point: point.clone(), result, verdict }, row))
+        let candidate = Candidate { stage, point: point.clone(), result, verdict };
+        Ok((candidate, LookedRow { drawn, made }))
     }
 
     /// The merit of a design under a target.
@@ -73,7 +86,7 @@ impl Search<'_> {
         let floors = short.fold(0.0, f64::max);
         // A floor is kept but for round-off, as a requirement is.
         if worth.met && floors <= 1e-9 {
-            return Merit::Met(turned(target.objective));
+            return Merit::Met(self.judge.sign(target.objective) * worth.compared[target.objective]);
         }
         Merit::Short(worth.excess.iter().copied().fold(floors, f64::max).max(f64::MIN_POSITIVE))
     }
@@ -104,6 +117,7 @@ impl Search<'_> {
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
+        let effort = if self.judge.made().is_some() { effort.on_skins() } else { effort };
         let mut reach = effort.reach;
         walk.climb()?;
         for _ in 0..effort.rounds {
@@ -148,7 +162,7 @@ impl LocalSearch<'_> {
         stage: SearchStage,
         shares: &[f64],
         differentiated: bool,
-    ) -> Result<(Candidate, DesignRow), Halt> {
+    ) -> Result<(Candidate, LookedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
         let shares = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
         let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;

@@ -6,7 +6,7 @@ use basin::{
     NoNonlinearBlock, NonlinearBlock, NonlinearBlocks, NonlinearInequalityValues,
     SelectedFirstOrderState, Slsqp,
 };
-use results::{DesignResult, DesignRow};
+use results::DesignResult;
 use sweep::Parameter;
 
 use super::room::{bending_room, bending_room_slopes};
@@ -14,6 +14,7 @@ use super::{LocalSearch, floor_size};
 use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
 use crate::judge::{Judgement, Worth};
+use crate::looked::LookedRow;
 use crate::slopes::Slopes;
 
 /// Iterations of a climb, at most.
@@ -91,7 +92,7 @@ struct Slope<'a> {
 }
 
 impl Slope<'_> {
-    fn worth(&self, shares: &[f64]) -> Result<(Option<Worth>, DesignRow), Halt> {
+    fn worth(&self, shares: &[f64]) -> Result<(Option<Worth>, LookedRow), Halt> {
         let (candidate, row) = self.walk.at(SearchStage::Gradient, shares, true)?;
         match candidate.verdict {
             Judgement::Judged(worth) => Ok((Some(worth), row)),
@@ -185,7 +186,7 @@ impl NonlinearInequalityValues for Slope<'_> {
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
         let (worth, row) = self.worth(shares)?;
         let Some(worth) = worth else { return Ok(vec![f64::INFINITY; self.count()]) };
-        let room = self.stays_open.then(|| CLEAR - bending_room(&row.case));
+        let room = self.stays_open.then(|| CLEAR - bending_room(&row.drawn.case));
         let floors = &self.walk.target.floors;
         let floors =
             floors.iter().map(|&(k, floor)| (floor - self.turned(&worth, k)) / floor_size(floor));
@@ -217,7 +218,7 @@ impl ConstraintJacobian for Slope<'_> {
             add(self.gradient_of(shares, slopes), floor_size(floor).recip());
         }
         if self.stays_open {
-            add(self.gradient_of(shares, |p| bending_room_slopes(&row.case, p)), 1.0);
+            add(self.gradient_of(shares, |p| bending_room_slopes(&row.drawn.case, p)), 1.0);
         }
         Ok(DenseMatrix::from_row_slice(self.count(), shares.len(), &rows))
     }
