@@ -28,8 +28,9 @@ const BENDING: &[&str] = &["compliance", "max_moment", "flexural_rigidity", "axi
 
 /// The parameters that say how something is measured. The dimensionless compliances are those of one membrane: `C_f*`
 /// counts in `1/(E_m I_m)`, which another thickness changes.
-const YARDSTICKS: [Yardstick; 4] = [
+const YARDSTICKS: [Yardstick; 5] = [
     Yardstick { parameter: "critical_tilt_deg", columns: PUNCTURE },
+    Yardstick { parameter: "needle_friction", columns: PUNCTURE },
     Yardstick {
         parameter: "membrane_thickness_over_t",
         columns: &["compliance", "initial_compliance", "max_moment"],
@@ -165,7 +166,8 @@ fn values(
     let filter = RequirementFilter::new(results, &preferences.requirements)?;
     let mut values: Vec<f64> = Vec::new();
     for row in 0..results.len() {
-        let Some(value) = results.number(row, column)? else { continue };
+        // A friction may be the word for none.
+        let Ok(Some(value)) = results.number(row, column) else { continue };
         if !values.contains(&value) && filter.first_unmet(row)?.is_none() {
             values.push(value);
         }

@@ -40,6 +40,9 @@ const IN_MM: &str = "_mm";
 /// The parameters that may differ from scale to scale.
 const SCATTER: [&str; 2] = ["gap_over_t", "slant_deg"];
 
+/// The parameters that say where a puncture ends: criteria of a study, which nobody makes.
+const CRITERIA: [&str; 2] = ["critical_tilt_deg", "needle_friction"];
+
 impl Deviation {
     /// The parameter of `key`, and whether the key asks for mm.
     pub(crate) fn parameter_of(key: &str) -> Option<(&'static Parameter, bool)> {
@@ -50,7 +53,8 @@ impl Deviation {
 
     /// Whether a parameter may deviate: a number that describes the skin or its material.
     pub(crate) fn is_possible(parameter: &Parameter) -> bool {
-        parameter.is_continuous() || parameter.section == "material"
+        let is_made = parameter.is_continuous() && !CRITERIA.contains(&parameter.key);
+        is_made || parameter.section == "material"
     }
 
     /// Whether a parameter may differ from scale to scale.

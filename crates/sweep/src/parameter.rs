@@ -1,5 +1,6 @@
 //! A parameter of a sweep: the values that it takes, and the field of a case that it sets.
 
+mod continuous;
 mod list;
 mod scalar;
 
@@ -111,9 +112,6 @@ const NOT_GIVEN: &str = "not given";
 /// Two ways each to say how long a strip is, and at which tilt a needle slips. The first of two may leave it to the other, by a word.
 const ALTERNATIVES: [[&str; 2]; 2] =
     [["gaps", "membrane_length_over_t"], ["needle_friction", "critical_tilt_deg"]];
-
-/// The sections that describe the skin.
-const CONTINUOUS: [&str; 6] = ["designs", "scale", "substrate", "contact", "puncture", "flexure"];
 
 /// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -261,46 +259,11 @@ impl Parameter {
         }
     }
 
-    /// Whether measures change continuously with this parameter, so that they have derivatives with respect to it: a number that
-    /// describes the skin, not how it is solved or how it scatters.
-    pub fn is_continuous(&self) -> bool {
-        let is_number =
-            matches!(self.kind, ParameterKind::Number { .. } | ParameterKind::SignedNumber { .. });
-        is_number && CONTINUOUS.contains(&self.section)
-    }
-
     /// The case in which this parameter has a value that [`Self::read`] gave, or the number that it takes.
     pub fn put(&self, case: &Case, value: Scalar) -> Case {
         let mut changed = *case;
         self.set(&mut changed, value);
         changed
-    }
-
-    /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
-    /// number, or not given.
-    pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
-        let mut moved = *case;
-        match &self.kind {
-            ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
-                *field(&mut moved) += by;
-            }
-            ParameterKind::OptionalNumber { field, .. } => *field(&mut moved).as_mut()? += by,
-            _ => return None,
-        }
-        Some(moved)
-    }
-
-    /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
-    /// is smaller. `None` if the parameter is no number, or not given.
-    pub fn size(&self, case: &Case) -> Option<f64> {
-        let (ParameterKind::Number { range, .. }
-        | ParameterKind::SignedNumber { size: range, .. }
-        | ParameterKind::OptionalNumber { range, .. }) = &self.kind
-        else {
-            return None;
-        };
-        let value = self.get(case).number()?.abs();
-        Some(if matches!(range.low, Excluded(0.0)) { value } else { value.max(1.0) })
     }
 
     /// Whether it takes numbers, so that a range of it makes sense.

@@ -175,6 +175,28 @@ fn what_can_not_be_compared_is_no_objective() {
         [designs]\nlength_over_t = 1\nslant_deg = 45\n[goal]\nmaximize = 'compliance'\n";
     let place = Place::with(text);
     insta::assert_snapshot!(place.refused("optimise x.toml"), @"error: x.toml:9: goal.maximize: an objective with max_end_rotation_deg as a variable is not accepted, expected values that can be compared between designs");
+    for key in ["critical_tilt_deg", "needle_friction"] {
+        let text = format!(
+            "name = 'x'\n[variables]\n{key} = {{ from = 0.1, to = 0.2 }}\n[goal]\nmaximize = 'critical_force'\n\
+             [designs]\nlength_over_t = 1\nslant_deg = 45\ngap_over_t = 1\n"
+        );
+        let refusal = Place::with(&text).refused("optimise x.toml");
+        assert!(refusal.contains(&format!("an objective with {key} as a variable")), "{refusal}");
+    }
+}
+
+/// The tilt at which a skin takes a given force: the requirement binds, and its price is what the derivative with respect to the tilt says.
+#[test]
+fn the_least_critical_tilt_for_a_force_is_found() {
+    let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ncritical_tilt_deg = { from = 5, to = 15 }\n[goal]\nminimize = 'critical_tilt_deg'\n\
+        require = ['critical_force >= 0.5']\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.5\nslant_deg = 60\n";
+    let place = Place::with(text);
+    let record: serde_json::Value =
+        serde_json::from_str(&place.prints("optimise x.toml --out tilt --json")).expect("JSON");
+    let values = &record["optimum"]["values"];
+    assert!((values["critical_force"].as_f64().expect("a force") - 0.5).abs() < 1e-6, "{record}");
+    let tilt = values["critical_tilt_deg"].as_f64().expect("a tilt");
+    assert!(tilt > 5.0 && tilt < 15.0, "{tilt}");
 }
 
 #[test]

@@ -266,6 +266,13 @@ fn what_cannot_be_compared_is_refused() {
     insta::assert_snapshot!(check("requirements = ['critical_tilt_deg == 8']"), @"x/designs.csv: compliance cannot be compared between designs of different membrane_thickness_over_t (0.1, 0.2), expected one of them, e.g. --require 'membrane_thickness_over_t == 0.1', or other criteria, e.g. --minimize flexural_rigidity_N_mm2 with a [material]");
     assert_eq!(check("criteria = ['flexural_rigidity_N_mm2']"), "");
     assert_eq!(check("requirements = ['critical_tilt_deg == 5']"), "");
+    let table = "design,needle_friction,coverage,critical_force,penetration,compliance\n\
+                 0001,none,1,1,1,1\n0002,0.1,1,2,1,1\n0003,0.2,1,3,1,1";
+    std::fs::write(folder.path().join("designs.csv"), table).expect("writable");
+    let results = Results::read(folder.path()).expect("results");
+    let preferences = Preferences::parse("", "x").expect("preferences");
+    let refused = check_comparable(&results, &preferences).expect_err("two frictions").to_string();
+    assert!(refused.contains("of different needle_friction (0.1, 0.2)"), "{refused}");
 }
 
 #[test]

@@ -98,11 +98,9 @@ fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: 
         value("length_over_t"),
         value("slant_deg")
     );
-    let further = designs.further_axes().into_iter();
-    let further = further.map(|axis| format!("{} {}", in_words(axis), value(axis)));
     let share = format!("best for {:.1} % of the weights", 100.0 * region.share);
     let doubt = designs.folded(region.row).then(|| "surface folds".to_owned());
-    let share = further.chain([share]).chain(doubt).collect::<Vec<_>>().join(",  ");
+    let share = [share].into_iter().chain(doubt).collect::<Vec<_>>().join(",  ");
     let rect = Element::new("rect")
         .at("x", x + 14.0)
         .at("y", y - 9.0)
@@ -119,7 +117,18 @@ fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: 
         label(&text, [x + 34.0, y - 2.0], 12.5, Anchor::Start).with("fill", INK),
         label(&share, [x + 34.0, y + 15.0], 12.0, Anchor::Start).with("fill", FAINT),
     ]);
+    let entry = entry.containing(further(designs, region.row, [x + 34.0, y + 30.0]));
     entry.containing(small_row(designs, region.row, [x + 276.0, y + 16.0]))
+}
+
+/// Returns the values of the axes beyond gap, aspect ratio and slant, below the row and as small as the width of the list asks for.
+fn further(designs: &Designs, row: usize, spot: Spot) -> Option<Element> {
+    let axes = designs.further_axes().into_iter();
+    let values = axes.map(|axis| format!("{} {}", in_words(axis), designs.text(axis, row)));
+    let text = values.collect::<Vec<_>>().join(",  ");
+    // A letter is about half as wide as its size.
+    let size = (2.0 * (WIDTH - spot[0]) / text.chars().count() as f64).min(11.0);
+    (!text.is_empty()).then(|| label(&text, spot, size, Anchor::Start).with("fill", FAINT))
 }
 
 /// Returns a few scales of a row, to scale, on 110 by 34 px.

@@ -14,10 +14,10 @@ pub(super) const STEP: f64 = 2e-6;
 /// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
 const MESH: &str = "the mesh of the substrate is graded by another length";
 
-/// The continuous parameters that a measure depends on.
-fn parameters(of: Measure) -> Vec<&'static Parameter> {
+/// The continuous parameters that a measure of `case` depends on.
+fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
     let belongs = |p: &&Parameter| p.is_continuous() && of.sections().contains(&p.section);
-    PARAMETERS.iter().filter(belongs).collect()
+    PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 
 /// Punctures the design of `case`, and differentiates its measures.
@@ -25,7 +25,7 @@ pub(super) fn puncture(
     case: &Case,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = parameters(Measure::Puncture);
+    let parameters = parameters(case, Measure::Puncture);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
@@ -36,9 +36,7 @@ pub(super) fn puncture(
 
 /// Bends the design of `case`, and differentiates its measures.
 pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
-    let mut parameters = parameters(Measure::Flexure);
-    // The length of a strip does not count where its gaps do.
-    parameters.retain(|p| p.key != "membrane_length_over_t" || case.flexure.gaps.is_none());
+    let parameters = parameters(case, Measure::Flexure);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: None };
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::bent)).collect();
@@ -49,7 +47,7 @@ pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>)
 /// The derivatives of the coverage of `case`.
 pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
     let Ok(row) = case.design.row() else { return Vec::new() };
-    let parameters = parameters(Measure::Coverage);
+    let parameters = parameters(case, Measure::Coverage);
     let half_base = case.design.half_base() / case.design.length;
     let shift = row.scale().slant().cos().powi(-2) * 1.0_f64.to_radians();
     let derivative = |(parameter, key): (usize, &str)| {

@@ -5,6 +5,7 @@ mod designs;
 mod differences;
 mod kinks;
 mod scatter;
+mod tilts;
 
 use std::time::{Duration, Instant};
 
@@ -28,8 +29,18 @@ fn derivatives(case: &Case) -> Vec<ParameterDerivative> {
 /// how many were compared.
 fn compare(case: &Case) -> usize {
     let (derivatives, differences) = (derivatives(case), Differences::of(case));
+    let compared = compare_components(case, &derivatives, &differences);
+    compared + compare_along_gradients(case, &derivatives, &differences)
+}
+
+/// Compares each of some derivatives of `case` with differences. Returns how many were compared.
+fn compare_components(
+    case: &Case,
+    derivatives: &[ParameterDerivative],
+    differences: &Differences,
+) -> usize {
     let mut compared = 0;
-    for derivative in &derivatives {
+    for derivative in derivatives {
         let Some(ours) = derivative.derivative() else { continue };
         let parameter = Parameter::named(derivative.parameter).unwrap();
         let size = parameter.size(case).unwrap();
@@ -39,7 +50,7 @@ fn compare(case: &Case) -> usize {
         assert!(off <= TOLERANCE, "{measure} by {parameter}: {ours:e} is off by {off:e}, {case:?}");
         compared += 1;
     }
-    compared + compare_along_gradients(case, &derivatives, &differences)
+    compared
 }
 
 /// Compares the derivative of each measure along its own gradient, where no error averages out.
@@ -71,6 +82,11 @@ fn compare_along_gradients(
     compared
 }
 
+/// Whether the long campaign was asked for.
+fn is_long() -> bool {
+    std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long")
+}
+
 fn compare_designs(count: u64) {
     let begun = Instant::now();
     let has_time = |number: &u64| *number < FEW || begun.elapsed() < LONGEST;
@@ -86,8 +102,7 @@ const LONGEST: Duration = Duration::from_secs(30);
 /// Twelve designs; three hundred in a long campaign, or as many as there is time for.
 #[test]
 fn derivatives_are_those_of_whole_solutions() {
-    let is_long = std::env::var_os("SQUAMA_CAMPAIGNS").is_some_and(|value| value == "long");
-    compare_designs(if is_long { 300 } else { FEW });
+    compare_designs(if is_long() { 300 } else { FEW });
 }
 
 /// The place of a smooth maximum moves along the path: the force there has derivatives, the depth and the tilt have none.

@@ -156,14 +156,16 @@ impl Reader {
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Every variable that is also given a value.
+    /// Every variable that is also given a value, itself or its alternative.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.variables.iter().filter_map(|(variable, place)| {
             let parameter = variable.parameter();
-            let there = self.place(parameter.key)?;
-            let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == parameter);
-            let section = if is_axis { "designs" } else { parameter.section };
-            let other = format!("{section}.{}", parameter.key);
+            let alternative = parameter.alternative().filter(|other| !self.leaves_open(other));
+            let mut both = std::iter::once(parameter).chain(alternative);
+            let (fixed, there) = both.find_map(|fixed| Some((fixed, self.place(fixed.key)?)))?;
+            let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
+            let section = if is_axis { "designs" } else { fixed.section };
+            let other = format!("{section}.{}", fixed.key);
             let key = format!("{}.{}", suggestion::VARIABLES, parameter.key);
             Some(refuse(place, &key, Problem::Alternative { other, place: there.clone() }))
         })

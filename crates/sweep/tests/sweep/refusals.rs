@@ -247,6 +247,8 @@ fn variables() {
         "variables.base = { from = 3, to = 5 }",
         "variables.c1 = [1, 2]\ncontact.c1 = 1",
         "variables.c1 = [1, 2]\ndesigns.c1 = 1",
+        "variables.critical_tilt_deg = { from = 5, to = 10 }\npuncture.needle_friction = 0.1",
+        "variables.needle_friction = [0.1, 0.2]\npuncture.critical_tilt_deg = [5, 10]",
     ]));
 }
 
@@ -264,6 +266,7 @@ fn deviations() {
         "tolerance.gap_mm = { batch_sd = 0.1 }",
         "tolerance.thickness_mm = { batch_sd = 0.1 }",
         "tolerance.scales = { batch_sd = 1 }",
+        "tolerance.critical_tilt_deg = { batch_sd = 1 }",
         "tolerance.gap_over_t = { batch_sd = 1 }\nmaterial.thickness_mm = 1\ntolerance.gap_mm = { batch_sd = 1 }",
     ]));
 }

@@ -20,10 +20,10 @@ pub struct Differences<'a> {
 }
 
 /// The smallest step; others are its multiples.
-const STEP: f64 = 5e-5;
+const STEP: f64 = 1.25e-5;
 
-/// Steps, as multiples: a short one for designs near a kink, longer ones for derivatives that drown in round-off.
-const STEPS: [i32; 3] = [32, 8, 2];
+/// Steps, as multiples: short ones for designs near a kink, longer ones for derivatives that drown in round-off.
+const STEPS: [i32; 4] = [128, 32, 8, 1];
 
 /// Differences with neighbouring steps that agree to this part are those of a smooth measure.
 const AGREE: f64 = 1e-4;

@@ -1,0 +1,69 @@
+//! Derivatives with respect to the critical tilt.
+
+use rayon::prelude::*;
+use results::ParameterDerivative;
+use sweep::{Case, Parameter, Sweep};
+
+use super::designs::random_case;
+use super::differences::Differences;
+use super::{compare_components, derivatives, is_long};
+
+const TILT: &str = "critical_tilt_deg";
+
+fn by_tilt(case: &Case) -> Vec<ParameterDerivative> {
+    let mut derivatives = derivatives(case);
+    derivatives.retain(|derivative| derivative.parameter == TILT);
+    derivatives
+}
+
+/// Every twentieth design of the paper; all in a long campaign.
+#[test]
+fn derivatives_with_respect_to_the_critical_tilt_are_those_of_whole_solutions() {
+    let paper = Sweep::parse("name = 'paper'", "paper.toml", &[]).unwrap();
+    let indices = (0..paper.grid().len()).step_by(if is_long() { 1 } else { 20 });
+    let cases: Vec<Case> = indices.map(|index| paper.grid().case(index)).collect();
+    let compared = cases.par_iter().map(|case| {
+        let derivatives = by_tilt(case);
+        let smooth = derivatives.iter().filter(|derivative| derivative.kink.is_none()).count();
+        let compared = compare_components(case, &derivatives, &Differences::of(case));
+        assert!(compared >= 10, "{compared} of {smooth}: {case:?}");
+        compared
+    });
+    let compared: usize = compared.sum();
+    assert!(compared > 11 * cases.len(), "{compared} of {}", cases.len());
+}
+
+/// The beginning of a path does not depend on where it ends.
+#[test]
+fn measures_before_the_end_do_not_depend_on_the_critical_tilt() {
+    for number in 0..6 {
+        for derivative in by_tilt(&random_case(number)) {
+            let begins = ["first_contact_displacement", "initial_stiffness", "fold_force"];
+            if begins.contains(&derivative.measure) {
+                assert_eq!(derivative.derivative(), Some(0.0), "{derivative:?}");
+            }
+        }
+    }
+}
+
+/// A critical tilt that follows from the friction of the needle is no parameter of its own: `dm/df = dm/dφ dφ/df`.
+#[test]
+fn friction_takes_the_place_of_the_critical_tilt() {
+    let [friction, tilt] = ["needle_friction", TILT].map(|key| Parameter::named(key).unwrap());
+    let value = 0.15_f64;
+    let given = random_case(3);
+    let by_friction = derivatives(&friction.put(&given, sweep::Scalar::Number(value)));
+    let by_tilt = derivatives(&tilt.put(&given, sweep::Scalar::Number(value.atan().to_degrees())));
+    assert!(by_friction.iter().all(|derivative| derivative.parameter != TILT));
+    let of = |derivatives: &[ParameterDerivative], key: &str| -> Vec<f64> {
+        let of_key = derivatives.iter().filter(|derivative| derivative.parameter == key);
+        of_key.map(|derivative| derivative.derivative().unwrap()).collect()
+    };
+    let degrees = (1.0 / (1.0 + value * value)).to_degrees();
+    let (ours, theirs) = (of(&by_friction, friction.key), of(&by_tilt, tilt.key));
+    assert!(ours.len() == theirs.len() && ours.len() > 10, "{} {}", ours.len(), theirs.len());
+    for (ours, theirs) in ours.into_iter().zip(theirs) {
+        let off = ours - degrees * theirs;
+        assert!(off.abs() <= 1e-7 * ours.abs(), "{ours} {}", degrees * theirs);
+    }
+}

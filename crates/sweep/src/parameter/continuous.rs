@@ -1,0 +1,61 @@
+//! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
+
+use super::Bound::Excluded;
+use super::{ALTERNATIVES, Parameter, ParameterKind, Scalar};
+use crate::case::Case;
+
+/// The sections that describe the skin.
+const CONTINUOUS: [&str; 6] = ["designs", "scale", "substrate", "contact", "puncture", "flexure"];
+
+impl Parameter {
+    /// Whether measures change continuously with this parameter, so that they have derivatives with respect to it: a number that
+    /// describes the skin or how far it is loaded, not how it is solved or how it scatters.
+    pub fn is_continuous(&self) -> bool {
+        let is_number = matches!(
+            self.kind,
+            ParameterKind::Number { .. }
+                | ParameterKind::SignedNumber { .. }
+                | ParameterKind::Numbers { .. }
+        );
+        is_number && CONTINUOUS.contains(&self.section)
+    }
+
+    /// The value of this parameter in `case`, which is its own: `None` if its alternative is given, from which it follows.
+    fn own(&self, case: &Case) -> Option<Scalar> {
+        let mut first = ALTERNATIVES.iter().filter(|[_, second]| *second == self.key);
+        let first = first.find_map(|[first, _]| Self::named(first)).map(|first| first.get(case));
+        let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
+        (!follows).then(|| self.get(case))
+    }
+
+    /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
+    /// number, not given, or follows from its alternative.
+    pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
+        let mut moved = *case;
+        match &self.kind {
+            ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
+                *field(&mut moved) += by;
+            }
+            ParameterKind::OptionalNumber { field, .. } => *field(&mut moved).as_mut()? += by,
+            ParameterKind::Numbers { set, .. } => {
+                set(&mut moved, Scalar::Number(self.own(case)?.number()? + by));
+            }
+            _ => return None,
+        }
+        Some(moved)
+    }
+
+    /// The size by which a change of this parameter, a number, in `case` is small or not: its value, or 1 if it may vanish and
+    /// is smaller. `None` if the parameter is no number, not given, or follows from its alternative.
+    pub fn size(&self, case: &Case) -> Option<f64> {
+        let (ParameterKind::Number { range, .. }
+        | ParameterKind::SignedNumber { size: range, .. }
+        | ParameterKind::OptionalNumber { range, .. }
+        | ParameterKind::Numbers { range, .. }) = &self.kind
+        else {
+            return None;
+        };
+        let value = self.own(case)?.number()?.abs();
+        Some(if matches!(range.low, Excluded(0.0)) { value } else { value.max(1.0) })
+    }
+}
