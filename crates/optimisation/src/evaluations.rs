@@ -91,14 +91,17 @@ impl<'a> Evaluations<'a> {
             journal: Mutex::new(journal),
             stop,
         };
-        lines.into_iter().for_each(|line| evaluations.recall(line));
+        for line in lines {
+            evaluations.recall(line);
+        }
         Ok(evaluations)
     }
 
     /// Takes what a line of the journal holds as solved.
     fn recall(&mut self, line: JournalLine) {
         match line {
-            JournalLine::Solved(SolvedLine { differentiated, skin, shares, chosen, result }) => {
+            JournalLine::Solved(line) => {
+                let SolvedLine { differentiated, skin, shares, chosen, result } = *line;
                 let point = PointKey::of(&SpacePoint { shares, chosen });
                 let key = EvaluationKey { differentiated, skin, point };
                 lock(&self.known).insert(key, Arc::new(result));

@@ -114,8 +114,8 @@ impl Judge {
         let objectives =
             objectives.filter_map(move |(k, (_, c))| Some((Stake::Objective(k), quantity(c)?)));
         let required = self.requirements.iter().enumerate();
-        let required = required
-            .filter_map(move |(k, r)| Some((Stake::Requirement(k), quantity(&r.column)?)));
+        let required =
+            required.filter_map(move |(k, r)| Some((Stake::Requirement(k), quantity(&r.column)?)));
         objectives.chain(required)
     }
 

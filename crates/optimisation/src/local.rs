@@ -18,8 +18,23 @@ use crate::space::{DesignSpace, SpacePoint};
 /// Rounds of derivatives and of what does without, at most.
 const ROUNDS: usize = 4;
 
-/// A relative gain below which a round has come to its end.
-const GAIN: f64 = 1e-8;
+/// How fine a local search becomes before it ends.
+#[derive(Clone, Copy, Debug)]
+struct Fineness {
+    /// A relative gain below which a round has come to its end.
+    gain: f64,
+    /// Iterations of a climb, at most.
+    iterations: u64,
+    /// The smallest step without derivatives, a share of the intervals.
+    step: f64,
+}
+
+impl Fineness {
+    /// Among designs as they are drawn.
+    const DRAWN: Self = Self { gain: 1e-8, iterations: 40, step: 1e-7 };
+    /// Among designs of which skins are made, whose number leaves quantiles and yields uncertain by per cents.
+    const SKINS: Self = Self { gain: 1e-3, iterations: 12, step: 1e-4 };
+}
 
 /// The parts that all searches share: the space, its evaluations, the judge.
 pub(crate) struct Search<'a> {
@@ -86,9 +101,15 @@ impl Search<'_> {
         let floors = short.fold(0.0, f64::max);
         // A floor is kept but for round-off, as a requirement is.
         if worth.met && floors <= 1e-9 {
-            return Merit::Met(self.judge.sign(target.objective) * worth.compared[target.objective]);
+            return Merit::Met(
+                self.judge.sign(target.objective) * worth.compared[target.objective],
+            );
         }
         Merit::Short(worth.excess.iter().copied().fold(floors, f64::max).max(f64::MIN_POSITIVE))
+    }
+
+    fn fineness(&self) -> Fineness {
+        if self.judge.made().is_some() { Fineness::SKINS } else { Fineness::DRAWN }
     }
 
     /// The best of some designs under a target.
@@ -124,7 +145,7 @@ impl Search<'_> {
             let before = walk.best_merit();
             walk.polish(reach, effort.polish * start.point.shares.len())?;
             walk.climb()?;
-            if !gained(before, walk.best_merit()) {
+            if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
             reach *= 0.3;
@@ -138,11 +159,11 @@ pub(crate) fn floor_size(floor: f64) -> f64 {
     if floor == 0.0 { 1.0 } else { floor.abs() }
 }
 
-/// Whether a merit has become better by more than hardly anything.
-fn gained(before: Merit, after: Merit) -> bool {
+/// Whether a merit has become better by more than a part `gain` of it.
+fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
-        (Merit::Met(before), Merit::Met(after)) => after - before > GAIN * before.abs(),
-        (Merit::Short(before), Merit::Short(after)) => before - after > GAIN * before,
+        (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
+        (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
         _ => before != after,
     }
 }

@@ -47,8 +47,10 @@ impl DesignGoal {
     pub fn as_drawn(&self) -> Self {
         let mut goal = self.clone();
         for objective in &mut goal.objectives {
-            if let Some(MadeQuantity::Quantile { column, .. }) = self.quantity(&objective.column) {
-                objective.column = column.into();
+            match self.quantity(&objective.column) {
+                Some(MadeQuantity::Quantile { column, .. }) => objective.column = column.into(),
+                Some(MadeQuantity::Yield) => objective.column = MadeQuantity::MARGIN.into(),
+                None => {}
             }
         }
         goal.requirements.retain_mut(|requirement| match self.quantity(&requirement.column) {

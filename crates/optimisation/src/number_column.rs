@@ -26,7 +26,7 @@ impl NumberColumn {
         match self {
             Self::Known(column) => &column.name,
             Self::Fitness(_) => Fitness::COLUMN,
-            Self::Margin(_) => MadeQuantity::YIELD,
+            Self::Margin(_) => MadeQuantity::MARGIN,
         }
     }
 

@@ -13,8 +13,8 @@ use sweep::Parameter;
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
 use crate::judge::{Judgement, size};
-use crate::looked::LookedRow;
 use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+use crate::looked::LookedRow;
 use crate::slopes::Slopes;
 
 /// A limit binds that is this near, relative to its size.
@@ -65,7 +65,8 @@ pub(crate) fn bindings(
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
     // What a step of a yield costs, no derivative tells.
-    let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(k));
+    let is_yield =
+        |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(k));
     let bindings = limits.into_iter().zip(prices);
     let binding = |(limit, price): (Limit, Option<f64>)| Binding {
         price: price.filter(|_| !is_yield(&limit)),

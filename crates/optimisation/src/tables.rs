@@ -63,7 +63,8 @@ fn made_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> 
         ]);
     }
     if !columns.is_empty() {
-        let skins = "skins made of the design, others than the search knew, that these values are of";
+        let skins =
+            "skins made of the design, others than the search knew, that these values are of";
         columns.push(("fresh_skins".to_owned(), "-", skins));
     }
     columns

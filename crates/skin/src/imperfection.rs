@@ -96,9 +96,8 @@ fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
         Base::L => 1.0,
         Base::TwoL => 2.0,
     };
-    let numbers = |design: &Design| {
-        [design.gap, design.length, design.slant_deg, base(design), design.width]
-    };
+    let numbers =
+        |design: &Design| [design.gap, design.length, design.slant_deg, base(design), design.width];
     let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {

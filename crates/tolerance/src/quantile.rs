@@ -61,9 +61,9 @@ mod tests {
         let half = SampledQuantile::of(values.clone(), 0.5);
         assert_eq!(half.value, Some(49.5));
         values.extend([f64::NEG_INFINITY; 20]);
-        assert_eq!(SampledQuantile::of(values, 0.05), SampledQuantile {
-            value: None,
-            interval: [None, None]
-        });
+        assert_eq!(
+            SampledQuantile::of(values, 0.05),
+            SampledQuantile { value: None, interval: [None, None] }
+        );
     }
 }

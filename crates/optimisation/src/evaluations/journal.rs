@@ -35,7 +35,7 @@ struct SearchHeader {
 /// A line of the journal behind the first.
 #[derive(Clone, Debug)]
 pub(super) enum JournalLine {
-    Solved(SolvedLine),
+    Solved(Box<SolvedLine>),
     Skins(SkinsLine),
 }
 
@@ -193,7 +193,7 @@ fn read(
 fn line(seal: &Seal, bytes: &mut [u8]) -> Option<JournalLine> {
     let text = seal.open(bytes).ok()?;
     let skins = || serde_json::from_slice(text).ok().map(JournalLine::Skins);
-    serde_json::from_slice(text).ok().map(JournalLine::Solved).or_else(skins)
+    serde_json::from_slice(text).ok().map(|line| JournalLine::Solved(Box::new(line))).or_else(skins)
 }
 
 /// The object that a sealed line holds; `None` if it is torn.

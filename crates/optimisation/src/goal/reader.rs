@@ -159,7 +159,8 @@ fn senseless(
     });
     let objectives = named.iter().filter(|(_, key, _)| *key != "goal.require");
     let incomparable = objectives.flat_map(|(column, key, place)| {
-        let fails = |v: &&Variable| yardsticks(MadeQuantity::base(column)).contains(&v.parameter().key);
+        let fails =
+            |v: &&Variable| yardsticks(MadeQuantity::base(column)).contains(&v.parameter().key);
         sweep.variables().iter().filter(fails).map(|variable| {
             let expected = "values that can be compared between designs".to_owned();
             let found = format!("an objective with {} as a variable", variable.parameter().key);

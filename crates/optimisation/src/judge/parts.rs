@@ -54,14 +54,14 @@ impl JudgeParts<'_> {
         }
     }
 
-    /// The column of that name of a design as it is drawn; of a yield how far the design is within its bounds.
+    /// The column of that name of a design as it is drawn; of a margin how far the design is within its bounds.
     fn column(&self, name: &str) -> Option<NumberColumn> {
         let sweep = self.goal.space.sweep();
         match (name, &self.goal.fitness) {
             (Fitness::COLUMN, Some(fitness)) => {
                 Some(NumberColumn::Fitness(Fitness::new(fitness, sweep, self.ends)))
             }
-            (MadeQuantity::YIELD, _) => Some(NumberColumn::Margin(self.bounds())),
+            (MadeQuantity::MARGIN, _) => Some(NumberColumn::Margin(self.bounds())),
             _ => {
                 let mut columns = design_columns(sweep).into_iter();
                 columns.find(|column| column.name == name).map(NumberColumn::Known)
@@ -72,7 +72,8 @@ impl JudgeParts<'_> {
     /// The requirements of what is drawn, then that the surface has not folded if that is wanted.
     fn bounds(&self) -> Vec<RequiredColumn<NumberColumn>> {
         let requirements = self.goal.requirements.iter();
-        let plain = requirements.filter(|requirement| self.goal.quantity(&requirement.column).is_none());
+        let plain =
+            requirements.filter(|requirement| self.goal.quantity(&requirement.column).is_none());
         let bound = |requirement: Requirement| {
             let column = self.column(&requirement.column)?;
             Some(RequiredColumn { requirement, column })
@@ -81,7 +82,8 @@ impl JudgeParts<'_> {
     }
 
     fn soundness(&self) -> Option<Requirement> {
-        let sound = self.goal.sound && self.goal.space.sweep().measures().contains(&Measure::Puncture);
+        let sound =
+            self.goal.sound && self.goal.space.sweep().measures().contains(&Measure::Puncture);
         let (name, relation, limit) = SOUND;
         sound.then(|| Requirement { column: name.to_owned(), relation, limit })
     }
@@ -94,9 +96,10 @@ impl JudgeParts<'_> {
         let objectives = self.goal.objectives.iter().filter_map(|o| {
             Some(UsedQuantity::of_objective(&o.column, self.goal.quantity(&o.column)?, o.goal))
         });
-        let required = self.goal.requirements.iter().filter_map(|r| {
-            Some(UsedQuantity::of_requirement(r, self.goal.quantity(&r.column)?))
-        });
+        let required =
+            self.goal.requirements.iter().filter_map(|r| {
+                Some(UsedQuantity::of_requirement(r, self.goal.quantity(&r.column)?))
+            });
         let mut used: Vec<UsedQuantity> = objectives.chain(required).collect();
         let plain = self.goal.requirements.iter().any(|r| self.goal.quantity(&r.column).is_none());
         let is_yield = |used: &UsedQuantity| used.quantity == MadeQuantity::Yield;

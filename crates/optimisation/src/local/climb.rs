@@ -17,9 +17,6 @@ use crate::judge::{Judgement, Worth};
 use crate::looked::LookedRow;
 use crate::slopes::Slopes;
 
-/// Iterations of a climb, at most.
-const ITERATIONS: u64 = 40;
-
 /// Room that is kept before scales touch in bending.
 const CLEAR: f64 = 1e-9;
 
@@ -43,7 +40,7 @@ impl LocalSearch<'_> {
         };
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
         let climbed = Executor::new(slope, solver, SelectedFirstOrderState::new(start))
-            .max_iter(ITERATIONS)
+            .max_iter(self.search.fineness().iterations)
             .run();
         match climbed {
             Err(ConstraintSolveError::Evaluation(halt)) => Err(halt),

@@ -3,9 +3,9 @@
 use ranking::Requirement;
 use tolerance::{Proportion, SampledQuantile};
 
+use super::FRESH;
 use super::judge::{MadeJudge, Skins};
 use super::quantity::MadeQuantity;
-use super::FRESH;
 use crate::evaluations::Halt;
 use crate::local::Search;
 use crate::search::BestDesign;

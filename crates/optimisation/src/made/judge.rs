@@ -216,7 +216,11 @@ impl RequiredColumn<NumberColumn> {
         let Some(value) = value else { return f64::NEG_INFINITY };
         let margin = -excess(&self.requirement, value);
         // Round-off breaks no bound.
-        if self.requirement.is_met(value) { margin.max(0.0) } else { margin.min(-f64::MIN_POSITIVE) }
+        if self.requirement.is_met(value) {
+            margin.max(0.0)
+        } else {
+            margin.min(-f64::MIN_POSITIVE)
+        }
     }
 }
 

@@ -21,6 +21,9 @@ impl MadeQuantity {
     /// The name of the yield.
     pub const YIELD: &'static str = "yield";
 
+    /// The name of what takes the place of a yield of a design as it is drawn: how far the design is within its requirements.
+    pub const MARGIN: &'static str = "yield_margin";
+
     /// The quantity that has this name, e.g. `yield` or `critical_force_p05`; `None` of other names.
     pub fn named(name: &str) -> Option<Self> {
         let quantile = |(ending, share): (&str, f64)| {
@@ -56,7 +59,8 @@ mod tests {
 
     #[test]
     fn names_end_with_the_quantile() {
-        let quantile = |column: &str, share| MadeQuantity::Quantile { column: column.into(), share };
+        let quantile =
+            |column: &str, share| MadeQuantity::Quantile { column: column.into(), share };
         assert_eq!(
             MadeQuantity::named("critical_force_p05"),
             Some(quantile("critical_force", 0.05))

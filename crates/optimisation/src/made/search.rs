@@ -1,6 +1,8 @@
 //! The search among what is made: it begins at the best designs as they are drawn, of which skins are made then.
 
-use rayon::iter::{IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _};
+use rayon::iter::{
+    IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
+};
 
 use super::estimate::report;
 use crate::candidate::{Candidate, SearchStage};
@@ -8,7 +10,7 @@ use crate::evaluations::Halt;
 use crate::goal::DesignGoal;
 use crate::local::Search;
 use crate::meter::SearchPart;
-use crate::search::{Answer, Plan, apart, answer as answer_by};
+use crate::search::{Answer, Plan, answer as answer_by, apart};
 use crate::space::SpacePoint;
 
 /// Points of a front of designs as they are drawn, at most: a front of skins begins there.

@@ -25,7 +25,7 @@ pub fn text(made: &MadeReport) -> String {
         let broken: Vec<String> = made.broken.iter().map(ToString::to_string).collect();
         let _ = writeln!(
             text,
-            "  (!) The others do not keep {}: what is best for some skins is a little worse for all. Ask for more, or let the search see more skins (goal.skins)",
+            "  (!) The others do not keep {}: a design looks a little better on the skins that it was chosen by. Ask for more, or let the search see more skins (goal.skins)",
             broken.join(", ")
         );
     }

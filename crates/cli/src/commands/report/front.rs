@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM};
+use optimisation::{DesignGoal, FRONT, GOAL, MadeQuantity, OPTIMUM};
 use ranking::{Criterion, Goal, Relation, Requirement};
 use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
@@ -45,7 +45,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
 
 /// The objectives as far as designs as they are drawn have them; of a yield alone the columns that skins are to meet.
 fn objectives(drawn: &DesignGoal) -> Vec<Criterion> {
-    let of_grid = |objective: &&Criterion| drawn.quantity(&objective.column).is_none();
+    let of_grid = |objective: &&Criterion| objective.column != MadeQuantity::MARGIN;
     let objectives: Vec<Criterion> = drawn.objectives.iter().filter(of_grid).cloned().collect();
     if !objectives.is_empty() {
         return objectives;
