@@ -15,6 +15,8 @@ use crate::{OutOfRange, Vec2};
 pub struct Parallelogram {
     half_base: f64,
     slant: f64,
+    /// `tan α`, which corners are asked for too often to be taken anew.
+    shift: f64,
 }
 
 /// A corner of a scale.
@@ -57,7 +59,8 @@ impl Parallelogram {
         check_half_base(half_base)?;
         let expected = "an angle between -90° and 90°";
         OutOfRange::unless(slant_deg.abs() < 90.0, "slant", slant_deg, expected)?;
-        Ok(Self { half_base, slant: slant_deg.to_radians() })
+        let slant = slant_deg.to_radians();
+        Ok(Self { half_base, slant, shift: slant.tan() })
     }
 
     /// Returns the half-width `a` of the base, over `t`.
@@ -72,7 +75,7 @@ impl Parallelogram {
 
     /// Returns the horizontal shift `S = t tan α` of the top against the base, over `t`.
     pub fn shift(&self) -> f64 {
-        self.slant.tan()
+        self.shift
     }
 
     /// Returns the position of a corner relative to the node, undeformed.

@@ -83,7 +83,7 @@ impl<'a> Run<'a> {
         info: RunInfo<'a>,
     ) -> Self {
         let format = options.format.or(journal.archive().format()).unwrap_or_default();
-        let tables = TableWriter::new(folder, format, options.tables_every, info);
+        let tables = TableWriter::new(folder, format, options, info);
         Self { journal, options, format, tables }
     }
 

@@ -1,6 +1,7 @@
 //! The tables of a run, written from its journal.
 
 mod changes;
+mod open_tables;
 pub mod run_info;
 pub mod summary;
 pub mod table_writer;

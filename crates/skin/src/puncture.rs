@@ -16,18 +16,18 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod tilts;
+mod watch;
 mod window;
 
 use contact::ContactLaw;
 use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
 use point::scales;
-use snap::Needle;
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
 use surroundings::{Beyond, Reach, Surroundings};
 use system::{Chain, Layout};
-use tilts::TiltWatch;
+use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, SkinState};
@@ -189,10 +189,7 @@ impl PunctureParameters {
 
 /// A path that was followed to its end.
 struct Followed {
-    record: Record<Chain>,
-    needle: Needle,
-    folds: FoldWatch,
-    at_tilts: Vec<Option<TiltMeasures>>,
+    watch: PathWatch,
     path: Path<Chain>,
     status: Status,
 }
@@ -200,8 +197,8 @@ struct Followed {
 impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
-        let Self { record, needle, folds: FoldWatch { folds, .. }, at_tilts, mut path, status } =
-            self;
+        let Self { watch, mut path, status } = self;
+        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         let (instability, snaps) = needle.finish(path, &mut measures);
@@ -214,7 +211,7 @@ impl Followed {
         Puncture {
             status,
             measures,
-            at_tilts,
+            at_tilts: tilts.finish(),
             path,
             instability,
             events,
@@ -316,9 +313,7 @@ impl<'a> Problem<'a> {
     ) -> Result<Followed, OutOfRange> {
         let rest = SkinState::at_rest(&chain);
         let mut path = Path::new(chain, rest, self.settings);
-        let mut record = Record::new(&path, functions);
-        let (mut needle, mut folds) = (Needle::default(), FoldWatch::default());
-        let mut tilts = TiltWatch::new(self.parameters.tilts_deg);
+        let mut watch = PathWatch::new(&path, self.parameters.tilts_deg, functions);
         let mut has_room = true;
         while has_room {
             let before = path.point_shared();
@@ -326,33 +321,28 @@ impl<'a> Problem<'a> {
             let reach = path.system().reach(&point.state);
             let is_beyond = reach.contains(&Reach::Beyond);
             if !is_beyond {
-                needle.follow(&mut path, [&before, &point], record.events.len());
-                tilts.follow(&mut path, &before, &point);
-                folds.follow(&mut path, [&before, &point], record.events.len());
-                record.visit(&mut path, &point);
+                watch.follow(&mut path, &before, &point);
             }
             if reach != [Reach::Short; 2] {
                 // What lies beyond may have touched within the step: it is taken again.
                 let from = if is_beyond { &before } else { &point };
-                has_room =
-                    self.lengthen(&mut path, (&mut record, &mut folds), from, reach, longest)?;
+                has_room = self.lengthen(&mut path, &mut watch, from, reach, longest)?;
             }
         }
         let status = if has_room {
             let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
-            ending::judged(status, &record.path)
+            ending::judged(status, &watch.record.path)
         } else {
             Status::RowLimit
         };
-        let at_tilts = tilts.finish();
-        Ok(Followed { record, needle, folds, at_tilts, path, status })
+        Ok(Followed { watch, path, status })
     }
 
     /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
     fn lengthen(
         &self,
         path: &mut Path<Chain>,
-        (record, folds): (&mut Record<Chain>, &mut FoldWatch),
+        watch: &mut PathWatch,
         from: &SkinPoint,
         reach: [Reach; 2],
         longest: usize,
@@ -366,8 +356,7 @@ impl<'a> Problem<'a> {
         let chain = self.part(longer)?;
         let from = chain.extended(path.system(), from);
         let longer = |point: &SkinPoint| chain.extended(path.system(), point);
-        folds.first = folds.first.as_ref().map(longer);
-        record.replace_points(longer, &from);
+        watch.replace_points(longer, &from);
         path.go_on(chain, from);
         Ok(true)
     }

@@ -13,7 +13,7 @@ use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::Skin;
 
-pub(crate) use places::{end, first_contact, is_held, rest, summit};
+pub(crate) use places::{end, first_contact, is_held, rest, summit, turn};
 
 /// A problem for values of a parameter near its own.
 #[derive(Clone, Debug)]
@@ -42,21 +42,54 @@ pub struct Derivative {
 }
 
 /// The derivatives of a measure on both sides of a parameter; `right` is the other but at a kink.
-struct SidedDerivative {
-    left: Option<f64>,
-    right: Option<f64>,
-    kink: Option<String>,
+pub(crate) struct SidedDerivative {
+    pub(crate) left: Option<f64>,
+    pub(crate) right: Option<f64>,
+    pub(crate) kink: Option<String>,
 }
 
-/// A quantity of an equilibrium, which may be the largest of one for each scale.
+impl SidedDerivative {
+    /// The derivatives of a measure of this `value` by differences over twice the `step`. Those that are alike but for round-off are one.
+    pub(crate) fn new(
+        [left, right]: [Option<f64>; 2],
+        value: f64,
+        step: f64,
+        kink: impl FnOnce() -> String,
+    ) -> Self {
+        let smooth = left.zip(right).is_some_and(|(left, right)| {
+            let round_off = ROUND_OFF * value.abs() / step;
+            (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
+        });
+        Self { left, right: if smooth { left } else { right }, kink: (!smooth).then(kink) }
+    }
+}
+
+/// A quantity of an equilibrium, which may be the largest or the least of several.
 pub(crate) struct MeasuredQuantity<S: Skin> {
     pub(crate) measure: &'static str,
-    /// The value by system, state, direction of the path, and scale.
+    /// The value by system, state, direction of the path, and number among several.
     pub(crate) value: fn(&S, &SkinState, &[f64], usize) -> f64,
-    /// The scale for which the value is the largest.
-    pub(crate) largest: Option<fn(&S, &SkinState) -> usize>,
+    /// Which of several values it is.
+    pub(crate) extreme: Extreme<S>,
     /// Whether the direction of the path enters.
     pub(crate) turns: bool,
+}
+
+/// Which of several values a quantity is, as many as a function of the system says.
+#[derive(Clone, Copy)]
+pub(crate) enum Extreme<S> {
+    /// There is one alone.
+    Alone,
+    /// The largest.
+    Largest(fn(&S) -> usize),
+    /// The least.
+    Least(fn(&S) -> usize),
+}
+
+/// The value of a quantity, and the numbers of those that it is among of which one may take its place.
+struct Contenders {
+    value: f64,
+    numbers: Vec<usize>,
 }
 
 /// Quantities that are taken at one place of a path.
@@ -68,6 +101,13 @@ pub(crate) struct MeasuredPoint<S: Skin> {
 
 /// One-sided derivatives that differ by less than this part belong to a smooth measure.
 const SMOOTH: f64 = 1e-9;
+
+/// A value that is farther from the extreme one than this part of it does not take its place within the step of a difference, some
+/// millionths of a parameter.
+const NEAR: f64 = 1e-3;
+
+/// Round-off of a measure, as a part of its value.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// Contacts that change within the step of a difference, one after the other, are at most so many.
 const MOST_CHANGES: usize = 8;
@@ -88,9 +128,11 @@ pub(crate) fn derivatives<S: Skin>(
         let mut linearised = Linearised { system, settings, here, turns };
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
-            let value = quantity.value_at(system, linearised.here.place());
+            let candidates = quantity.value_at(system, linearised.here.place());
+            let value = candidates.value;
             let of = |(parameter, (sides, variation))| {
-                let SidedDerivative { left, right, kink } = quantity.derivative(variation, sides);
+                let derivative = quantity.derivative(variation, sides, &candidates);
+                let SidedDerivative { left, right, kink } = derivative;
                 Derivative { measure: quantity.measure, parameter, value, left, right, kink }
             };
             derivatives.extend(sides.iter().zip(variations).enumerate().map(of));
@@ -195,10 +237,23 @@ impl<S: Skin> Linearised<'_, S> {
 }
 
 impl<S: Skin> MeasuredQuantity<S> {
-    /// The value at a place.
-    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
-        let scale = self.largest.map_or(0, |f| f(system, &place.state));
-        (self.value)(system, &place.state, &place.direction, scale)
+    /// The value at a place, and those of several that may be the extreme one beside it.
+    fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> Contenders {
+        let count = match self.extreme {
+            Extreme::Alone => 1,
+            Extreme::Largest(count) | Extreme::Least(count) => count(system),
+        };
+        let value = |number| (self.value)(system, &place.state, &place.direction, number);
+        let values: Vec<f64> = (0..count).map(value).collect();
+        let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
+        let extreme = extreme.unwrap_or(f64::NAN);
+        let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * extreme.abs();
+        Contenders { value: extreme, numbers: (0..count).filter(is_near).collect() }
+    }
+
+    /// The one of two values that counts; a number, if one is none.
+    fn outer(&self, one: f64, other: f64) -> f64 {
+        if let Extreme::Least(_) = self.extreme { one.min(other) } else { one.max(other) }
     }
 
     /// The derivatives on both sides of a parameter.
@@ -206,13 +261,14 @@ impl<S: Skin> MeasuredQuantity<S> {
         &self,
         variation: &Variation<S>,
         (left, right): &BothSides<S>,
+        Contenders { value, numbers }: &Contenders,
     ) -> SidedDerivative {
         let beyond = variation.right.as_ref();
         let of_right = beyond.map_or(&variation.neighbours, |(neighbours, _)| neighbours);
-        let left_rate = self.rate(&variation.neighbours, left, 0);
+        let left_rate = self.rate(&variation.neighbours, left, 0, numbers);
         let right_rate = match right {
-            None if self.largest.is_none() => left_rate,
-            right => self.rate(of_right, right.as_ref().unwrap_or(left), 1),
+            None if numbers.len() == 1 => left_rate,
+            right => self.rate(of_right, right.as_ref().unwrap_or(left), 1, numbers),
         };
         let named = right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
         let kink = || match (named, beyond) {
@@ -223,30 +279,32 @@ impl<S: Skin> MeasuredQuantity<S> {
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
         let jumps = self.turns && named.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
-        let [left, right] = [left_rate, right_rate].map(known);
-        let smooth = left.zip(right).is_some_and(|(left, right)| {
-            (left - right).abs() <= SMOOTH * left.abs().max(right.abs())
-        });
-        let kink = (!smooth).then(kink);
-        let right = if smooth { left } else { right };
-        SidedDerivative { left, right, kink }
+        let rates = [left_rate, right_rate].map(known);
+        SidedDerivative::new(rates, *value, variation.neighbours.step, kink)
     }
 
-    /// The derivative on one side. The scale is the one that is the largest there.
+    /// The derivative on one side, of the one of the contenders that is the extreme one there.
     fn rate(
         &self,
         neighbours: &Neighbours<S>,
         motion: &SideMotion<S::Mode>,
         side: usize,
+        contenders: &[usize],
     ) -> Option<f64> {
         let moved = motion.moved.as_ref()?;
         let systems = [&neighbours.below, &neighbours.above];
-        let scale = self.largest.map_or(0, |f| f(systems[side], &moved[side].state));
-        let value = |side: usize| {
+        let value = |side: usize, number: usize| {
             let Moved { state, direction } = &moved[side];
-            (self.value)(systems[side], state, direction, scale)
+            (self.value)(systems[side], state, direction, number)
         };
-        Some((value(1) - value(0)) / (2.0 * neighbours.step))
+        let on_side = contenders.iter().map(|&number| (number, value(side, number)));
+        let (number, here) = on_side.reduce(|one, other| {
+            let counts = self.outer(one.1, other.1).total_cmp(&other.1).is_eq();
+            if counts { other } else { one }
+        })?;
+        let there = value(1 - side, number);
+        let rise = if side == 1 { here - there } else { there - here };
+        Some(rise / (2.0 * neighbours.step))
     }
 }
 

@@ -43,7 +43,14 @@ pub struct Moved<M> {
 /// dv/dq = −J⁻¹ d(J v)/dq at fixed v                                                     (D3)
 /// ```
 ///
-/// where `v` is the direction of the path and `s` the number with which the anchor holds. `∂r/∂q` and `d(J v)/dq` are central
+/// where `v` is the direction of the path and `s` the number with which the anchor holds: that of a place where the rate
+/// `f(z, v)` of a quantity vanishes is
+///
+/// ```text
+/// s = −(df/dq in the section)/(df/ds along the path)                                    (D5)
+/// ```
+///
+/// with `v` that turns by (D3), on the way as in the section. `∂r/∂q` and `d(J v)/dq` are central
 /// differences of explicit functions. No solution is ever differenced.
 #[derive(Clone, Debug)]
 pub struct Linearisation<M> {
@@ -135,11 +142,14 @@ impl<M: Clone> Linearisation<M> {
 
     /// `s`: how far the place moves along the path besides.
     fn distance<S: System<Mode = M>>(
-        &self,
+        &mut self,
         system: &S,
         neighbours: &Neighbours<S>,
         unknowns: &[f64],
     ) -> f64 {
+        if let PathAnchor::Stationary(number) = self.place.anchor {
+            return self.distance_to_extremum(system, neighbours, unknowns, number);
+        }
         let AnchoredPoint { state, direction, anchor } = &self.place;
         let off = |system: &S, step: f64| anchor.off(system, &state.moved(step, unknowns));
         let step = neighbours.step;
@@ -154,6 +164,23 @@ impl<M: Clone> Linearisation<M> {
                 -change / (2.0 * step * anchor.slope(system, state, direction))
             }
         }
+    }
+
+    /// `s` of a place at which a rate vanishes (D5).
+    fn distance_to_extremum<S: System<Mode = M>>(
+        &mut self,
+        system: &S,
+        neighbours: &Neighbours<S>,
+        unknowns: &[f64],
+        number: usize,
+    ) -> f64 {
+        let Neighbours { below, above, step } = neighbours;
+        let [lower, upper] = self.turned([below, above], *step, unknowns, true);
+        let rate = |system: &S, at: &Moved<M>| system.rate(&at.state, &at.direction, number);
+        let change = (rate(above, &upper) - rate(below, &lower)) / (2.0 * step);
+        let AnchoredPoint { state, direction, .. } = &self.place;
+        let rate = |system: &S, state: &State<M>, v: &[f64]| system.rate(state, v, number);
+        -change / slope_along(system, &mut self.newton, state, direction, &rate)
     }
 
     /// The change of sides that the motion of the place calls for on one side of the parameter: that of the constraint whose
@@ -183,15 +210,6 @@ impl<M: Clone> Linearisation<M> {
         let condition = Condition::through(self.section.clone(), &self.place.state.z);
         let direction = Newton::new(system).solve(system, &mut state, &condition, settings).ok()?;
         Self::new(system, AnchoredPoint { state, direction, anchor: self.place.anchor }).ok()
-    }
-
-    /// This place held by the guard of another constraint.
-    #[must_use]
-    pub fn held_by(self, constraint: usize) -> Self {
-        Self {
-            place: AnchoredPoint { anchor: PathAnchor::Guard(constraint), ..self.place },
-            ..self
-        }
     }
 }
 

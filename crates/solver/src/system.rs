@@ -130,6 +130,11 @@ pub trait System {
         f64::NAN
     }
 
+    /// The rate along `direction` of a quantity, one of several, where which is stationary a place of the path may be.
+    fn rate(&self, _state: &State<Self::Mode>, _direction: &[f64], _number: usize) -> f64 {
+        f64::NAN
+    }
+
     /// Completes the change of a constraint that has just changed sides in `state`: its flag is the new one and its
     /// unknown is zero. A system with modes gives the state the mode that follows, and unknowns and flags the parts that
     /// they have in it. Returns the constraint whose condition has to hold as the path goes on, or `None` if the

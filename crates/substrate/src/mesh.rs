@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 
 mod motion;
 
-pub use motion::{AxisMotion, MeshMotion};
+pub use motion::{AxisMotion, MeshChange, MeshMotion};
 
 use crate::Footprint;
 

@@ -1,8 +1,11 @@
 //! How fast the stiffness of a row changes with its footprint.
 
+use std::iter;
+
 use crate::boundary_element::{
     FootprintChange, RowReactions, Unresolved, row_reactions, row_reactions_and_rates,
 };
+use crate::mesh::MeshChange;
 use crate::row_stiffness::flat;
 use crate::springs::{CELLS, extrapolation};
 use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs};
@@ -41,17 +44,10 @@ impl StiffnessSlopes {
     /// As [`RowStiffness::of`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let neighbours = if coupling == Coupling::Nearest { 1 } else { NEIGHBOURS };
-        let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
-        let unit = |gap_over_a, width_over_a, poisson_ratio| FootprintChange {
-            gap_over_a,
-            width_over_a,
-            poisson_ratio,
-        };
-        let mut changes = vec![unit(0.0, 0.0, 1.0), unit(1.0, 0.0, 0.0), unit(0.0, 1.0, 0.0)];
-        if footprint.is_tied() {
-            changes.extend([unit(gap, width, 0.0), unit(-1.0, 0.0, 0.0), unit(0.0, -1.0, 0.0)]);
-            changes.push(unit(-gap, -width, 0.0));
-        }
+        let by_ratio = FootprintChange { poisson_ratio: 1.0, ..FootprintChange::default() };
+        let by_length = |mesh| FootprintChange { mesh, poisson_ratio: 0.0 };
+        let lengths = LengthChanges::of(footprint);
+        let changes: Vec<_> = iter::once(by_ratio).chain(lengths.used().map(by_length)).collect();
         let [coarse, medium, fine] = CELLS;
         let coarse = row_reactions(footprint, neighbours, coarse)?;
         // Eq. (1) has no force from rotation.
@@ -64,15 +60,57 @@ impl StiffnessSlopes {
             let [medium, fine] = rates.each_ref();
             slope(coupling, &extrapolation([CELLS[1], CELLS[2]], [medium, fine]))
         };
-        let [by_poisson_ratio, by_gap, by_width] = [0, 1, 2].map(slope);
-        let sides = |right: RowStiffness, left: usize| OneSided { left: slope(left) * -1.0, right };
-        let [by_gap, by_width, by_size] = if footprint.is_tied() {
-            [sides(by_gap, 4), sides(by_width, 5), sides(slope(3), 6)]
-        } else {
-            let by_size = by_gap.clone() * gap + by_width.clone() * width;
-            [by_gap, by_width, by_size].map(|slope| OneSided { left: slope.clone(), right: slope })
+        let slopes: Vec<_> = (1..changes.len()).map(slope).collect();
+        let [by_gap, by_width, by_size] = lengths.wanted.map(|sides| {
+            let [left, right] = sides.map(|parts| lengths.slope(parts, &slopes));
+            OneSided { left: left * -1.0, right }
+        });
+        Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio: slope(0) })
+    }
+}
+
+/// Changes of the lengths of a footprint, and the few directions that they are made of: gap, width, and, where equal lengths grade the
+/// mesh, the layers that do.
+struct LengthChanges {
+    directions: [MeshChange; 4],
+    /// The parts of the directions in the changes of gap, of width, and of both as a base shrinks: backwards and forwards.
+    wanted: [[[f64; 4]; 2]; 3],
+}
+
+impl LengthChanges {
+    fn of(footprint: &Footprint) -> Self {
+        let change = |[gap, width]: [f64; 2]| footprint.mesh_change(gap, width);
+        let [by_gap, by_width] = [change([1.0, 0.0]), change([0.0, 1.0])];
+        let parts = |[gap, width]: [f64; 2]| {
+            let there = change([gap, width]);
+            let free = there.free - gap * by_gap.free - width * by_width.free;
+            let facing = there.facing - gap * by_gap.facing - width * by_width.facing;
+            [gap, width, free, facing]
         };
-        Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio })
+        let sizes = [footprint.gap_over_a(), footprint.width_over_a()];
+        let wanted = [[1.0, 0.0], [0.0, 1.0], sizes]
+            .map(|change| [parts(change.map(|rate| -rate)), parts(change)]);
+        let rest = MeshChange::default();
+        let layers = [MeshChange { free: 1.0, ..rest }, MeshChange { facing: 1.0, ..rest }];
+        Self { directions: [by_gap, by_width, layers[0], layers[1]], wanted }
+    }
+
+    /// Whether any of the changes takes a direction.
+    fn takes(&self, direction: usize) -> bool {
+        self.wanted.iter().flatten().any(|parts| parts[direction] != 0.0)
+    }
+
+    /// The directions that the changes take.
+    fn used(&self) -> impl Iterator<Item = MeshChange> {
+        let directions = self.directions.into_iter().enumerate();
+        directions.filter(|(number, _)| self.takes(*number)).map(|(_, direction)| direction)
+    }
+
+    /// The derivative in a change of these parts, by those in the directions that are used.
+    fn slope(&self, parts: [f64; 4], slopes: &[RowStiffness]) -> RowStiffness {
+        let used = (0..parts.len()).filter(|&direction| self.takes(direction));
+        let terms = used.zip(slopes).map(|(direction, slope)| slope.clone() * parts[direction]);
+        terms.fold(slopes[0].clone() * 0.0, |sum, term| sum + term)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 use std::fmt::Write as _;
-use std::io;
+use std::io::{self, BufWriter, Write as _};
 
 use super::csv_format::CsvFormat;
 use crate::columns::Column;
@@ -10,11 +10,9 @@ use crate::folder::{AtomicFile, OutputError, RunFolder};
 
 /// A table that grows row by row and appears when it is complete.
 pub struct CsvFile<'c, R> {
-    csv: csv::Writer<AtomicFile>,
+    file: BufWriter<AtomicFile>,
     format: CsvFormat,
     columns: &'c [Column<R>],
-    /// The text of the cell that is written.
-    text: String,
 }
 
 impl<'c, R> CsvFile<'c, R> {
@@ -28,13 +26,46 @@ impl<'c, R> CsvFile<'c, R> {
         format: CsvFormat,
         columns: &'c [Column<R>],
     ) -> Result<Self, OutputError> {
-        let file = folder.create(name)?;
-        let path = file.path().to_owned();
-        let csv = format.writer(file).map_err(|error| OutputError::file(&path, &error))?;
-        let mut table = Self { csv, format, columns, text: String::new() };
-        let header = table.csv.write_record(columns.iter().map(|column| column.name.as_ref()));
-        table.checked(header)?;
+        let file = BufWriter::with_capacity(1 << 16, folder.create(name)?);
+        let mut table = Self { file, format, columns };
+        let mut header = format.writer(Vec::new());
+        let written = header.write_record(columns.iter().map(|column| column.name.as_ref()));
+        let header = table.text(header, written)?;
+        let begun = table.file.write_all(format.mark());
+        table.checked(begun)?;
+        table.append(&header)?;
         Ok(table)
+    }
+
+    /// The lines of some rows, as they stand in the file.
+    ///
+    /// # Errors
+    /// If a row has more cells than there are columns.
+    pub fn lines(
+        &self,
+        rows: impl IntoIterator<Item = impl Borrow<R>>,
+    ) -> Result<Vec<u8>, OutputError> {
+        let mut csv = self.format.writer(Vec::new());
+        let mut cell = String::new();
+        let written = rows.into_iter().try_for_each(|row| {
+            for column in self.columns {
+                cell.clear();
+                // Writing to a string cannot fail.
+                let _ = write!(cell, "{}", column.cell(row.borrow()));
+                csv.write_field(self.format.cell(&cell).as_bytes())?;
+            }
+            csv.write_record(None::<&[u8]>)
+        });
+        self.text(csv, written)
+    }
+
+    /// Adds lines.
+    ///
+    /// # Errors
+    /// If the disk does not take them.
+    pub fn append(&mut self, lines: &[u8]) -> Result<(), OutputError> {
+        let written = self.file.write_all(lines);
+        self.checked(written)
     }
 
     /// Adds a row.
@@ -42,32 +73,32 @@ impl<'c, R> CsvFile<'c, R> {
     /// # Errors
     /// If the disk does not take it.
     pub fn write(&mut self, row: &R) -> Result<(), OutputError> {
-        for column in self.columns {
-            self.text.clear();
-            // Writing to a string cannot fail.
-            let _ = write!(self.text, "{}", column.cell(row));
-            let written = self.csv.write_field(self.format.cell(&self.text).as_bytes());
-            self.checked(written)?;
-        }
-        let ended = self.csv.write_record(None::<&[u8]>);
-        self.checked(ended)
+        let lines = self.lines([row])?;
+        self.append(&lines)
     }
 
     /// Puts the table in its place and returns its SHA-256.
     ///
     /// # Errors
     /// If the disk does not take it.
-    pub fn finish(mut self) -> Result<String, OutputError> {
-        let flushed = self.csv.flush();
-        self.checked(flushed.map_err(csv::Error::from))?;
-        let path = self.csv.get_ref().path().to_owned();
-        let file = self.csv.into_inner();
+    pub fn finish(self) -> Result<String, OutputError> {
+        let path = self.file.get_ref().path().to_owned();
+        let file = self.file.into_inner();
         file.map_err(|error| OutputError::file(&path, error.error()))?.finish()
     }
 
-    fn checked(&self, result: Result<(), csv::Error>) -> Result<(), OutputError> {
-        result
-            .map_err(|error| OutputError::file(self.csv.get_ref().path(), &io::Error::from(error)))
+    /// What was written to memory.
+    fn text(
+        &self,
+        csv: csv::Writer<Vec<u8>>,
+        written: Result<(), csv::Error>,
+    ) -> Result<Vec<u8>, OutputError> {
+        let text = csv.into_inner().map_err(|error| io::Error::other(error.to_string()));
+        self.checked(written.map_err(io::Error::from).and(text))
+    }
+
+    fn checked<T>(&self, result: io::Result<T>) -> Result<T, OutputError> {
+        result.map_err(|error| OutputError::file(self.file.get_ref().path(), &error))
     }
 }
 

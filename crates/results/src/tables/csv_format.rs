@@ -40,17 +40,19 @@ impl CsvFormat {
         }
     }
 
-    /// Writes a file in this format.
-    ///
-    /// # Errors
-    /// If the file does not take its first bytes.
-    pub fn writer<W: Write>(self, mut file: W) -> io::Result<csv::Writer<W>> {
-        if self == Self::ExcelEu {
-            file.write_all(MARK)?;
+    /// The bytes with which a file of this format begins.
+    pub fn mark(self) -> &'static [u8] {
+        match self {
+            Self::Plain => &[],
+            Self::ExcelEu => MARK,
         }
+    }
+
+    /// Writes cells in this format.
+    pub fn writer<W: Write>(self, to: W) -> csv::Writer<W> {
         let mut csv = csv::WriterBuilder::new();
         csv.delimiter(self.delimiter()).terminator(csv::Terminator::CRLF);
-        Ok(csv.from_writer(file))
+        csv.from_writer(to)
     }
 
     fn delimiter(self) -> u8 {

@@ -3,21 +3,24 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
+use rayon::iter::ParallelIterator as _;
+use rayon::slice::ParallelSlice as _;
 use results::columns::tables;
-use results::{
-    Contents, CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, OutputError,
-    RunFolder, failure_columns,
-};
-use sweep::Measure;
+use results::{Contents, CsvFormat, DesignRow, OutputError, RunFolder, failure_columns};
 
 use super::changes;
+use super::open_tables::OpenTables;
 use super::run_info::RunInfo;
 use super::summary::Summary;
 use crate::journal::{Archive, Journal, JournalError};
+use crate::options::Options;
 use crate::progress::{Finished, RunError};
 
 /// Writing the tables takes at most one part in this many of the time of a run.
 const SHARE: u32 = 20;
+
+/// Designs whose rows one thread makes at a time.
+const PORTION: usize = 32;
 
 /// Names of tables, each with its SHA-256, in the order in which people read them.
 type WrittenTables = Vec<(String, String)>;
@@ -27,6 +30,7 @@ pub(crate) struct TableWriter<'a> {
     folder: RunFolder,
     format: CsvFormat,
     every: Duration,
+    threads: usize,
     info: RunInfo<'a>,
     /// The moment at which the tables were written last, and how long that took.
     written: Instant,
@@ -34,10 +38,16 @@ pub(crate) struct TableWriter<'a> {
 }
 
 impl<'a> TableWriter<'a> {
-    /// A writer of tables to `folder`, due `every` so often.
-    pub fn new(folder: RunFolder, format: CsvFormat, every: Duration, info: RunInfo<'a>) -> Self {
+    /// A writer of tables to `folder`, as the options say.
+    pub fn new(
+        folder: RunFolder,
+        format: CsvFormat,
+        options: &Options<'_>,
+        info: RunInfo<'a>,
+    ) -> Self {
         let (written, writing) = (Instant::now(), Duration::ZERO);
-        Self { folder, format, every, info, written, writing }
+        let Options { tables_every: every, threads, .. } = *options;
+        Self { folder, format, every, threads, info, written, writing }
     }
 
     /// Whether it is time to write the tables again.
@@ -76,60 +86,30 @@ impl<'a> TableWriter<'a> {
     }
 
     /// Writes the tables; returns what the run comes to, and each with its SHA-256. Entries are read one by
-    /// one, in the order of their designs.
-    fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), JournalError> {
+    /// one, in the order of their designs; their rows are made by all threads.
+    fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
+        let pool = pool.map_err(|error| RunError::Threads {
+            count: self.threads,
+            reason: error.to_string(),
+        })?;
         let layouts = tables(archive.sweep());
-        let mut designs = Vec::new();
-        for layout in &layouts {
-            designs.push(CsvFile::create(folder, &layout.file, format, &layout.columns)?);
-        }
-        let columns = failure_columns(archive.sweep());
-        let mut failures = CsvFile::create(folder, RunFolder::FAILURES, format, &columns)?;
-        let mut derivatives = Derivatives::create(archive, folder, format)?;
+        let failures = failure_columns(archive.sweep());
+        let mut tables = OpenTables::create(folder, format, archive.sweep(), &layouts, &failures)?;
         let mut summary = Summary::default();
-        for entry in archive.entries()?.in_order() {
-            let row = archive.row(entry?);
-            designs.iter_mut().try_for_each(|table| table.write(&row))?;
-            row.failures().try_for_each(|failure| failures.write(&failure))?;
-            derivatives.write(&row)?;
-            summary.add(&row);
+        let mut entries = archive.entries()?.in_order().peekable();
+        while entries.peek().is_some() {
+            let some = entries.by_ref().take(PORTION * self.threads);
+            let rows = some.map(|entry| Ok(archive.row(entry?)));
+            let rows: Vec<DesignRow> = rows.collect::<Result<_, JournalError>>()?;
+            let lines = || rows.par_chunks(PORTION).map(|rows| tables.lines(rows)).collect();
+            let lines: Result<Vec<_>, OutputError> = pool.install(lines);
+            lines?.iter().try_for_each(|lines| tables.append(lines))?;
+            rows.iter().for_each(|row| summary.add(row));
         }
-        let mut files = Vec::new();
-        for (layout, table) in layouts.iter().zip(designs) {
-            files.push((layout.file.clone(), table.finish()?));
-        }
-        files.push((RunFolder::FAILURES.to_owned(), failures.finish()?));
-        files.extend(derivatives.finish()?);
+        let mut files = tables.finish()?;
         files.extend(changes::write(archive, folder, format)?);
         Ok((summary, files))
-    }
-}
-
-/// The table of derivatives, if the sweep asks for one.
-struct Derivatives(Option<CsvFile<'static, DerivativeRow>>);
-
-impl Derivatives {
-    fn create(
-        archive: &Archive,
-        folder: &RunFolder,
-        format: CsvFormat,
-    ) -> Result<Self, OutputError> {
-        if !archive.sweep().measures().contains(&Measure::Sensitivity) {
-            return Ok(Self(None));
-        }
-        let table = CsvFile::create(folder, RunFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS)?;
-        Ok(Self(Some(table)))
-    }
-
-    fn write(&mut self, row: &DesignRow) -> Result<(), OutputError> {
-        let Some(table) = &mut self.0 else { return Ok(()) };
-        row.derivatives().try_for_each(|derivative| table.write(&derivative))
-    }
-
-    /// Puts the table in its place and returns its name and what vouches for it, if there is one.
-    fn finish(self) -> Result<Option<(String, String)>, OutputError> {
-        let Some(table) = self.0 else { return Ok(None) };
-        Ok(Some((RunFolder::SENSITIVITY.to_owned(), table.finish()?)))
     }
 }

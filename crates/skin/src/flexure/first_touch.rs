@@ -7,6 +7,7 @@ use geometry::{OutOfRange, Row};
 use solver::Neighbours;
 
 use super::{FlexureInput, FlexureParameters};
+use crate::sensitivity::SidedDerivative;
 use crate::{Derivative, Design, Variation};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
@@ -58,9 +59,10 @@ pub(super) fn curvature_derivatives(
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);
         let meetings = neighbours.each_ref().map(|side| side.meeting(rotation).unwrap_or(own));
         let rate = |meeting| Some(gap.closing_rate(meeting, rotation, &neighbours, *step));
-        let kink = (meetings[0] != meetings[1]).then(|| "another corner meets an edge".to_owned());
-        let [left, right] = meetings.map(rate);
         let (measure, value) = ("contact_curvature", rotation / gap.row.pitch());
+        let kink = || "another corner meets an edge".to_owned();
+        let sided = SidedDerivative::new(meetings.map(rate), value, *step, kink);
+        let SidedDerivative { left, right, kink } = sided;
         Ok(Derivative { measure, parameter, value, left, right, kink })
     };
     variations.iter().enumerate().map(derivative).collect()

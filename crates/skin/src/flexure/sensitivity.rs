@@ -11,8 +11,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
-    rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
+    first_contact, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -116,7 +116,7 @@ fn quantity(
     measure: &'static str,
     value: fn(&Strip, &SkinState, &[f64], usize) -> f64,
 ) -> MeasuredQuantity<Strip> {
-    MeasuredQuantity { measure, value, largest: None, turns: false }
+    MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false }
 }
 
 fn compliance(measure: &'static str) -> MeasuredQuantity<Strip> {

@@ -6,13 +6,14 @@ use solver::{AnchoredPoint, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
-use super::system::{Chain, Layout};
+use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
+use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{PathFunction, Record, Skin};
+use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Derivative, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end, first_contact,
-    rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
+    first_contact, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -62,8 +63,8 @@ impl Problem<'_> {
         followed: &mut Followed,
         variations: &[Variation<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
-        let Followed { record, folds, path, .. } = followed;
-        let spots = self.spots(record, path, folds);
+        let Followed { watch, path, .. } = followed;
+        let spots = self.spots(watch, path);
         let system = path.system();
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
@@ -74,9 +75,8 @@ impl Problem<'_> {
     /// The places of the path at which measures are taken.
     fn spots(
         &self,
-        record: &Record<Chain>,
+        PathWatch { record, needle, folds: FoldWatch { folds, first }, .. }: &PathWatch,
         path: &mut Path<Chain>,
-        FoldWatch { folds, first }: &FoldWatch,
     ) -> Vec<MeasuredPoint<Chain>> {
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
@@ -85,9 +85,12 @@ impl Problem<'_> {
         let highest = record.highest_point(LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
-        let is_held = |place| sensitivity::is_held(path.system(), place);
-        let at_peak = at_peak(highest.as_ref().is_some_and(is_held));
         let chain = path.system();
+        let peak = highest.as_ref().map(|place| chain.extremum(place));
+        let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
+        let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
+        let depth_limit = needle.depth_limit.as_ref();
+        let depth_limit = depth_limit.and_then(|point| sensitivity::turn(chain, point, DEPTH_RATE));
         let touching = record.touching().and_then(|point| first_contact(chain, point));
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
@@ -96,7 +99,10 @@ impl Problem<'_> {
         vec![
             spot(Some(end(path)), end_quantities),
             spot(folded, fold_quantities),
-            spot(highest, at_peak),
+            spot(highest, vec![force("peak_force")]),
+            at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
+            at_turn(load_limit, [force("load_stability_force")]),
+            at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
             spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
             spot(stiffest, vec![stiffness("max_stiffness")]),
@@ -116,6 +122,18 @@ impl PunctureInput {
 }
 
 impl Chain {
+    /// The place of the largest load: held by that where nothing else holds it.
+    fn extremum(
+        &self,
+        place: &AnchoredPoint<Vec<CornerContact>>,
+    ) -> AnchoredPoint<Vec<CornerContact>> {
+        let anchor = match sensitivity::is_held(self, place) {
+            true => place.anchor,
+            false => PathAnchor::Stationary(LOAD_RATE),
+        };
+        AnchoredPoint { anchor, ..place.clone() }
+    }
+
     /// The equilibrium at which a gap vanishes.
     fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<Vec<CornerContact>> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
@@ -127,13 +145,15 @@ impl Chain {
     }
 }
 
-/// The quantities at the largest force, those besides it only where its place is known to first order.
-fn at_peak(with_place: bool) -> Vec<MeasuredQuantity<Chain>> {
-    let mut quantities = vec![force("peak_force")];
-    if with_place {
-        quantities.extend([depth("peak_displacement"), tilt("peak_tilt_deg")]);
-    }
-    quantities
+/// Quantities at a place. Where load or depth turns back smoothly, the direction of the path tells the place.
+fn at_turn<const N: usize>(
+    place: Option<AnchoredPoint<Vec<CornerContact>>>,
+    quantities: [MeasuredQuantity<Chain>; N],
+) -> MeasuredPoint<Chain> {
+    let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));
+    let quantities = quantities.into_iter();
+    let quantities = quantities.map(|quantity| MeasuredQuantity { turns, ..quantity }).collect();
+    MeasuredPoint { place, quantities }
 }
 
 /// The quantities at the critical tilt and at the first fold. The model can answer for the force at that of the two that comes first.
@@ -149,48 +169,43 @@ fn tilt(measure: &'static str) -> MeasuredQuantity<Chain> {
 }
 
 fn critical() -> Vec<MeasuredQuantity<Chain>> {
+    // Beyond the last gap there are those that are not solved for, as one.
+    let scales = |chain: &Chain| chain.layout.scales();
     vec![
         force("critical_force"),
         depth("critical_displacement"),
         MeasuredQuantity {
-            largest: Some(|chain, state| largest(chain, |i| chain.base_depth(&state.z, i))),
+            extreme: Extreme::Largest(scales),
             ..quantity("penetration", |chain, state, _, i| chain.base_depth(&state.z, i))
         },
         MeasuredQuantity {
-            largest: Some(|chain, state| largest(chain, |i| sink(chain, state, i))),
-            ..quantity("sink", |chain, state, _, i| sink(chain, state, i))
+            extreme: Extreme::Largest(scales),
+            ..quantity("sink", |chain, state, _, i| -chain.displacement(&state.z, i)[1])
         },
         quantity("secant_stiffness", |chain, state, _, _| {
             chain.plane_modulus * chain.force(state) * chain.length / chain.depth(&state.z)
         }),
         MeasuredQuantity {
-            largest: Some(|chain, state| extreme(chain, state, -1.0)),
-            ..quantity("gap_stretch_min", |chain, state, _, pair| stretch(chain, state, pair, -1.0))
+            extreme: Extreme::Least(scales),
+            ..quantity("gap_stretch_min", |chain, state, _, gap| {
+                stretch(chain, state, gap, f64::min)
+            })
         },
         MeasuredQuantity {
-            largest: Some(|chain, state| extreme(chain, state, 1.0)),
-            ..quantity("gap_stretch_max", |chain, state, _, pair| stretch(chain, state, pair, 1.0))
+            extreme: Extreme::Largest(scales),
+            ..quantity("gap_stretch_max", |chain, state, _, gap| {
+                stretch(chain, state, gap, f64::max)
+            })
         },
     ]
 }
 
-/// The pair whose gap is stretched most, or least with the `sign` −1. Beyond the last pair there are those that are not solved for.
-fn extreme(chain: &Chain, state: &SkinState, sign: f64) -> usize {
-    let pairs = chain.layout.scales() - 1;
-    let within = (0..pairs).map(|pair| sign * chain.gap_stretch(state, pair));
-    let beyond = sign * stretch(chain, state, pairs, sign);
-    let is_beyond = |within: f64| within < beyond;
-    largest_of(within).filter(|(_, within)| !is_beyond(*within)).map_or(pairs, |(pair, _)| pair)
-}
-
-/// The stretch of the gap of a pair, or the largest or least of those that are not solved for.
-fn stretch(chain: &Chain, state: &SkinState, pair: usize, sign: f64) -> f64 {
-    if pair < chain.layout.scales() - 1 {
-        return chain.gap_stretch(state, pair);
+/// The stretch of a gap, or, beyond the last one, the outer of those that are not solved for; no number, if there are none.
+fn stretch(chain: &Chain, state: &SkinState, gap: usize, outer: fn(f64, f64) -> f64) -> f64 {
+    if gap < chain.layout.scales() - 1 {
+        return chain.gap_stretch(state, gap);
     }
-    let beyond = chain.stretches_beyond(&state.z).into_iter();
-    let beyond = largest_of(beyond.map(|stretch| sign * stretch));
-    beyond.map_or(f64::NAN, |(_, stretch)| sign * stretch)
+    chain.stretches_beyond(&state.z).into_iter().reduce(outer).unwrap_or(f64::NAN)
 }
 
 fn force(measure: &'static str) -> MeasuredQuantity<Chain> {
@@ -201,7 +216,7 @@ fn quantity(
     measure: &'static str,
     value: fn(&Chain, &SkinState, &[f64], usize) -> f64,
 ) -> MeasuredQuantity<Chain> {
-    MeasuredQuantity { measure, value, largest: None, turns: false }
+    MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false }
 }
 
 fn depth(measure: &'static str) -> MeasuredQuantity<Chain> {
@@ -213,18 +228,4 @@ fn stiffness(measure: &'static str) -> MeasuredQuantity<Chain> {
         chain.plane_modulus * chain.stiffness(state, direction)
     };
     MeasuredQuantity { turns: true, ..quantity(measure, value) }
-}
-
-fn sink(chain: &Chain, state: &SkinState, scale: usize) -> f64 {
-    -chain.displacement(&state.z, scale)[1]
-}
-
-/// The scale for which a number is the largest.
-fn largest(chain: &Chain, f: impl Fn(usize) -> f64) -> usize {
-    largest_of((0..chain.layout.scales()).map(f)).map_or(0, |(scale, _)| scale)
-}
-
-/// The largest of some numbers, the last of equal ones, and its position; `None` of none.
-fn largest_of(numbers: impl Iterator<Item = f64>) -> Option<(usize, f64)> {
-    numbers.enumerate().reduce(|largest, next| if next.1 >= largest.1 { next } else { largest })
 }

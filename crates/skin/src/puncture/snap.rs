@@ -35,8 +35,10 @@ pub(super) struct Needle {
     has_unloaded: bool,
     /// Of every point that the path has left.
     instability: Vec<Instability>,
-    /// `F*` where stability under the load ends.
-    load_limit: Option<f64>,
+    /// Where stability under the load ends.
+    pub(super) load_limit: Option<SkinPoint>,
+    /// Where the depth first turns back.
+    pub(super) depth_limit: Option<SkinPoint>,
     snaps: Vec<Snap>,
 }
 
@@ -67,7 +69,7 @@ impl Needle {
         let instability = self.at(path.system(), state);
         self.instability.push(instability);
         if instability.load > 0 {
-            self.load_limit.get_or_insert(path.system().force(&from.state));
+            self.load_limit.get_or_insert_with(|| from.clone());
         }
     }
 
@@ -89,6 +91,7 @@ impl Needle {
         {
             let point = path.system().path_point(&turned);
             self.snaps.push(Snap { point, drop: None, events_before });
+            self.depth_limit.get_or_insert(turned);
         }
         if let Some(snap) = self.open_snap() {
             snap.land(path, from, to);
@@ -98,6 +101,13 @@ impl Needle {
     /// The snap that has not come to the path again.
     fn open_snap(&mut self) -> Option<&mut Snap> {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
+    }
+
+    /// Makes points of a longer row of those that are kept.
+    pub(super) fn replace_points(&mut self, longer: &impl Fn(&SkinPoint) -> SkinPoint) {
+        for limit in [&mut self.load_limit, &mut self.depth_limit].into_iter().flatten() {
+            *limit = longer(limit);
+        }
     }
 
     /// Adds to the measures how far the path is stable. Returns the instability of every point of the path, and the snaps.
@@ -114,7 +124,8 @@ impl Needle {
         self.instability.push(end);
         measures.stable_under_load = Some(end.load == 0);
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
-        measures.load_stability_force = self.load_limit;
+        let limit = self.load_limit.as_ref();
+        measures.load_stability_force = limit.map(|point| path.system().force(&point.state));
         measures.depth_stability_force = self.snaps.first().map(|snap| snap.point.force);
         measures.snaps = self.snaps.len();
         (self.instability, self.snaps)

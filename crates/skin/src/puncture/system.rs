@@ -12,6 +12,10 @@ use crate::contacts::{Contacts, PAIR_FORCES, SkinState};
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
 
+/// Numbers of the rates that tell where load and depth turn back.
+pub(super) const LOAD_RATE: usize = 0;
+pub(super) const DEPTH_RATE: usize = 1;
+
 /// The order of the unknowns: scales, contact forces, load.
 ///
 /// ```text
@@ -317,6 +321,14 @@ impl System for Chain {
     /// The stretch of a gap, by its left scale: where it vanishes the surface folds over.
     fn marker(&self, state: &SkinState, pair: usize) -> f64 {
         self.gap_stretch(state, pair)
+    }
+
+    /// The rate of the load or of the depth.
+    fn rate(&self, state: &SkinState, direction: &[f64], number: usize) -> f64 {
+        match number {
+            LOAD_RATE => direction[self.layout.load()],
+            _ => self.depth_slope(&state.z, direction),
+        }
     }
 
     fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {

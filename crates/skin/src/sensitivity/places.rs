@@ -74,12 +74,26 @@ pub(crate) fn summit<S: Skin>(
     }
 }
 
+/// The place at which a quantity turns back, which a contact that changes makes it do or else its vanishing rate, of this `number`.
+pub(crate) fn turn<S: Skin>(
+    system: &S,
+    point: &SkinPoint,
+    number: usize,
+) -> Option<AnchoredPoint<S::Mode>> {
+    let Point { state, leaving, event, .. } = point;
+    let anchor = match event {
+        Some(Event::Changed(changes)) => PathAnchor::Guard(vanished(system, state, changes)?),
+        _ => PathAnchor::Stationary(number),
+    };
+    Some(AnchoredPoint { state: state.clone(), direction: leaving.clone(), anchor })
+}
+
 /// Whether a place is held by the target of the path or by a contact that changes there. That of a smooth maximum is not: a
 /// parameter moves it along the path.
 pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bool {
     match place.anchor {
         PathAnchor::Still => false,
-        PathAnchor::Target | PathAnchor::Marker(_) => true,
+        PathAnchor::Target | PathAnchor::Marker(_) | PathAnchor::Stationary(_) => true,
         // Elsewhere the guard is a section through the path.
         PathAnchor::Guard(constraint) => {
             Newton::guards(system, &place.state)[constraint].abs() < VANISHED

@@ -15,6 +15,8 @@ pub enum PathAnchor {
     Guard(usize),
     /// The marker of this number keeps its value.
     Marker(usize),
+    /// The rate of this number vanishes: a quantity is stationary along the path.
+    Stationary(usize),
 }
 
 /// An equilibrium of a path that a parameter moves.
@@ -29,11 +31,11 @@ pub struct AnchoredPoint<M> {
 }
 
 impl PathAnchor {
-    /// The number that vanishes where the anchor holds.
+    /// The number that vanishes where the anchor holds, of one that a state tells.
     pub(super) fn off<S: System>(self, system: &S, state: &State<S::Mode>) -> f64 {
         let control = system.controls()[0];
         match self {
-            Self::Still => 0.0,
+            Self::Still | Self::Stationary(_) => 0.0,
             Self::Target => state.z[control.index] / control.scale - 1.0,
             Self::Guard(constraint) => guard(system, state, constraint),
             Self::Marker(number) => system.marker(state, number),
@@ -49,7 +51,7 @@ impl PathAnchor {
     ) -> f64 {
         let control = system.controls()[0];
         match self {
-            Self::Still => 0.0,
+            Self::Still | Self::Stationary(_) => 0.0,
             Self::Target => direction[control.index] / control.scale,
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
             Self::Marker(number) => {

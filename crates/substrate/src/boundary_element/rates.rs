@@ -5,15 +5,13 @@ use std::ops::{AddAssign, Mul};
 use super::moving::{self, Motion, SeenLines};
 use super::{Equations, Factors, RowReactions, Tractions, Unresolved};
 use crate::Footprint;
-use crate::mesh::{Mesh, MeshMotion};
+use crate::mesh::{Mesh, MeshChange, MeshMotion};
 
-/// A direction in which a footprint changes.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A direction in which a footprint, or what grades its mesh, changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FootprintChange {
-    /// Rate of `d/a`.
-    pub gap_over_a: f64,
-    /// Rate of `b/a`.
-    pub width_over_a: f64,
+    /// Rates of the lengths.
+    pub mesh: MeshChange,
     /// Rate of `ν`.
     pub poisson_ratio: f64,
 }
@@ -29,8 +27,7 @@ const STEP: f64 = 1e-5;
 /// ```
 ///
 /// on the factors of the tractions themselves. That of the matrix is exact in the motion of the mesh, and so is the motion; displacements and sums
-/// are differences of explicit functions. Where two of the lengths that grade the mesh are equal the rate is that of the side to which the change
-/// leads. The moments of displaced neighbours, which only a coupling beyond Eq. (1) has, have rates if `moments` says so.
+/// are differences of explicit functions. The moments of displaced neighbours, which only a coupling beyond Eq. (1) has, have rates if `moments` says so.
 ///
 /// # Errors
 /// As [`reactions`](super::reactions).
@@ -69,7 +66,7 @@ impl Solved<'_> {
     /// The rates of the reactions for each change.
     fn rates(&self, changes: &[FootprintChange]) -> Vec<RowReactions> {
         let motion = |change: &FootprintChange| Motion {
-            mesh: self.mesh.motion(self.footprint, change),
+            mesh: self.mesh.motion(&change.mesh),
             poisson_ratio: change.poisson_ratio,
         };
         let motions: Vec<_> = changes.iter().map(motion).collect();
@@ -96,8 +93,7 @@ impl Solved<'_> {
     ) -> (RowReactions, Tractions) {
         let mut sums = self.mesh.sums(self.footprint, &self.tractions) * 0.0;
         let mut displacements = self.tractions.zeros();
-        let relative = (change.gap_over_a / self.footprint.gap_over_a()).abs();
-        let relative = relative.max((change.width_over_a / self.footprint.width_over_a()).abs());
+        let relative = self.footprint.fastest(&change.mesh);
         if relative == 0.0 {
             return (sums, displacements);
         }
@@ -123,8 +119,8 @@ impl Solved<'_> {
 impl Footprint {
     /// The footprint with other lengths, as far as there is one.
     fn moved(&self, change: &FootprintChange, distance: f64) -> Option<Self> {
-        let gap = self.gap_over_a() + distance * change.gap_over_a;
-        let width = self.width_over_a() + distance * change.width_over_a;
+        let gap = self.gap_over_a() + distance * change.mesh.gap;
+        let width = self.width_over_a() + distance * change.mesh.width;
         Self::new(gap, width, self.poisson_ratio()).ok()
     }
 }

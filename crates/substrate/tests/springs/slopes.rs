@@ -45,6 +45,8 @@ fn check(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) {
         let footprint = Footprint::new(gap, width, ratio).unwrap();
         numbers(&RowStiffness::of(&footprint, coupling).unwrap())
     };
+    // Where two of gap, width and base are equal another one grades the mesh on each side.
+    let is_tied = width == 2.0 || gap == width.min(2.0);
     let footprint = Footprint::new(gap, width, poisson_ratio).unwrap();
     let slopes = StiffnessSlopes::of(&footprint, coupling).unwrap();
     assert_eq!(slopes.stiffness, RowStiffness::of(&footprint, coupling).unwrap());
@@ -59,7 +61,7 @@ fn check(gap: f64, width: f64, poisson_ratio: f64, coupling: Coupling) {
         right: slopes.right.clone() * by,
     };
     let compare = |slopes: OneSided, f: &dyn Fn(f64) -> Vec<f64>| {
-        if footprint.is_tied() {
+        if is_tied {
             assert_close(&slopes.right, &one_sided(f, 1e-4), 1e-6, &what);
             let back: Vec<_> = one_sided(|h| f(-h), 1e-4).iter().map(|x| -x).collect();
             assert_close(&slopes.left, &back, 1e-6, &what);

@@ -126,6 +126,8 @@ pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
         "sound_force" => puncture.sound_force,
         "peak_displacement" => puncture.peak_displacement,
         "peak_tilt_deg" => puncture.peak_tilt_deg,
+        "load_stability_force" => puncture.load_stability_force,
+        "depth_stability_force" => puncture.depth_stability_force,
         "compliance" => flexure.compliance,
         "initial_compliance" => flexure.initial_compliance,
         "first_contact_curvature" => flexure.first_contact_curvature,

@@ -1,0 +1,88 @@
+//! The tables of a run while they are written.
+
+use results::columns::TableLayout;
+use results::{
+    Column, CsvFile, CsvFormat, DERIVATIVE_COLUMNS, DerivativeRow, DesignRow, FailureRow,
+    OutputError, RunFolder,
+};
+use sweep::{Measure, Sweep};
+
+/// The tables that have a row, or rows, of each design.
+pub(super) struct OpenTables<'a> {
+    layouts: &'a [TableLayout],
+    designs: Vec<CsvFile<'a, DesignRow>>,
+    failures: CsvFile<'a, FailureRow>,
+    /// The table of derivatives, if the sweep asks for one.
+    derivatives: Option<CsvFile<'static, DerivativeRow>>,
+}
+
+/// The lines of some designs in every table.
+pub(super) struct TableLines {
+    designs: Vec<Vec<u8>>,
+    failures: Vec<u8>,
+    derivatives: Vec<u8>,
+}
+
+impl<'a> OpenTables<'a> {
+    /// Begins the tables of a sweep.
+    pub fn create(
+        folder: &RunFolder,
+        format: CsvFormat,
+        sweep: &Sweep,
+        layouts: &'a [TableLayout],
+        failures: &'a [Column<FailureRow>],
+    ) -> Result<Self, OutputError> {
+        let create = |layout: &'a TableLayout| {
+            CsvFile::create(folder, &layout.file, format, &layout.columns)
+        };
+        let designs = layouts.iter().map(create).collect::<Result<_, _>>()?;
+        let failures = CsvFile::create(folder, RunFolder::FAILURES, format, failures)?;
+        let derivatives =
+            || CsvFile::create(folder, RunFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
+        let is_asked = sweep.measures().contains(&Measure::Sensitivity);
+        let derivatives = is_asked.then(derivatives).transpose()?;
+        Ok(Self { layouts, designs, failures, derivatives })
+    }
+
+    /// The lines of these designs.
+    pub fn lines(&self, rows: &[DesignRow]) -> Result<TableLines, OutputError> {
+        let derivatives =
+            |table: &CsvFile<_>| table.lines(rows.iter().flat_map(DesignRow::derivatives));
+        Ok(TableLines {
+            designs: self
+                .designs
+                .iter()
+                .map(|table| table.lines(rows))
+                .collect::<Result<_, _>>()?,
+            failures: self.failures.lines(rows.iter().flat_map(DesignRow::failures))?,
+            derivatives: self
+                .derivatives
+                .as_ref()
+                .map(derivatives)
+                .transpose()?
+                .unwrap_or_default(),
+        })
+    }
+
+    /// Adds lines to every table.
+    pub fn append(&mut self, lines: &TableLines) -> Result<(), OutputError> {
+        for (table, lines) in self.designs.iter_mut().zip(&lines.designs) {
+            table.append(lines)?;
+        }
+        self.failures.append(&lines.failures)?;
+        self.derivatives.iter_mut().try_for_each(|table| table.append(&lines.derivatives))
+    }
+
+    /// Puts the tables in their places; returns their names, each with its SHA-256.
+    pub fn finish(self) -> Result<Vec<(String, String)>, OutputError> {
+        let mut files = Vec::new();
+        for (layout, table) in self.layouts.iter().zip(self.designs) {
+            files.push((layout.file.clone(), table.finish()?));
+        }
+        files.push((RunFolder::FAILURES.to_owned(), self.failures.finish()?));
+        if let Some(table) = self.derivatives {
+            files.push((RunFolder::SENSITIVITY.to_owned(), table.finish()?));
+        }
+        Ok(files)
+    }
+}
