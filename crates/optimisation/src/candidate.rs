@@ -15,6 +15,8 @@ pub enum SearchStage {
     Sample,
     /// A step along derivatives.
     Gradient,
+    /// A step along a ridge, by derivatives on both sides of it.
+    Ridge,
     /// A step of the search without derivatives.
     Polish,
     /// A best design as it is drawn, of which skins are made.
@@ -27,6 +29,7 @@ impl SearchStage {
         match self {
             Self::Sample => "sample",
             Self::Gradient => "gradient",
+            Self::Ridge => "ridge",
             Self::Polish => "polish",
             Self::Skins => "skins",
         }

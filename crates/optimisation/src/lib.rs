@@ -1,7 +1,7 @@
 //! Optimisation: the best designs between the points of a grid.
 //!
 //! A goal names variables, objectives and requirements. Points that fill the space of the variables are solved first; the best of
-//! them are improved along the exact derivatives of every measure, and, where those end at kinks, by a direct search that converges
+//! them are improved along the exact derivatives of every measure, and, where those end at kinks, by a bundle method that converges
 //! there. Several objectives give a front. What binds at a best design, and what it costs, comes from the multipliers of
 //! the limits `g_k ≥ l_k` that balance the objective `o` (O1):
 //!
@@ -10,7 +10,7 @@
 //! ```
 //!
 //! ```text
-//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ polish ─► Found: optimum or front, bindings, history
+//! DesignGoal ─► DesignSpace ─► sample ─► climb ⇄ ridge, polish ─► Found: optimum or front, bindings, history
 //!                                └─ Evaluations: each point once, kept in a journal ─┘
 //! ```
 //!

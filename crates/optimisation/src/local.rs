@@ -1,7 +1,11 @@
-//! The search from one design to a better one near by: along exact derivatives, then without them where those end at a kink.
+//! The search from one design to a better one near by: along exact derivatives, along ridges where those end at kinks, and without
+//! derivatives where values jump.
 
+mod bundle;
 mod climb;
 mod polish;
+mod problem;
+mod ridge;
 mod room;
 
 use std::cell::RefCell;
@@ -15,7 +19,7 @@ use crate::looked::LookedRow;
 use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
 
-/// Rounds of derivatives and of what does without, at most.
+/// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
 
 /// How fine a local search becomes before it ends.
@@ -23,17 +27,17 @@ const ROUNDS: usize = 4;
 struct Fineness {
     /// A relative gain below which a round has come to its end.
     gain: f64,
-    /// Iterations of a climb, at most.
-    iterations: u64,
+    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
+    looks: u64,
     /// The smallest step without derivatives, a share of the intervals.
     step: f64,
 }
 
 impl Fineness {
     /// Among designs as they are drawn.
-    const DRAWN: Self = Self { gain: 1e-8, iterations: 40, step: 1e-7 };
+    const DRAWN: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
     /// Among designs of which skins are made, whose number leaves quantiles and yields uncertain by per cents.
-    const SKINS: Self = Self { gain: 1e-3, iterations: 12, step: 1e-4 };
+    const SKINS: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
 }
 
 /// The parts that all searches share: the space, its evaluations, the judge.
@@ -49,23 +53,25 @@ pub(crate) struct Search<'a> {
 pub(crate) struct Effort {
     /// Rounds.
     pub rounds: usize,
-    /// First step without derivatives, a share of the intervals.
+    /// First step along ridges and without derivatives, a share of the intervals.
     pub reach: f64,
+    /// Designs along ridges in a round, for each variable.
+    pub ridge: usize,
     /// Designs without derivatives in a round, for each variable.
     pub polish: usize,
 }
 
 impl Effort {
     /// Along derivatives alone.
-    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, polish: 0 };
+    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
     /// To the end.
-    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, polish: 40 };
+    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8 };
     /// From a design that is nearly the best.
-    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, polish: 15 };
+    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
 
     /// As much as it may take where each design costs as many solutions as skins are made of it.
     fn on_skins(self) -> Self {
-        Self { rounds: self.rounds.min(2), polish: self.polish / 4, ..self }
+        Self { rounds: self.rounds.min(2), ridge: self.ridge / 2, polish: self.polish / 2, ..self }
     }
 }
 
@@ -129,7 +135,7 @@ impl Search<'_> {
         start: &Candidate,
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
-        let mut walk = LocalSearch {
+        let walk = LocalSearch {
             search: self,
             target,
             best: RefCell::new(start.clone()),
@@ -139,15 +145,16 @@ impl Search<'_> {
             return Ok(Vec::new());
         }
         let effort = if self.judge.made().is_some() { effort.on_skins() } else { effort };
-        let mut reach = effort.reach;
+        let (mut reach, variables) = (effort.reach, start.point.shares.len());
         walk.climb()?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
-            walk.polish(reach, effort.polish * start.point.shares.len())?;
-            walk.climb()?;
+            walk.follow(reach, effort.ridge * variables)?;
+            walk.polish(reach, effort.polish * variables)?;
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
+            walk.climb()?;
             reach *= 0.3;
         }
         Ok(walk.log.take())

@@ -49,13 +49,13 @@ fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
 }
 
 /// A low-discrepancy sequence in a unit cube.
-struct Sequence {
+pub(crate) struct Sequence {
     start: Vec<f64>,
     step: Vec<f64>,
 }
 
 impl Sequence {
-    fn new(dimensions: usize, seed: u64) -> Self {
+    pub fn new(dimensions: usize, seed: u64) -> Self {
         let ratio = ratio(dimensions);
         let step: Vec<f64> = (1..=dimensions).map(|j| ratio.powi(-(j as i32))).collect();
         // Seeds shift the start by another irrational number, so that none is another's beginning.
@@ -64,7 +64,7 @@ impl Sequence {
     }
 
     /// The point `index`, from 1.
-    fn point(&self, index: usize) -> Vec<f64> {
+    pub fn point(&self, index: usize) -> Vec<f64> {
         let coordinate = |(start, step): (&f64, &f64)| (start + index as f64 * step).fract();
         self.start.iter().zip(&self.step).map(coordinate).collect()
     }

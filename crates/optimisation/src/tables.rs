@@ -102,7 +102,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "place among the designs that were looked at"),
         plain(
             "stage",
-            "sample: points that fill the space; gradient: a step along derivatives; polish: a step without; skins: the first look at what is made of a design",
+            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; skins: the first look at what is made of a design",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));

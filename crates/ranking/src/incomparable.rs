@@ -1,46 +1,12 @@
 //! Designs whose values cannot be compared, because they are not measured alike.
 
-use results::{InvalidResults, Results};
+use results::{InvalidResults, Results, YARDSTICKS};
 use sweep::number;
 
 use crate::filter::RequirementFilter;
 use crate::preferences::Preferences;
 use crate::ranking::InvalidRanking;
 use crate::requirement::{Relation, Requirement};
-
-/// A parameter that says how something is measured, and the columns that can be compared only where it is the same.
-struct Yardstick {
-    parameter: &'static str,
-    /// Beginnings of the names of the columns.
-    columns: &'static [&'static str],
-}
-
-const PUNCTURE: &[&str] = &[
-    "critical_force",
-    "penetration",
-    "critical_displacement",
-    "sink",
-    "secant_stiffness",
-    "peak_force",
-    "sound_force",
-];
-const BENDING: &[&str] = &["compliance", "max_moment", "flexural_rigidity", "axial_energy_share"];
-
-/// The parameters that say how something is measured. The dimensionless compliances are those of one membrane: `C_f*`
-/// counts in `1/(E_m I_m)`, which another thickness changes.
-const YARDSTICKS: [Yardstick; 5] = [
-    Yardstick { parameter: "critical_tilt_deg", columns: PUNCTURE },
-    Yardstick { parameter: "needle_friction", columns: PUNCTURE },
-    Yardstick {
-        parameter: "membrane_thickness_over_t",
-        columns: &["compliance", "initial_compliance", "max_moment"],
-    },
-    Yardstick { parameter: "max_end_rotation_deg", columns: BENDING },
-    Yardstick { parameter: "membrane_length_over_t", columns: BENDING },
-];
-
-/// Columns in physical units end so. They can be compared whatever the membrane.
-const PHYSICAL: [&str; 3] = ["_N", "_N_mm", "_N_mm2"];
 
 /// Designs that are not measured alike, so that a criterion says nothing about which of them is better.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -139,21 +105,6 @@ fn differing(
         }
     }
     Ok(found)
-}
-
-/// The parameters that say how a column is measured: only designs of the same values can be compared by it.
-pub fn yardsticks(column: &str) -> Vec<&'static str> {
-    let measuring = YARDSTICKS.iter().filter(|yardstick| yardstick.measures(column));
-    measuring.map(|yardstick| yardstick.parameter).collect()
-}
-
-impl Yardstick {
-    /// Whether the values of a column depend on it in a way that leaves nothing to compare.
-    fn measures(&self, column: &str) -> bool {
-        let is_physical = PHYSICAL.iter().any(|unit| column.ends_with(unit));
-        let is_free = is_physical && self.parameter == "membrane_thickness_over_t";
-        !is_free && self.columns.iter().any(|beginning| column.starts_with(beginning))
-    }
 }
 
 /// The different values of a parameter among the designs that meet the requirements, in the order of the table.

@@ -16,7 +16,7 @@
 //! | [`CRITERIA`], [`Criterion`], [`Goal`], [`Weights`], [`Scale`] | what is good, how much each counts, and how they are put together |
 //! | [`Ranking`], [`RankedDesign`] | the designs in the order of their fitness |
 //! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
-//! | [`check_comparable`], [`yardsticks`], [`comparable_groups`] | whether criteria can be compared between designs, and between which |
+//! | [`check_comparable`], [`comparable_groups`] | whether criteria can be compared between designs, and between which |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
 //! | [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
@@ -56,7 +56,7 @@ pub use compare::{
 };
 pub use criterion::{CRITERIA, Criterion, Goal, InvalidCriterion};
 pub use front::pareto_front;
-pub use incomparable::{Incomparable, check_comparable, comparable_groups, yardsticks};
+pub use incomparable::{Incomparable, check_comparable, comparable_groups};
 pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
     InvalidRanking, RankedDesign, Ranking, pareto_columns, quaternary_columns, ranking_columns,

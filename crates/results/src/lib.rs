@@ -57,6 +57,7 @@ mod reader;
 pub mod round_off;
 mod shell;
 mod tables;
+mod yardstick;
 
 pub use columns::cell::Cell;
 pub use columns::{
@@ -87,3 +88,4 @@ pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
+pub use yardstick::{YARDSTICKS, Yardstick, incomparable_by, yardsticks};

@@ -142,7 +142,12 @@ fn folded_row(finished: &Finished) -> Option<[String; 2]> {
 }
 
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
-    let row = |Best { what, leader }: Best| {
+    let row = |Best { what, leader, apart }: Best| {
+        if let Some(parameter) = apart {
+            let text =
+                format!("not told: designs of different {parameter} cannot be compared by it");
+            return [what.to_owned(), text];
+        }
         let ties = match leader.ties {
             0 => String::new(),
             ties => format!(", and {ties} more"),

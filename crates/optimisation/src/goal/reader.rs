@@ -1,7 +1,8 @@
 //! From keys and values to a goal.
 
-use ranking::{Relation, Requirement, yardsticks};
+use ranking::{Relation, Requirement};
 use results::columns::{design_columns, measure_of};
+use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
     Axis, InvalidDefinition, Problem, Sweep, Variable, VariableValues, WrongValue, nearest,

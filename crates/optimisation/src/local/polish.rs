@@ -1,4 +1,4 @@
-//! The polish without derivatives: mesh adaptive direct search (`OrthoMADS`), which converges at kinks, too.
+//! The polish without derivatives: a few steps of mesh adaptive direct search (`OrthoMADS`), which sees past jumps.
 
 use basin::{
     BoxBounds, ConstraintDescription, ConstraintSet, ConstraintSolveError, Constraints,
@@ -12,7 +12,7 @@ use crate::evaluations::Halt;
 impl LocalSearch<'_> {
     /// Improves the best design by steps of `reach` and less of the intervals, over at most `most` designs. As long as none meets all
     /// that is asked for, the largest shortfall is made small; from then on whoever falls short is no step.
-    pub(super) fn polish(&mut self, reach: f64, most: usize) -> Result<(), Halt> {
+    pub(super) fn polish(&self, reach: f64, most: usize) -> Result<(), Halt> {
         loop {
             let start = self.best_shares();
             let before = self.best_merit();

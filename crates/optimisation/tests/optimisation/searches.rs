@@ -71,7 +71,28 @@ fn an_optimum_on_a_kink_is_found_and_has_no_price() {
     // Where S = p, the line down from a corner meets one scale whole: λ = 1/(1 + d), and falls to both sides.
     assert!((objectives(best)[0] - 1.0 / 1.3).abs() < 1e-6, "{:?}", objectives(best));
     assert!(best.bindings.iter().all(|binding| binding.price.is_none()));
-    assert!(found.history.iter().any(|candidate| candidate.stage == SearchStage::Polish));
+    assert!(found.history.iter().any(|candidate| candidate.stage == SearchStage::Ridge));
+}
+
+#[test]
+fn an_optimum_at_the_end_of_a_ridge_is_found() {
+    // The longer the scales along S = p, the more they cover, until the surface folds, or the interval ends.
+    let text = "name = 'ridge'\nmeasures = ['coverage', 'puncture']\npuncture.scales = 9\n[variables]\n\
+        length_over_t = { from = 0.5, to = 1 }\nslant_deg = { from = 30, to = 55 }\n[designs]\ngap_over_t = 0.1\n\
+        [goal]\nmaximize = 'coverage'\nsamples = 16\n";
+    for sound in [true, false] {
+        let goal = DesignGoal::parse(&format!("{text}sound = {sound}"), "x.toml", &[]);
+        let found = found(&goal.expect("a goal"));
+        let best = optimum(&found);
+        let design = best.row.case.design;
+        let (pitch, shift) = (design.length + 0.1, design.slant_deg.to_radians().tan());
+        assert!((shift / pitch - 1.0).abs() < 1e-7, "{design:?}");
+        assert!((objectives(best)[0] / (design.length / pitch) - 1.0).abs() < 1e-7);
+        let puncture = best.row.result.puncture.expect("measured").measures;
+        let stretch = puncture.gap_stretch_min.expect("a gap");
+        assert_eq!(design.length < 1.0, sound);
+        assert!(!sound || (-1e-9..1e-7).contains(&stretch), "{stretch}");
+    }
 }
 
 #[test]

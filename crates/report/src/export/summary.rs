@@ -4,7 +4,7 @@ use std::fs::File;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
 use results::round_off::Leader;
-use results::{CsvFormat, RunFolder, VerifiedFolder};
+use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
 use sweep::{PARAMETERS, Sweep};
 
@@ -70,7 +70,7 @@ pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Work
     let definition = Sweep::parse(&record, RunFolder::RUN_INFO, &[]).ok();
     sheet.title(definition.as_ref())?;
     sheet.run(&record, folder.shortfall(), best)?;
-    sheet.best(best)?;
+    sheet.best(best, definition.as_ref())?;
     sheet.ranking(folder)?;
     if let Some(sweep) = &definition {
         sheet.definition(sweep)?;
@@ -133,7 +133,7 @@ impl Sheet {
         Ok(())
     }
 
-    fn best(&mut self, best: &BestValues) -> Result<(), XlsxError> {
+    fn best(&mut self, best: &BestValues, sweep: Option<&Sweep>) -> Result<(), XlsxError> {
         self.part(&["Best designs", "design", "value", "unit"])?;
         for ((criterion, _), leader) in best.columns.iter().zip(&best.best) {
             let Some(leader) = leader else { continue };
@@ -143,6 +143,12 @@ impl Sheet {
             };
             let extreme = ["largest", "least"][usize::from(criterion.goal == Goal::Minimize)];
             let name = format!("{extreme} {}", criterion.column.replace('_', " "));
+            if let Some(parameter) = sweep.and_then(|s| incomparable_by(s, &criterion.column)) {
+                let why =
+                    format!("not told: designs of different {parameter} cannot be compared by it");
+                self.add(&[&name, "", "", &why])?;
+                continue;
+            }
             let unit = Explanation::of("designs", &criterion.column).map_or("-", |e| e.unit);
             let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
             self.add(&[

@@ -1,7 +1,7 @@
 //! The data of a page, as its scripts read them.
 
-use ranking::yardsticks;
 use results::shell_word;
+use results::yardsticks;
 use serde_json::{Map, Value, json};
 use sweep::visible;
 

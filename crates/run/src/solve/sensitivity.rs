@@ -20,28 +20,58 @@ fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
     PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 
+/// The prefactor of the contact law, which stands before the exponent.
+const PREFACTOR: &str = "c1";
+const EXPONENT: &str = "c2";
+
+/// The continuous parameters that vary when the paths of a measure are differentiated: all but the prefactor of the contact law, of which
+/// the forces have the product with the modulus alone.
+fn varied_parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
+    let mut parameters = parameters(case, of);
+    parameters.retain(|parameter| parameter.key != PREFACTOR);
+    parameters
+}
+
+/// Derivatives of paths, and those with respect to the prefactor of the contact law, which follow from those with respect to the modulus.
+fn with_prefactor(case: &Case, derivatives: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
+    let c1 = case.common.law.c1;
+    let by_prefactor = |by_modulus: &ParameterDerivative| {
+        let scaled = |derivative: Option<f64>| derivative.map(|d| d * by_modulus.at / c1);
+        let (left, right) = (scaled(by_modulus.left), scaled(by_modulus.right));
+        ParameterDerivative { parameter: PREFACTOR, at: c1, left, right, ..by_modulus.clone() }
+    };
+    let of_measure = |of: &[ParameterDerivative]| {
+        let by_modulus = of.iter().find(|d| d.parameter.starts_with("contact_modulus_over_"));
+        let prefactor = by_modulus.map(by_prefactor);
+        let exponent = of.iter().position(|d| d.parameter == EXPONENT).unwrap_or(of.len());
+        let (before, behind) = of.split_at(exponent);
+        before.iter().cloned().chain(prefactor).chain(behind.iter().cloned()).collect::<Vec<_>>()
+    };
+    derivatives.chunk_by(|one, next| one.measure == next.measure).flat_map(of_measure).collect()
+}
+
 /// Punctures the design of `case`, and differentiates its measures.
 pub(super) fn puncture(
     case: &Case,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = parameters(case, Measure::Puncture);
+    let parameters = varied_parameters(case, Measure::Puncture);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
-    Ok((puncture, named(case, &parameters, derivatives)))
+    Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
 /// Bends the design of `case`, and differentiates its measures.
 pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = parameters(case, Measure::Flexure);
+    let parameters = varied_parameters(case, Measure::Flexure);
     let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: None };
     let variations: Vec<_> =
         parameters.iter().filter_map(|p| varied(p).variation(Varied::bent)).collect();
     let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
-    Ok((flexure, named(case, &parameters, derivatives)))
+    Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
 
 /// The derivatives of the coverage of `case`.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use results::round_off::Leader;
-use results::{DesignResult, DesignRow, Outcome};
-use sweep::{DesignNumber, Measure};
+use results::{DesignResult, DesignRow, Outcome, incomparable_by};
+use sweep::{DesignNumber, Measure, Sweep};
 
 /// Counts and best values of the designs of a run.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +18,8 @@ pub struct Summary {
     /// Designs on whose path the surface of the substrate folds over.
     pub folded: u64,
     best: [Option<Leader<DesignNumber>>; 5],
+    /// For each of these, the parameter that says how it is measured and in which the designs differ.
+    apart: [Option<&'static str>; 5],
 }
 
 /// The best value of its kind, and the first design that has it.
@@ -27,11 +29,14 @@ pub struct Best {
     pub what: &'static str,
     /// The value, its first design, and how many others have it too.
     pub leader: Leader<DesignNumber>,
+    /// The parameter in which designs differ so that they cannot be compared by it.
+    pub apart: Option<&'static str>,
 }
 
 /// A value of which the best is told.
 struct Contest {
     what: &'static str,
+    column: &'static str,
     is_better: fn(&f64, &f64) -> bool,
     value: fn(&DesignResult) -> Option<f64>,
 }
@@ -41,26 +46,45 @@ const SOUND: &str = "largest force before a fold";
 
 /// The values of which the best is told.
 static CONTESTS: [Contest; 5] = [
-    Contest { what: "best coverage", is_better: f64::gt, value: |r| r.coverage },
+    Contest {
+        what: "best coverage",
+        column: "coverage",
+        is_better: f64::gt,
+        value: |r| r.coverage,
+    },
     Contest {
         what: "largest critical force",
+        column: "critical_force",
         is_better: f64::gt,
         value: |r| r.puncture?.measures.critical_force,
     },
     Contest {
         what: "least penetration",
+        column: "penetration",
         is_better: f64::lt,
         value: |r| r.puncture?.measures.penetration,
     },
     Contest {
         what: "largest compliance",
+        column: "compliance",
         is_better: f64::gt,
         value: |r| r.flexure?.measures.compliance,
     },
-    Contest { what: SOUND, is_better: f64::gt, value: |r| r.puncture?.measures.sound_force },
+    Contest {
+        what: SOUND,
+        column: "sound_force",
+        is_better: f64::gt,
+        value: |r| r.puncture?.measures.sound_force,
+    },
 ];
 
 impl Summary {
+    /// The summary of no design of a sweep.
+    pub(crate) fn new(sweep: &Sweep) -> Self {
+        let apart = CONTESTS.each_ref().map(|contest| incomparable_by(sweep, contest.column));
+        Self { apart, ..Self::default() }
+    }
+
     /// Counts a design. Designs must come in their order, because of equal ones the first is the best.
     pub(crate) fn add(&mut self, row: &DesignRow) {
         self.designs += 1;
@@ -85,9 +109,10 @@ impl Summary {
     /// The best values, those that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
         let is_told = |contest: &Contest| contest.what != SOUND || self.folded > 0;
-        let contests = self.best.iter().zip(&CONTESTS).filter(move |(_, contest)| is_told(contest));
-        contests
-            .filter_map(|(leader, contest)| Some(Best { what: contest.what, leader: (*leader)? }))
+        let contests = CONTESTS.iter().zip(self.best).zip(self.apart);
+        contests.filter(move |((contest, _), _)| is_told(contest)).filter_map(
+            |((contest, leader), apart)| Some(Best { what: contest.what, leader: leader?, apart }),
+        )
     }
 }
 
@@ -110,7 +135,7 @@ mod tests {
     #[test]
     fn counts_and_best_values() {
         let sweep = Sweep::parse("name = 'x'", "x.toml", &[]).expect("a valid sweep");
-        let mut summary = Summary::default();
+        let mut summary = Summary::new(&sweep);
         for (index, penetration) in [(0, Some(0.5)), (1, None), (2, Some(0.25))] {
             let outcome = penetration.map_or(Outcome::RowLimit, |_| Outcome::Complete);
             let mut puncture = PunctureResult::without_path(outcome);
@@ -133,5 +158,9 @@ mod tests {
             ("largest force before a fold", "0001", 0),
         ];
         assert_eq!(best, expected.map(|(what, design, ties)| (what, design.to_owned(), ties)));
+        let text = "name = 'x'\ndesigns.critical_tilt_deg = [5, 10]";
+        let tilts = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+        let apart = Summary { best: summary.best, ..Summary::new(&tilts) }.best().next();
+        assert_eq!(apart.and_then(|best| best.apart), Some("critical_tilt_deg"));
     }
 }

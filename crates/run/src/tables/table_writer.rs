@@ -97,7 +97,7 @@ impl<'a> TableWriter<'a> {
         let layouts = tables(archive.sweep());
         let failures = failure_columns(archive.sweep());
         let mut tables = OpenTables::create(folder, format, archive.sweep(), &layouts, &failures)?;
-        let mut summary = Summary::default();
+        let mut summary = Summary::new(archive.sweep());
         let mut entries = archive.entries()?.in_order().peekable();
         while entries.peek().is_some() {
             let some = entries.by_ref().take(PORTION * self.threads);
@@ -106,7 +106,9 @@ impl<'a> TableWriter<'a> {
             let lines = || rows.par_chunks(PORTION).map(|rows| tables.lines(rows)).collect();
             let lines: Result<Vec<_>, OutputError> = pool.install(lines);
             lines?.iter().try_for_each(|lines| tables.append(lines))?;
-            rows.iter().for_each(|row| summary.add(row));
+            for row in &rows {
+                summary.add(row);
+            }
         }
         let mut files = tables.finish()?;
         files.extend(changes::write(archive, folder, format)?);

@@ -6,6 +6,7 @@ mod differences;
 mod kinks;
 mod scatter;
 mod tilts;
+mod turns;
 
 use std::time::{Duration, Instant};
 

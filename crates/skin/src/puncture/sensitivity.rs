@@ -127,10 +127,8 @@ impl Chain {
         &self,
         place: &AnchoredPoint<Vec<CornerContact>>,
     ) -> AnchoredPoint<Vec<CornerContact>> {
-        let anchor = match sensitivity::is_held(self, place) {
-            true => place.anchor,
-            false => PathAnchor::Stationary(LOAD_RATE),
-        };
+        let held = sensitivity::is_held(self, place);
+        let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..place.clone() }
     }
 

@@ -49,7 +49,7 @@ fn ends(
 }
 
 /// Steep designs at large tilts, of which a few end in the rarer branches.
-fn steep_case(number: u64) -> Case {
+pub fn steep_case(number: u64) -> Case {
     let mut case = random_case(number);
     case.puncture.critical_tilt_deg = 10.0 + 25.0 * (number % 7) as f64 / 7.0;
     case.design.slant_deg = 55.0 + 28.0 * (number % 11) as f64 / 11.0;

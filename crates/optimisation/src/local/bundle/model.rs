@@ -1,0 +1,147 @@
+//! The step that is best for all tangents: a linear program, which sequential least squares solves.
+
+use std::convert::Infallible;
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintSet, Constraints, CostFunction, DenseMatrix,
+    Executor, Gradient, LinearBlock, LinearBlocks, NoLinearBlock, NoNonlinearConstraints,
+    SelectedFirstOrderState, Slsqp, State as _,
+};
+
+use super::Piece;
+
+/// How much more the cost counts than the squares by which least squares begin.
+const WEIGHT: f64 = 1e3;
+
+/// Room that steps keep to limits, so that what is left of a curvature does not pass them.
+const MARGIN: f64 = 1e-10;
+
+/// Iterations of a linear program, at most.
+const ITERATIONS: u64 = 20;
+
+/// The tangent of what.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Cut {
+    /// The cost, or what is to be small in its place.
+    Cost,
+    /// A limit.
+    Limit,
+}
+
+/// Tangents round a centre: rows `slope·u ≤ right + s` of the step `u` in radii.
+pub(super) struct Model<'c> {
+    centre: &'c [f64],
+    radius: f64,
+    /// What is to be small, at the centre.
+    worst: f64,
+    cuts: Vec<(Cut, Vec<f64>, f64)>,
+}
+
+impl<'c> Model<'c> {
+    pub fn new(centre: &'c [f64], radius: f64, worst: f64) -> Self {
+        Self { centre, radius, worst, cuts: Vec::new() }
+    }
+
+    /// Adds the tangent of a piece that was seen at `place`, not above the value `here` of the centre.
+    pub fn add(&mut self, cut: Cut, piece: &Piece, here: f64, place: &[f64]) {
+        let Some(gradient) = &piece.gradient else { return };
+        let along =
+            gradient.iter().zip(self.centre.iter().zip(place)).map(|(g, (x, y))| g * (x - y));
+        let value = (piece.value + along.sum::<f64>()).min(here);
+        let slope = gradient.iter().map(|g| g * self.radius).collect();
+        let right = match cut {
+            Cut::Cost => self.worst - value,
+            Cut::Limit => (-MARGIN - value).max(0.0),
+        };
+        self.cuts.push((cut, slope, right));
+    }
+
+    /// The place of the best step, and the gain that the tangents tell.
+    pub fn step(&self) -> Option<(Vec<f64>, f64)> {
+        let costs = || self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost);
+        let size = |slope: &[f64]| slope.iter().map(|x| x.abs()).sum::<f64>();
+        let scale = costs().map(|(_, slope, _)| size(slope)).fold(0.0, f64::max);
+        if scale <= 0.0 {
+            return None;
+        }
+        let step = self.solve(scale)?;
+        let dot = |slope: &[f64]| slope.iter().zip(&step).map(|(g, u)| g * u).sum::<f64>();
+        let rises = costs().map(|(_, slope, right)| dot(slope) - right);
+        let gain = -rises.fold(f64::NEG_INFINITY, f64::max);
+        let moved =
+            self.centre.iter().zip(&step).map(|(x, u)| (x + self.radius * u).clamp(0.0, 1.0));
+        Some((moved.collect(), gain))
+    }
+
+    fn solve(&self, scale: f64) -> Option<Vec<f64>> {
+        let n = self.centre.len();
+        let mut rows = Vec::new();
+        let mut right = Vec::new();
+        for (cut, slope, limit) in &self.cuts {
+            let size = match cut {
+                Cut::Cost => scale,
+                Cut::Limit => slope.iter().map(|x| x.abs()).sum(),
+            };
+            if size > 0.0 {
+                rows.extend(slope.iter().map(|x| x / size));
+                rows.push(if *cut == Cut::Cost { -1.0 } else { 0.0 });
+                right.push(limit / size);
+            }
+        }
+        let end = |x: f64| [(-x / self.radius).max(-1.0), ((1.0 - x) / self.radius).min(1.0)];
+        let ends: Vec<[f64; 2]> = self.centre.iter().map(|x| end(*x)).collect();
+        let program = LinearProgram {
+            rows: DenseMatrix::from_row_slice(right.len(), n + 1, &rows),
+            right,
+            lower: ends.iter().map(|e| e[0]).chain([-2.0]).collect(),
+            upper: ends.iter().map(|e| e[1]).chain([2.0]).collect(),
+        };
+        let start = SelectedFirstOrderState::new(vec![0.0; n + 1]);
+        let solver = Slsqp::new().with_absolute_accuracy_tolerance(1e-9);
+        let solved = Executor::new(program, solver, start).max_iter(ITERATIONS).run().ok()?;
+        let step = solved.state.param()[..n].to_vec();
+        step.iter().all(|u| u.is_finite()).then_some(step)
+    }
+}
+
+/// The smallest last coordinate that rows and bounds allow.
+struct LinearProgram {
+    rows: DenseMatrix,
+    right: Vec<f64>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl CostFunction for LinearProgram {
+    type Param = Vec<f64>;
+    type Output = f64;
+    type Error = Infallible;
+
+    fn cost(&self, x: &Vec<f64>) -> Result<f64, Infallible> {
+        Ok(WEIGHT * x[x.len() - 1])
+    }
+}
+
+impl Gradient for LinearProgram {
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, x: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
+        let mut gradient = vec![0.0; x.len()];
+        gradient[x.len() - 1] = WEIGHT;
+        Ok(gradient)
+    }
+}
+
+impl Constraints for LinearProgram {
+    type Set = ConstraintSet<
+        BoxBounds<Vec<f64>>,
+        LinearBlocks<NoLinearBlock, LinearBlock<DenseMatrix, Vec<f64>>>,
+        NoNonlinearConstraints,
+    >;
+
+    fn constraints(&self) -> <Self::Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new()
+            .with_bounds(BoxBounds::new(Some(&self.lower), Some(&self.upper)))
+            .with_linear_inequalities(LinearBlock::new(&self.rows, &self.right))
+    }
+}

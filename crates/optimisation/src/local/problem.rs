@@ -1,0 +1,168 @@
+//! The problem of a local search along derivatives: a cost that is to be small and limits, both about 1 in size, over shares of the
+//! intervals.
+
+use results::DesignResult;
+use sweep::Parameter;
+
+use super::room::{bending_room, bending_room_slopes};
+use super::{LocalSearch, floor_size};
+use crate::candidate::{Merit, SearchStage};
+use crate::evaluations::Halt;
+use crate::judge::{Judgement, Worth};
+use crate::looked::LookedRow;
+use crate::slopes::Slopes;
+
+/// Room that is kept before scales touch in bending.
+const CLEAR: f64 = 1e-9;
+
+/// How an objective becomes a cost of about 1 in size.
+#[derive(Clone, Copy)]
+enum CostScale {
+    /// Its logarithm: objectives vary by powers of ten.
+    Logarithm,
+    /// Over a size, where it is not above 0.
+    Linear(f64),
+}
+
+impl CostScale {
+    /// The cost of a value, and its derivative, for one that is to be small.
+    fn cost(self, value: f64) -> (f64, f64) {
+        match self {
+            Self::Logarithm if value > 0.0 => (value.ln(), value.recip()),
+            Self::Logarithm => (f64::NEG_INFINITY, f64::NAN),
+            Self::Linear(size) => {
+                let size = if size > 0.0 { size } else { 1.0 };
+                (value / size, size.recip())
+            }
+        }
+    }
+}
+
+/// Whether bending brings no scales into contact.
+fn is_open(result: &DesignResult) -> bool {
+    result.flexure.is_some_and(|flexure| flexure.measures.contact == Some(false))
+}
+
+/// The problem of a local search from its best design.
+pub(super) struct LocalProblem<'a> {
+    walk: &'a LocalSearch<'a>,
+    stage: SearchStage,
+    scale: CostScale,
+    /// Whether the search stays where bending brings no scales into contact: compliances jump where it does, and no derivative tells.
+    stays_open: bool,
+    pub lower: Vec<f64>,
+    pub upper: Vec<f64>,
+}
+
+/// A design that can be judged.
+pub(super) struct Looked {
+    pub worth: Worth,
+    pub row: LookedRow,
+    /// Whether it meets everything.
+    pub met: bool,
+}
+
+impl<'a> LocalProblem<'a> {
+    /// The problem from the best design of `walk`; none if that cannot be judged.
+    pub fn new(walk: &'a LocalSearch<'a>, stage: SearchStage) -> Option<Self> {
+        let best = walk.best.borrow();
+        let Judgement::Judged(worth) = &best.verdict else { return None };
+        let value = worth.objectives[walk.target.objective];
+        let count = best.point.shares.len();
+        Some(Self {
+            walk,
+            stage,
+            scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
+            stays_open: walk.search.judge.bends() && is_open(&best.result),
+            lower: vec![0.0; count],
+            upper: vec![1.0; count],
+        })
+    }
+
+    /// The design at some shares, with its derivatives.
+    pub fn look(&self, shares: &[f64]) -> Result<Option<Looked>, Halt> {
+        let (candidate, row) = self.walk.at(self.stage, shares, true)?;
+        let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
+        let Judgement::Judged(worth) = candidate.verdict else { return Ok(None) };
+        Ok(Some(Looked { worth, row, met }))
+    }
+
+    /// The cost, to be small; infinite where there is none.
+    pub fn cost_of(&self, worth: &Worth) -> f64 {
+        let objective = self.walk.target.objective;
+        let sign = self.walk.search.judge.sign(objective);
+        let cost = -sign * self.scale.cost(worth.objectives[objective]).0;
+        // A logarithm that does not exist is no way to go, whichever sign is good.
+        if cost.is_finite() { cost } else { f64::INFINITY }
+    }
+
+    /// The number of limits: requirements, floors, and room in bending.
+    pub fn limit_count(&self) -> usize {
+        let floors = self.walk.target.floors.len();
+        self.walk.search.judge.requirements().count() + floors + usize::from(self.stays_open)
+    }
+
+    /// How far a design is beyond each limit; not above 0 where it keeps to it.
+    pub fn limits(&self, looked: &Looked) -> Vec<f64> {
+        let Looked { worth, row, .. } = looked;
+        let room = self.stays_open.then(|| CLEAR - bending_room(&row.drawn.case));
+        let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
+        let floors = self.walk.target.floors.iter();
+        let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
+        worth.excess.iter().copied().chain(floors).chain(room).collect()
+    }
+
+    /// The gradient of the cost, made of the slopes that are picked.
+    pub fn cost_gradient(&self, shares: &[f64], looked: &Looked, pick: Pick) -> Option<Vec<f64>> {
+        let (judge, objective) = (self.walk.search.judge, self.walk.target.objective);
+        let rate = self.scale.cost(looked.worth.objectives[objective]).1;
+        let slopes = |p: &Parameter| judge.objective_slopes(objective, &looked.row, p).scaled(rate);
+        self.falling(shares, slopes, pick)
+    }
+
+    /// The gradient of limit `k`, made of the slopes that are picked.
+    pub fn limit_gradient(
+        &self,
+        k: usize,
+        shares: &[f64],
+        looked: &Looked,
+        pick: Pick,
+    ) -> Option<Vec<f64>> {
+        let (judge, row) = (self.walk.search.judge, &looked.row);
+        let required = judge.requirements().count();
+        if k < required {
+            return self.falling(shares, |p| judge.margin_slopes(k, row, p), pick);
+        }
+        match self.walk.target.floors.get(k - required) {
+            Some(&(objective, floor)) => {
+                let slopes = |p: &Parameter| judge.objective_slopes(objective, row, p);
+                let size = floor_size(floor).recip();
+                self.falling(shares, |p| slopes(p).scaled(size), pick)
+            }
+            None => self.falling(shares, |p| bending_room_slopes(&row.drawn.case, p), pick),
+        }
+    }
+
+    /// The gradient over shares of the negative of what has these slopes; at the ends of an interval the side within counts.
+    fn falling(
+        &self,
+        shares: &[f64],
+        slopes: impl Fn(&Parameter) -> Slopes,
+        pick: Pick,
+    ) -> Option<Vec<f64>> {
+        let intervals = self.walk.search.space.intervals().iter().zip(shares);
+        let slope = |(interval, share): (&crate::space::Interval, &f64)| {
+            let Slopes { left, right } = slopes(interval.parameter);
+            let slope = match *share {
+                share if share <= 0.0 => right.or(left),
+                share if share >= 1.0 => left.or(right),
+                _ => pick(Slopes { left, right }),
+            };
+            slope.map(|slope| -slope * interval.length())
+        };
+        intervals.map(slope).collect()
+    }
+}
+
+/// What is made of the two slopes of a value that is to be large.
+pub(super) type Pick = fn(Slopes) -> Option<f64>;

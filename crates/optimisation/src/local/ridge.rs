@@ -1,0 +1,41 @@
+//! The search along ridges, where the climb ends: with the pieces that were seen near by.
+
+use super::LocalSearch;
+use super::bundle::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
+use super::problem::LocalProblem;
+use crate::candidate::SearchStage;
+use crate::evaluations::Halt;
+use crate::slopes::Slopes;
+
+/// The smallest radius, a share of the intervals: kinks are told from further away than that.
+const SMALLEST: f64 = 1e-6;
+
+impl LocalSearch<'_> {
+    /// Follows the ridge on which the best design stands, by steps of `reach` and less of the intervals, over at most `most` designs.
+    pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
+        let Some(problem) = LocalProblem::new(self, SearchStage::Ridge) else { return Ok(()) };
+        let options = BundleOptions { reach, smallest: SMALLEST.min(0.1 * reach), places: most };
+        descend(&problem, &self.best_shares(), options)
+    }
+}
+
+impl PiecewiseSmooth for LocalProblem<'_> {
+    type Error = Halt;
+
+    fn pieces(&self, shares: &[f64]) -> Result<Option<Pieces>, Halt> {
+        let Some(looked) = self.look(shares)? else { return Ok(None) };
+        let cost = self.cost_of(&looked.worth);
+        if !cost.is_finite() {
+            return Ok(None);
+        }
+        let gradient = self.cost_gradient(shares, &looked, Slopes::smooth);
+        let limit = |(k, value)| Piece {
+            value,
+            gradient: self.limit_gradient(k, shares, &looked, Slopes::smooth),
+        };
+        let limits: Vec<Piece> = self.limits(&looked).into_iter().enumerate().map(limit).collect();
+        // Room in bending is no requirement, and yet a limit of this search.
+        let met = looked.met && limits.iter().all(|limit| limit.value <= 1e-9);
+        Ok(Some(Pieces { cost: Piece { value: cost, gradient }, limits, met }))
+    }
+}

@@ -1,0 +1,52 @@
+//! Derivatives of places at which load or depth turns back, and of the forces there.
+
+use rayon::prelude::*;
+use run::Evaluator;
+use sweep::{Case, Measure};
+
+use super::branches::steep_case;
+use super::designs;
+use super::differences::Differences;
+use super::{compare_components, derivatives};
+
+const MEASURES: [&str; 4] =
+    ["peak_displacement", "peak_tilt_deg", "load_stability_force", "depth_stability_force"];
+
+/// Whether the load, and the depth, first turns back at a contact that changes.
+fn turns_at_events(case: &Case) -> [Option<bool>; 2] {
+    let puncture = Evaluator::new(&Measure::USUAL).solve(designs::number(), case).puncture.unwrap();
+    let at_event = |force: f64| puncture.events.iter().any(|event| event.point.force == force);
+    let measures = puncture.measures;
+    [measures.load_stability_force, measures.depth_stability_force].map(|force| force.map(at_event))
+}
+
+/// Steep designs with soft contacts and other places of the load, of which a few have a depth that turns back smoothly.
+fn soft_case(number: u64) -> Case {
+    let mut case = steep_case(number);
+    case.puncture.load_position = 0.2 + 0.8 * (number % 13) as f64 / 13.0;
+    case.puncture.contact_modulus_over_substrate = (5.0 * (number % 5) as f64 / 5.0).exp();
+    case.puncture.critical_tilt_deg *= 1.5;
+    case
+}
+
+/// Designs whose load and depth turn back smoothly, and at contacts that change.
+#[test]
+fn where_load_or_depth_turns_back_derivatives_are_those_of_whole_solutions() {
+    let steep = [5, 6, 9, 64, 72].map(steep_case);
+    let cases: Vec<_> = steep.into_iter().chain([121, 521, 808].map(soft_case)).collect();
+    let turns = cases.par_iter().map(|case| {
+        let mut derivatives = derivatives(case);
+        derivatives.retain(|derivative| MEASURES.contains(&derivative.measure));
+        let compared = compare_components(case, &derivatives, &Differences::of(case));
+        let turns = turns_at_events(case);
+        let measures = 2 + turns.iter().flatten().count();
+        assert!(compared >= 8 * measures, "{compared} of {measures}, {turns:?}, {case:?}");
+        turns
+    });
+    let turns: Vec<_> = turns.collect();
+    for load in [true, false] {
+        for depth in [true, false] {
+            assert!(turns.contains(&[Some(load), Some(depth)]), "{load} {depth} {turns:?}");
+        }
+    }
+}
