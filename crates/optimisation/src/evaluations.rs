@@ -169,13 +169,17 @@ impl<'a> Evaluations<'a> {
         }
         self.go_on()?;
         let mut result = evaluator.solve(self.number(0), case).row.result;
-        // A skin moves in whatever deviates from its parameters, a design in its variables alone.
+        // Where material varies, a skin with another thickness or modulus moves in other parameters, too.
+        let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        result.sensitivity.retain(|d| skin.is_some() || is_variable(d.parameter));
+        let moves_more = skin.is_some() && has_material;
+        result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
+        // Few of the parameters vary, and every result is kept to the end.
+        result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, skin, shares, chosen, result: result.clone() };
+        let line = SolvedLine { differentiated, skin, shares, chosen, result };
         lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let result = Arc::new(result);
+        let result = Arc::new(line.result);
         lock(&self.known).insert(key, Arc::clone(&result));
         Ok(result)
     }

@@ -94,7 +94,7 @@ impl Plan {
     /// Among designs as they are drawn.
     pub const DRAWN: Self = Self { starts: 12, finalists: 3, points: 0 };
     /// Among designs of which skins are made.
-    pub const MADE: Self = Self { starts: 4, finalists: 2, points: 0 };
+    pub const MADE: Self = Self { starts: 6, finalists: 3, points: 0 };
 }
 
 /// Designs that could not be counted on, by the reason.

@@ -175,3 +175,18 @@ fn where_no_skins_are_good_enough_the_nearest_design_is_told() {
         "a design of which skins were made is nearer than any that is only drawn"
     );
 }
+
+#[test]
+fn a_yield_is_kept_where_thickness_and_single_scales_deviate() {
+    // In mm: the gap and the thickness of 1 mm deviate, all lengths but the thickness stay as they are drawn.
+    let text = "name = 'made'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+        slant_deg = { from = 40, to = 45 }\n[designs]\nlength_over_t = 1\n[material]\nthickness_mm = 1\n\
+        [tolerance]\ngap_mm = { batch_sd = 0.02, scale_sd = 0.01 }\nthickness_mm = { batch_sd = 0.03 }\n\
+        [goal]\nmaximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'yield >= 0.95']\nsamples = 64\nskins = 2000";
+    let found = found(&DesignGoal::parse(text, "x.toml", &[]).expect("a goal"));
+    let gap = optimum(&found).row.case.design.gap;
+    // λ = 1 − d/t ≥ 1/2 where (d + x) ≤ (1 + y)/2, so d = 1/2 − z √(0.02² + (0.03/2)²).
+    let spread = 0.02_f64.hypot(0.015);
+    let shift = (0.5 - gap) / spread;
+    assert!((shift - Z05).abs() < 3.0 * quantile_error(0.05, Z05, 2000.0), "{shift}");
+}
