@@ -19,6 +19,8 @@ pub enum SearchStage {
     Ridge,
     /// A step of the search without derivatives.
     Polish,
+    /// A best design as it is drawn, of which skins are made.
+    Skins,
 }
 
 impl SearchStage {
@@ -29,6 +31,7 @@ impl SearchStage {
             Self::Gradient => "gradient",
             Self::Ridge => "ridge",
             Self::Polish => "polish",
+            Self::Skins => "skins",
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The goal of an optimisation as it is written: variables, objectives, requirements.
 
 mod fitness_section;
+mod quantities;
 mod reader;
 mod section;
 
@@ -34,6 +35,8 @@ pub struct DesignGoal {
     pub samples: usize,
     /// The number of points of a front.
     pub points: usize,
+    /// The number of skins that are made of each design, if the goal is about them.
+    pub skins: usize,
     /// The seed of the points that fill the space.
     pub seed: u64,
     text: String,

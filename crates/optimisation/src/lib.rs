@@ -19,7 +19,8 @@
 //! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
 //! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
 //! | [`FitnessGoal`], [`CriterionEnds`] | the paper's fitness as an objective |
-//! | [`Judge`], [`Judgement`], [`Worth`] | what a design is worth by the goal |
+//! | [`Judge`], [`Judgement`], [`Worth`], [`DrawnWorth`] | what a design is worth by the goal |
+//! | [`MadeQuantity`], [`MadeReport`], [`MadeEstimate`] | a quantile or yield over what is made, and its test with other skins |
 //! | [`optimise`], [`SearchOptions`] | the search |
 //! | [`SearchMeter`], [`SearchPart`] | how far it is |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`], [`LeftOutDesigns`] | what it found |
@@ -57,6 +58,8 @@ mod front;
 mod goal;
 mod judge;
 mod local;
+mod looked;
+mod made;
 mod meter;
 mod number_column;
 mod price;
@@ -73,7 +76,8 @@ pub use evaluations::EVALUATIONS;
 pub use fitness::{CriterionEnds, FitnessGoal};
 pub use front::Front;
 pub use goal::DesignGoal;
-pub use judge::{Judge, Judgement, Worth};
+pub use judge::{DrawnWorth, Judge, Judgement, Worth};
+pub use made::{MadeEstimate, MadeQuantity, MadeReport};
 pub use meter::{SearchMeter, SearchPart};
 pub use price::{Binding, Limit};
 pub use search::{Answer, BestDesign, Found, LeftOutDesigns, SearchOptions, optimise};

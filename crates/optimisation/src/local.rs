@@ -10,21 +10,35 @@ mod room;
 
 use std::cell::RefCell;
 
-use results::DesignRow;
-
 pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
 use crate::judge::{Judge, Judgement};
+use crate::looked::LookedRow;
 use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
 
 /// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
 
-/// A relative gain below which a round has come to its end.
-const GAIN: f64 = 1e-8;
+/// How fine a local search becomes before it ends.
+#[derive(Clone, Copy, Debug)]
+struct Fineness {
+    /// A relative gain below which a round has come to its end.
+    gain: f64,
+    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
+    looks: u64,
+    /// The smallest step without derivatives, a share of the intervals.
+    step: f64,
+}
+
+impl Fineness {
+    /// Among designs as they are drawn.
+    const DRAWN: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
+    /// Among designs of which skins are made, whose number leaves quantiles and yields uncertain by per cents.
+    const SKINS: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
+}
 
 /// The parts that all searches share: the space, its evaluations, the judge.
 pub(crate) struct Search<'a> {
@@ -54,6 +68,11 @@ impl Effort {
     pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8 };
     /// From a design that is nearly the best.
     pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
+
+    /// As much as it may take where each design costs as many solutions as skins are made of it.
+    fn on_skins(self) -> Self {
+        Self { rounds: self.rounds.min(2), ridge: self.ridge / 2, polish: self.polish / 2, ..self }
+    }
 }
 
 impl Search<'_> {
@@ -63,12 +82,21 @@ impl Search<'_> {
         stage: SearchStage,
         point: &SpacePoint,
         differentiated: bool,
-    ) -> Result<(Candidate, DesignRow), Halt> {
+    ) -> Result<(Candidate, LookedRow), Halt> {
         let result = self.evaluations.solve(point, differentiated)?;
-        let row = self.evaluations.row(0, point, &result);
-        let verdict = self.judge.verdict(&row);
+        let drawn = self.evaluations.row(0, point, &result);
+        let skins = match self.judge.made().filter(|made| made.admits(&drawn)) {
+            Some(made) => Some(self.evaluations.skins(point, 1, made.skins, made)?),
+            None => None,
+        };
+        let verdict = self.judge.verdict_with(&drawn, skins.as_deref());
+        let made = match skins.filter(|_| differentiated) {
+            Some(skins) => self.made_slopes(point, &skins)?,
+            None => Vec::new(),
+        };
         self.meter.look();
-        Ok((Candidate { stage, point: point.clone(), result, verdict }, row))
+        let candidate = Candidate { stage, point: point.clone(), result, verdict };
+        Ok((candidate, LookedRow { drawn, made }))
     }
 
     /// The merit of a design under a target.
@@ -79,9 +107,15 @@ impl Search<'_> {
         let floors = short.fold(0.0, f64::max);
         // A floor is kept but for round-off, as a requirement is.
         if worth.met && floors <= 1e-9 {
-            return Merit::Met(turned(target.objective));
+            return Merit::Met(
+                self.judge.sign(target.objective) * worth.compared[target.objective],
+            );
         }
         Merit::Short(worth.excess.iter().copied().fold(floors, f64::max).max(f64::MIN_POSITIVE))
+    }
+
+    fn fineness(&self) -> Fineness {
+        if self.judge.made().is_some() { Fineness::SKINS } else { Fineness::DRAWN }
     }
 
     /// The best of some designs under a target.
@@ -110,13 +144,14 @@ impl Search<'_> {
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
+        let effort = if self.judge.made().is_some() { effort.on_skins() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
         walk.climb()?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
             walk.follow(reach, effort.ridge * variables)?;
             walk.polish(reach, effort.polish * variables)?;
-            if !gained(before, walk.best_merit()) {
+            if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
             walk.climb()?;
@@ -131,11 +166,11 @@ pub(crate) fn floor_size(floor: f64) -> f64 {
     if floor == 0.0 { 1.0 } else { floor.abs() }
 }
 
-/// Whether a merit has become better by more than hardly anything.
-fn gained(before: Merit, after: Merit) -> bool {
+/// Whether a merit has become better by more than a part `gain` of it.
+fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
-        (Merit::Met(before), Merit::Met(after)) => after - before > GAIN * before.abs(),
-        (Merit::Short(before), Merit::Short(after)) => before - after > GAIN * before,
+        (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
+        (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
         _ => before != after,
     }
 }
@@ -155,7 +190,7 @@ impl LocalSearch<'_> {
         stage: SearchStage,
         shares: &[f64],
         differentiated: bool,
-    ) -> Result<(Candidate, DesignRow), Halt> {
+    ) -> Result<(Candidate, LookedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
         let shares = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
         let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;

@@ -15,6 +15,10 @@ pub enum SearchPart {
     Finish,
     /// The points of a front.
     Front,
+    /// The first skins of the best designs as they are drawn.
+    Skins,
+    /// Other skins of the best designs.
+    Check,
 }
 
 /// How far a search is: written by the search, read by whoever watches.
@@ -33,6 +37,8 @@ impl SearchPart {
             Self::Climb => "climbing from the best",
             Self::Finish => "finishing",
             Self::Front => "points of the front",
+            Self::Skins => "first skins",
+            Self::Check => "checking with other skins",
         }
     }
 }

@@ -8,17 +8,20 @@
 //! ```
 
 use nalgebra::{DMatrix, DVector};
-use results::DesignRow;
 use sweep::Parameter;
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
 use crate::judge::{Judgement, size};
 use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+use crate::looked::LookedRow;
 use crate::slopes::Slopes;
 
 /// A limit binds that is this near, relative to its size.
 const NEAR: f64 = 1e-5;
+
+/// As [`NEAR`], of a limit of what is made: a direct search comes no nearer to a kink.
+const NEAR_SKINS: f64 = 1e-3;
 
 /// The part of the gradient that multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
@@ -61,14 +64,22 @@ pub(crate) fn bindings(
     let prices = if is_whole { prices(search, &row, target, &limits) } else { None };
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
+    // What a step of a yield costs, no derivative tells.
+    let is_yield =
+        |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(k));
     let bindings = limits.into_iter().zip(prices);
-    Ok(bindings.map(|(limit, price)| Binding { limit, price }).collect())
+    let binding = |(limit, price): (Limit, Option<f64>)| Binding {
+        price: price.filter(|_| !is_yield(&limit)),
+        limit,
+    };
+    Ok(bindings.map(binding).collect())
 }
 
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
     let Judgement::Judged(worth) = &best.verdict else { return Vec::new() };
     let requirements = worth.excess.iter().enumerate();
-    let required = requirements.filter(|(_, excess)| **excess > -NEAR);
+    let near = |k: usize| if search.judge.is_made(k) { NEAR_SKINS } else { NEAR };
+    let required = requirements.filter(|(k, excess)| **excess > -near(*k));
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
     for &(k, floor) in &target.floors {
         let turned = search.judge.sign(k) * worth.objectives[k];
@@ -92,7 +103,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
 /// The multipliers of the limits, in units of the objective over that of the limit; `None` if they do not balance the gradient.
 fn prices(
     search: &Search<'_>,
-    row: &DesignRow,
+    row: &LookedRow,
     target: &Target,
     limits: &[Limit],
 ) -> Option<Vec<f64>> {
@@ -112,7 +123,7 @@ fn prices(
             Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
             Limit::Lower(j) => unit(intervals.len(), j, 1.0),
             Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-            Limit::Touch => gradient(&|p| bending_room_slopes(&row.case, p))?,
+            Limit::Touch => gradient(&|p| bending_room_slopes(&row.drawn.case, p))?,
         });
     }
     let multipliers = multipliers(&columns, &objective)?;

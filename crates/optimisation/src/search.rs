@@ -16,16 +16,11 @@ use crate::front::{self, Front};
 use crate::goal::DesignGoal;
 use crate::judge::{Judge, Judgement, has_folded};
 use crate::local::{Effort, Search};
+use crate::made::{self, MadeReport};
 use crate::meter::{SearchMeter, SearchPart};
 use crate::price::{Binding, bindings};
 use crate::sample;
 use crate::space::SpacePoint;
-
-/// Designs that are improved along derivatives for each objective.
-const STARTS: usize = 12;
-
-/// Designs that are improved to the end after that.
-const FINALISTS: usize = 3;
 
 /// A distance between two starts, a share of the intervals, at least.
 const APART: f64 = 0.12;
@@ -80,6 +75,26 @@ pub struct BestDesign {
     pub target: Target,
     /// The limits that keep the design from being better, and what each costs.
     pub bindings: Vec<Binding>,
+    /// What other skins made of it say, if the goal is about them.
+    pub made: Option<MadeReport>,
+}
+
+/// How much is improved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    /// Designs that are improved along derivatives for each objective.
+    pub starts: usize,
+    /// Designs that are improved to the end after that.
+    pub finalists: usize,
+    /// Points of a front.
+    pub points: usize,
+}
+
+impl Plan {
+    /// Among designs as they are drawn.
+    pub const DRAWN: Self = Self { starts: 12, finalists: 3, points: 0 };
+    /// Among designs of which skins are made.
+    pub const MADE: Self = Self { starts: 6, finalists: 3, points: 0 };
 }
 
 /// Designs that could not be counted on, by the reason.
@@ -129,11 +144,16 @@ fn find(
     let points = sample::points(&goal.space, goal.samples, goal.seed);
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
-    let judge = Judge::rescaling(goal, &rescaled);
-    let search = Search { space: &goal.space, evaluations, judge: &judge, meter };
-    let look = |point| Ok(search.look(SearchStage::Sample, &point, false)?.0);
+    let [drawn, judge] = [Judge::as_drawn(goal, &rescaled), Judge::rescaling(goal, &rescaled)];
+    let by = |judge| Search { space: &goal.space, evaluations, judge, meter };
+    let (drawn, search) = (by(&drawn), by(&judge));
+    let look = |point| Ok(drawn.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
-    let answer = answer(goal, &search, &mut history)?;
+    let answer = if goal.is_about_skins() {
+        made::answer(goal, &drawn, &search, &mut history)?
+    } else {
+        answer(&search, &mut history, Plan { points: goal.points, ..Plan::DRAWN })?
+    };
     let left_out = LeftOutDesigns::of(&search, &history);
     Ok(Found { history, answer, left_out, evaluations: evaluations.count(), rescaled })
 }
@@ -161,19 +181,19 @@ fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     fitness.ends_over(goal.space.sweep(), &rows)
 }
 
-/// The answer to a goal, from the designs that fill the space.
-fn answer(
-    goal: &DesignGoal,
+/// The answer to a goal, from the designs that are known so far.
+pub(crate) fn answer(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
+    plan: Plan,
 ) -> Result<Answer, Halt> {
     let mut targets: Vec<Target> = Vec::new();
     for objective in 0..search.judge.objectives() {
         let target = Target { objective, floors: Vec::new() };
-        let first = starts(search, history, &target, STARTS);
+        let first = apart(search, history, &target, plan.starts);
         search.meter.begin(SearchPart::Climb, first.len());
         history.extend(improved(search, &target, first, Effort::CLIMB)?);
-        let best = starts(search, history, &target, FINALISTS);
+        let best = apart(search, history, &target, plan.finalists);
         search.meter.begin(SearchPart::Finish, best.len());
         history.extend(improved(search, &target, best, Effort::WHOLE)?);
         targets.push(target);
@@ -186,11 +206,11 @@ fn answer(
         let best = best_design(search, history, targets.swap_remove(0))?;
         return Ok(Answer::Optimum(Box::new(best)));
     }
-    front::search(search, history, goal.points).map(Answer::Front)
+    front::search(search, history, plan.points).map(Answer::Front)
 }
 
 /// The best designs for a target that are apart from each other, as starts of local searches.
-fn starts(
+pub(crate) fn apart(
     search: &Search<'_>,
     history: &[Candidate],
     target: &Target,
@@ -250,7 +270,7 @@ pub(crate) fn best_design(
     let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
     let row = search.evaluations.row(0, &best.point, &best.result);
     let bindings = bindings(search, &best, &target)?;
-    Ok(BestDesign { candidate: best, row, target, bindings })
+    Ok(BestDesign { candidate: best, row, target, bindings, made: None })
 }
 
 impl LeftOutDesigns {
@@ -263,11 +283,11 @@ impl LeftOutDesigns {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
                 Judgement::Folded => left_out.folded += 1,
-                Judgement::Judged(_) if search.judge.wants_sound() => {
+                Judgement::Judged(_) | Judgement::Drawn(_) if search.judge.wants_sound() => {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
                 }
-                Judgement::Judged(_) => {}
+                Judgement::Judged(_) | Judgement::Drawn(_) => {}
             }
         }
         left_out
@@ -276,8 +296,9 @@ impl LeftOutDesigns {
 
 /// Refuses a goal with a column in which no design has a number.
 fn check_columns(found: &Found) -> Result<(), OptimisationError> {
-    let is_judged = |c: &Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Folded);
-    if found.history.iter().any(is_judged) {
+    let is_left_out =
+        |c: &Candidate| matches!(c.verdict, Judgement::Failed(_) | Judgement::Missing(_));
+    if !found.history.iter().all(is_left_out) {
         return Ok(());
     }
     let designs = found.history.len();

@@ -1,12 +1,15 @@
 //! The tables of what was found: the best designs, and every design that was looked at.
 
 use results::columns::{Cell, design_columns};
-use results::{Column, CsvFormat, DesignRow, OutputError, RunFolder, write_rows, write_text};
+use results::{
+    Column, CsvFormat, DesignRow, OutputError, RunFolder, finite, write_rows, write_text,
+};
 
 use crate::candidate::Candidate;
 use crate::fitness::Fitness;
 use crate::goal::DesignGoal;
-use crate::judge::{Judgement, has_folded};
+use crate::judge::{Judge, Judgement, has_folded};
+use crate::made::MadeQuantity;
 use crate::search::{Answer, BestDesign, Found};
 use crate::words::Words;
 
@@ -43,7 +46,48 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         ),
     ];
     let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
-    cells(known.chain(own))
+    cells(known.chain(own).chain(made_columns(goal)))
+}
+
+/// The columns of what other skins say of a design, if the goal is about what is made.
+fn made_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
+    let known = design_columns(goal.space.sweep());
+    let mut columns = Vec::new();
+    for (name, quantity) in Judge::new(goal).quantities() {
+        let unit = unit_of(&known, &name);
+        columns.extend([
+            (name.clone(), unit, quantity.meaning()),
+            (format!("{name}_low"), unit, "lower end of its 95 % interval, if there is one"),
+            (format!("{name}_high"), unit, "upper end of that interval, if there is one"),
+            (format!("{name}_seen"), unit, "what the search saw, with the skins that it knew"),
+        ]);
+    }
+    if !columns.is_empty() {
+        let skins =
+            "skins made of the design, others than the search knew, that these values are of";
+        columns.push(("fresh_skins".to_owned(), "-", skins));
+    }
+    columns
+}
+
+/// The cells of those columns.
+fn made_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
+    let Some(made) = &best.made else { return Vec::new() };
+    let mut cells: Cells = Vec::new();
+    for (name, _) in Judge::new(goal).quantities() {
+        let of = made.estimate(&name);
+        let [low, high] = of.map(|of| of.interval).unwrap_or_default();
+        let values = [of.and_then(|of| of.value), low, high, of.and_then(|of| of.seen)];
+        cells.extend(values.map(Cell::from));
+    }
+    cells.push(made.fresh.into());
+    cells
+}
+
+/// The unit of a quantity over skins: that of the column that it is of.
+fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
+    let base = MadeQuantity::base(name);
+    known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
 }
 
 /// The column of the fitness, if the goal names it.
@@ -58,7 +102,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "place among the designs that were looked at"),
         plain(
             "stage",
-            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without",
+            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; skins: the first look at what is made of a design",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
@@ -66,7 +110,11 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let explained = |name: &str| {
         let column = known.iter().find(|column| column.name == name);
         let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
-        column.or_else(|| fitness_column(goal))
+        let quantity = || {
+            let quantity = goal.quantity(name)?;
+            Some((name.to_owned(), unit_of(&known, name), quantity.meaning()))
+        };
+        column.or_else(quantity).or_else(|| fitness_column(goal))
     };
     let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
     let last = [
@@ -74,7 +122,10 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
             "shortfall",
             "largest shortfall, relative to the limit; 0 where every requirement is met",
         ),
-        plain("verdict", "met, short, folded, or why it cannot be judged"),
+        plain(
+            "verdict",
+            "met, short, folded, drawn: it meets what is asked of it as drawn, and no skins were made of it; or why it cannot be judged",
+        ),
         plain(
             "best",
             "best value of the first objective so far among the designs that meet every requirement",
@@ -139,6 +190,7 @@ fn write_best(
         cells.extend(goal.fitness.as_ref().map(|_| value(goal, &best.candidate, Fitness::COLUMN)));
         cells.push(words.bindings(&best.bindings, &best.target).into());
         cells.push(words.prices(&best.bindings, &best.target).into());
+        cells.extend(made_cells(goal, best));
         cells
     };
     let rows = designs.iter().enumerate().map(row);
@@ -193,7 +245,16 @@ fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
                 (false, true) => "folded",
                 (false, false) => "short",
             };
-            [if worth.met { 0.0 } else { shortfall }.into(), word.into()]
+            // A shortfall without end is that of skins that fail.
+            [finite(if worth.met { 0.0 } else { shortfall }).into(), word.into()]
+        }
+        Judgement::Drawn(worth) => {
+            let word = match (worth.shortfall > 0.0, has_folded(row)) {
+                (false, _) => "drawn",
+                (true, true) => "folded",
+                (true, false) => "short",
+            };
+            [worth.shortfall.into(), word.into()]
         }
         Judgement::Folded => [Cell::Empty, "folded".into()],
         Judgement::Failed(outcome) => [Cell::Empty, outcome.text().into()],

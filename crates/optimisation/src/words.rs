@@ -7,6 +7,7 @@ use sweep::number;
 use crate::candidate::Target;
 use crate::goal::DesignGoal;
 use crate::judge::{Judge, direction};
+use crate::made::MadeQuantity;
 use crate::price::{Binding, Limit};
 use crate::space::Interval;
 
@@ -58,6 +59,9 @@ impl<'a> Words<'a> {
 
     /// The cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
+        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(k)) {
+            return Some("no price: a share of skins moves in steps".to_owned());
+        }
         let price = binding.price?;
         let objective = &self.goal.objectives[target.objective];
         let harder = |size: f64, is_lower: bool, column: &str| {
@@ -134,7 +138,7 @@ fn step(size: f64) -> f64 {
 
 /// An amount with its unit, if that is a physical one.
 fn amount(amount: f64, column: &str) -> String {
-    let unit = explain_value(column).map_or("-", |(unit, _)| unit);
+    let unit = explain_value(MadeQuantity::base(column)).map_or("-", |(unit, _)| unit);
     let is_physical = ["N", "mm", "kg"].iter().any(|beginning| unit.starts_with(beginning));
     let amount = rounded(amount);
     if is_physical { format!("{amount} {unit}") } else { amount }

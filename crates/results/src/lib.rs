@@ -73,7 +73,9 @@ pub use design::outcome::Outcome;
 pub use design::parameter_derivative::ParameterDerivative;
 pub use design::rerun_change::RerunChange;
 pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
-pub use design::sample_statistics::{SampleStatistics, Statistics};
+pub use design::sample_statistics::{
+    QUANTILES, SampleStatistics, Statistics, quantile, quantile_places,
+};
 pub use digest::sha256;
 pub use folder::{
     AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,

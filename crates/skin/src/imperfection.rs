@@ -56,6 +56,24 @@ impl Imperfection {
     /// # Errors
     /// If a number is negative or not finite, or the design has no geometrical meaning.
     pub fn sample(&self, design: &Design, seed: u64, number: u64) -> Result<Sample, OutOfRange> {
+        self.drawn(design, key(Some(design), seed, number))
+    }
+
+    /// As [`Self::sample`], with normal numbers that do not depend on the design either: what differs between the samples of
+    /// that number of two designs is what the designs make of it.
+    ///
+    /// # Errors
+    /// As [`Self::sample`].
+    pub fn common_sample(
+        &self,
+        design: &Design,
+        seed: u64,
+        number: u64,
+    ) -> Result<Sample, OutOfRange> {
+        self.drawn(design, key(None, seed, number))
+    }
+
+    fn drawn(&self, design: &Design, key: [u8; 32]) -> Result<Sample, OutOfRange> {
         let rules = [
             ("coefficient of variation of the gaps", self.gap_cv),
             ("standard deviation of the slants", self.slant_sd_deg),
@@ -68,16 +86,19 @@ impl Imperfection {
         }
         // Only the check.
         design.row()?;
-        Ok(Sample { imperfection: *self, design: *design, key: key(design, seed, number) })
+        Ok(Sample { imperfection: *self, design: *design, key })
     }
 }
 
-fn key(design: &Design, seed: u64, number: u64) -> [u8; 32] {
-    let base = match design.base {
+/// The key of the random numbers of a sample, of one design or of all.
+fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
+    let base = |design: &Design| match design.base {
         Base::L => 1.0,
         Base::TwoL => 2.0,
     };
-    let numbers = [design.gap, design.length, design.slant_deg, base, design.width];
+    let numbers =
+        |design: &Design| [design.gap, design.length, design.slant_deg, base(design), design.width];
+    let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {
         digest.update(word.to_le_bytes());

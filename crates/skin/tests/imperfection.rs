@@ -184,3 +184,17 @@ fn a_perfect_strip_stiffens_at_once_and_an_imperfect_one_by_and_by() {
     assert!(width(&perfect) == 0.0);
     assert!(width(&imperfect) > 0.05 * perfect.measures.first_contact_curvature.unwrap());
 }
+
+#[test]
+fn common_samples_have_the_same_random_numbers_in_all_designs() {
+    let imperfection = Imperfection { gap_cv: 0.1, slant_sd_deg: 0.0 };
+    let wide = Design { gap: 2.0 * STEEP.gap, ..STEEP };
+    let gaps = |design: &Design, number| {
+        let sample = imperfection.common_sample(design, 1, number).unwrap();
+        sample.row(3, 3).unwrap().gaps().to_vec()
+    };
+    for (one, other) in gaps(&STEEP, 5).into_iter().zip(gaps(&wide, 5)) {
+        assert!((other / one - 2.0).abs() < 1e-12, "{one} {other}");
+    }
+    assert_ne!(gaps(&STEEP, 5), gaps(&STEEP, 6));
+}

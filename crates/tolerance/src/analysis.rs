@@ -14,6 +14,7 @@ use crate::linear::{Gradients, LinearSpread};
 use crate::measured::MeasuredColumns;
 use crate::no_analysis::NoAnalysis;
 use crate::sampled::Sampled;
+use crate::sampler::Sampler;
 use crate::store::{SampleStore, SolvedSample};
 use crate::yields::{RequirementYield, yields};
 
@@ -28,7 +29,8 @@ pub struct Analysis<'a> {
     /// Set once the work is to stop.
     pub stop: &'a AtomicBool,
     differentiating: Evaluator,
-    sampling: Evaluator,
+    plain: Evaluator,
+    sampler: Sampler,
     program: Program,
 }
 
@@ -90,10 +92,11 @@ impl<'a> Analysis<'a> {
     ) -> Self {
         let mut measures = sweep.measures().to_vec();
         measures.retain(|measure| *measure != Measure::Sensitivity);
-        let sampling = Evaluator::new(&measures);
+        let plain = Evaluator::new(&measures);
+        let sampler = Sampler::new(&measures, sweep.deviations());
         measures.push(Measure::Sensitivity);
         let differentiating = Evaluator::new(&measures);
-        Self { sweep, requirements, samples, stop, differentiating, sampling, program }
+        Self { sweep, requirements, samples, stop, differentiating, plain, sampler, program }
     }
 
     /// The tolerances of design `index`, from 0. Its samples are taken from `store` as far as they are there, and kept there.
@@ -147,7 +150,7 @@ impl<'a> Analysis<'a> {
         let mut scattered = DesignRow { case: *case, ..drawn.clone() };
         draw::scatter(&mut scattered.case, self.sweep.deviations());
         let scatters = !scattered.case.imperfection.is_none();
-        let single = if scatters { self.sampling.scatter(case) } else { Vec::new() };
+        let single = if scatters { self.plain.scatter(case) } else { Vec::new() };
         let deviations = self.sweep.deviations();
         let gradients = Gradients { design: &scattered, deviations, single: &single };
         let values = measured.values(drawn);
@@ -181,10 +184,10 @@ impl<'a> Analysis<'a> {
         measured: &MeasuredColumns,
         sample: u64,
     ) -> Option<Vec<Option<f64>>> {
-        let (made, mut values) = draw::sample(case, self.sweep.deviations(), sample)?;
         let number = self.sweep.grid().number(index);
-        let row = self.sampling.solve_sample(number, &made, sample);
-        values.extend(measured.values(&row));
+        let skin = self.sampler.solve(number, case, sample)?;
+        let mut values = skin.deviations;
+        values.extend(measured.values(&skin.row));
         Some(values)
     }
 }

@@ -21,6 +21,8 @@
 //! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
 //! | [`SourceShare`], [`DeviationLevel`] | the part of a source in it; whether all scales of a batch share the deviation |
 //! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
+//! | [`SampledQuantile`] | a quantile over samples, with its interval |
+//! | [`Sampler`], [`MadeSkin`] | solves skins that are made of designs |
 //! | [`SolvedSample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
 //! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | the parts that variables have in the variance over a box |
 //! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`IndexEstimate`] | the estimators, for any function |
@@ -57,7 +59,9 @@ mod measured;
 mod moments;
 mod no_analysis;
 mod proportion;
+mod quantile;
 mod sampled;
+mod sampler;
 mod sobol;
 mod store;
 mod tables;
@@ -69,7 +73,9 @@ pub use linear::{DeviationLevel, LinearSpread, SourceShare};
 pub use measured::NoSuchColumn;
 pub use no_analysis::NoAnalysis;
 pub use proportion::Proportion;
+pub use quantile::SampledQuantile;
 pub use sampled::Sampled;
+pub use sampler::{MadeSkin, Sampler};
 pub use sobol::{Evaluation, IndexEstimate, SobolIndices, sobol_indices};
 pub use store::{SampleStore, SolvedSample};
 pub use tables::{

@@ -3,6 +3,7 @@
 mod figures;
 mod record;
 mod report;
+mod skins;
 
 use std::time::Instant;
 

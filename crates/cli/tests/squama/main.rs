@@ -22,6 +22,7 @@ mod reruns;
 mod runs;
 mod selection;
 mod shards;
+mod skins;
 mod survival;
 mod table;
 mod tolerances;

@@ -32,18 +32,42 @@ struct SearchHeader {
     goal_sha256: String,
 }
 
+/// A line of the journal behind the first.
+#[derive(Clone, Debug)]
+pub(super) enum JournalLine {
+    Solved(Box<SolvedLine>),
+    Skins(SkinsLine),
+}
+
 /// A point that was solved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct JournalLine {
+pub(super) struct SolvedLine {
     /// Whether its measures have derivatives.
     pub differentiated: bool,
+    /// The number of the skin made of its design, with the deviations of the batch; none of the design as it is drawn.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skin: Option<u64>,
     /// Shares of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
     /// The result.
     pub result: DesignResult,
+}
+
+/// Skins made of the design of a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SkinsLine {
+    /// The number of the first skin.
+    pub first: u64,
+    /// Shares of the intervals.
+    pub shares: Vec<f64>,
+    /// Indices of the choices.
+    pub chosen: Vec<usize>,
+    /// The values of each skin in the columns that it is judged by.
+    pub values: Vec<Vec<Option<f64>>>,
 }
 
 /// A journal that is being written.
@@ -94,8 +118,8 @@ impl EvaluationJournal {
         Ok((journal, found.lines))
     }
 
-    /// Adds a point, which then counts as solved.
-    pub fn append(&mut self, line: &JournalLine) -> Result<(), OutputError> {
+    /// Adds a line, which then counts as solved.
+    pub fn append(&mut self, line: &impl Serialize) -> Result<(), OutputError> {
         let bytes = self.seal.seal(line);
         self.write(&bytes)
     }
@@ -156,13 +180,20 @@ fn read(
             let header: Option<SearchHeader> = opened(&Seal::default(), &mut bytes);
             let Some(header) = header else { return Ok(None) };
             require(path, &header, wanted)?;
-        } else if let Some(line) = opened(seal, &mut bytes) {
+        } else if let Some(line) = line(seal, &mut bytes) {
             found.lines.push(line);
         } else {
             return Ok(Some(found));
         }
         found.length += read as u64;
     }
+}
+
+/// The point or the skins that a sealed line holds; `None` if it is torn.
+fn line(seal: &Seal, bytes: &mut [u8]) -> Option<JournalLine> {
+    let text = seal.open(bytes).ok()?;
+    let skins = || serde_json::from_slice(text).ok().map(JournalLine::Skins);
+    serde_json::from_slice(text).ok().map(|line| JournalLine::Solved(Box::new(line))).or_else(skins)
 }
 
 /// The object that a sealed line holds; `None` if it is torn.

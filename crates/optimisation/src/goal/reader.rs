@@ -8,9 +8,10 @@ use sweep::{
     Axis, InvalidDefinition, Problem, Sweep, Variable, VariableValues, WrongValue, nearest,
 };
 
-use super::DesignGoal;
 use super::section::GoalSection;
+use super::{DesignGoal, quantities};
 use crate::fitness::{Fitness, FitnessGoal};
+use crate::made::MadeQuantity;
 use crate::space::DesignSpace;
 
 pub(super) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
@@ -64,7 +65,7 @@ pub(super) fn read(
     if !refused.is_empty() {
         return Err(several(refused));
     }
-    let GoalSection { objectives, requirements, sound, samples, points, seed, .. } = section;
+    let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } = section;
     Ok(DesignGoal {
         space: DesignSpace::new(sweep),
         objectives: objectives.into_iter().map(|objective| objective.criterion).collect(),
@@ -73,6 +74,7 @@ pub(super) fn read(
         sound,
         samples,
         points,
+        skins,
         seed,
         text,
     })
@@ -149,12 +151,17 @@ fn senseless(
     let known: Vec<String> =
         design_columns(sweep).iter().map(|column| column.name.to_string()).collect();
     let named = named(goal, fitness);
-    let columns = named
-        .iter()
-        .filter_map(|(column, key, place)| missing_column(column, key, place, &known, sweep));
+    let columns = named.iter().filter_map(|(column, key, place)| {
+        let is_drawn =
+            MadeQuantity::named(column).is_none() || known.iter().any(|name| name == column);
+        let missing = || missing_column(column, key, place, &known, sweep);
+        let unavailable = quantities::unavailable(column, key, place, sweep);
+        unavailable.or_else(|| is_drawn.then(missing).flatten())
+    });
     let objectives = named.iter().filter(|(_, key, _)| *key != "goal.require");
     let incomparable = objectives.flat_map(|(column, key, place)| {
-        let fails = |v: &&Variable| yardsticks(column).contains(&v.parameter().key);
+        let fails =
+            |v: &&Variable| yardsticks(MadeQuantity::base(column)).contains(&v.parameter().key);
         sweep.variables().iter().filter(fails).map(|variable| {
             let expected = "values that can be compared between designs".to_owned();
             let found = format!("an objective with {} as a variable", variable.parameter().key);
@@ -162,7 +169,7 @@ fn senseless(
         })
     });
     let found = columns.chain(incomparable).chain(contradictions(goal));
-    found.chain(out_of_reach(goal, sweep)).collect()
+    found.chain(out_of_reach(goal, sweep)).chain(quantities::senseless(goal)).collect()
 }
 
 /// The columns that a goal is about, in place of the fitness those of its criteria.
@@ -195,7 +202,9 @@ fn missing_column(
         });
     }
     let names: Vec<&str> = known.iter().map(String::as_str).collect();
+    let nearly = quantities::nearly(column, &names);
     let expected = match nearest(column, &names) {
+        _ if nearly.is_some() => nearly.unwrap_or_default(),
         Some(near) => format!("a column of designs.csv; did you mean {near}?"),
         None => {
             "a column of designs.csv, e.g. critical_force; those in mm, N and kg need a [material]"

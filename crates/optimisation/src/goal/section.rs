@@ -9,8 +9,10 @@ use super::fitness_section::FitnessSection;
 use super::reader::{not_accepted, unknown};
 
 /// Keys of the section.
-const KEYS: [&str; 9] =
-    ["maximize", "minimize", "require", "weights", "rescale", "sound", "samples", "points", "seed"];
+const KEYS: [&str; 10] = [
+    "maximize", "minimize", "require", "weights", "rescale", "sound", "samples", "points", "skins",
+    "seed",
+];
 
 /// A requirement, and where it is written.
 pub(super) struct PlacedRequirement {
@@ -32,6 +34,8 @@ pub(super) struct GoalSection {
     pub sound: bool,
     pub samples: usize,
     pub points: usize,
+    pub skins: usize,
+    pub skins_place: Option<Place>,
     pub seed: u64,
 }
 
@@ -44,6 +48,8 @@ impl Default for GoalSection {
             sound: true,
             samples: 1024,
             points: 30,
+            skins: 200,
+            skins_place: None,
             seed: 0,
         }
     }
@@ -61,6 +67,10 @@ impl GoalSection {
             "sound" => self.sound = switch(entry)?,
             "samples" => self.samples = count(entry, 2, 10_000_000)?,
             "points" => self.points = count(entry, 2, 1000)?,
+            "skins" => {
+                self.skins = count(entry, 20, 100_000)?;
+                self.skins_place = Some(entry.place.clone());
+            }
             "seed" => self.seed = count(entry, 0, 1_000_000_000)? as u64,
             key => {
                 let hint = match nearest(key, &KEYS) {

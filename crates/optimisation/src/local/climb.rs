@@ -13,9 +13,6 @@ use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
 
-/// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
-const LOOKS: u64 = 15;
-
 /// Accuracy of constraints and objective, both about 1 in size.
 const ACCURACY: f64 = 1e-11;
 
@@ -25,7 +22,7 @@ impl LocalSearch<'_> {
         let Some(problem) = LocalProblem::new(self, SearchStage::Gradient) else { return Ok(()) };
         let start = SelectedFirstOrderState::new(self.best_shares());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
-        let most = LOOKS * self.best_shares().len() as u64;
+        let most = self.search.fineness().looks * self.best_shares().len() as u64;
         match Executor::new(problem, solver, start).max_cost_evals(most).run() {
             Err(ConstraintSolveError::Evaluation(halt)) => Err(halt),
             // The bounds and the number of constraints are as they were declared.

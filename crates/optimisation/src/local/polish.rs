@@ -9,9 +9,6 @@ use super::LocalSearch;
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 
-/// The smallest step, a share of the intervals.
-const SMALLEST: f64 = 1e-7;
-
 impl LocalSearch<'_> {
     /// Improves the best design by steps of `reach` and less of the intervals, over at most `most` designs. As long as none meets all
     /// that is asked for, the largest shortfall is made small; from then on whoever falls short is no step.
@@ -31,7 +28,7 @@ impl LocalSearch<'_> {
             };
             let solver = Mads::new()
                 .with_initial_poll_size(reach)
-                .with_minimum_poll_size(SMALLEST.min(0.1 * reach))
+                .with_minimum_poll_size(self.search.fineness().step.min(0.1 * reach))
                 .bounded();
             let polished = Executor::new(barrier, solver, PointState::new(start))
                 .max_cost_evals(most as u64)

@@ -1,7 +1,7 @@
 //! The problem of a local search along derivatives: a cost that is to be small and limits, both about 1 in size, over shares of the
 //! intervals.
 
-use results::{DesignResult, DesignRow};
+use results::DesignResult;
 use sweep::Parameter;
 
 use super::room::{bending_room, bending_room_slopes};
@@ -9,6 +9,7 @@ use super::{LocalSearch, floor_size};
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 use crate::judge::{Judgement, Worth};
+use crate::looked::LookedRow;
 use crate::slopes::Slopes;
 
 /// Room that is kept before scales touch in bending.
@@ -56,7 +57,7 @@ pub(super) struct LocalProblem<'a> {
 /// A design that can be judged.
 pub(super) struct Looked {
     pub worth: Worth,
-    pub row: DesignRow,
+    pub row: LookedRow,
     /// Whether it meets everything.
     pub met: bool,
 }
@@ -104,7 +105,7 @@ impl<'a> LocalProblem<'a> {
     /// How far a design is beyond each limit; not above 0 where it keeps to it.
     pub fn limits(&self, looked: &Looked) -> Vec<f64> {
         let Looked { worth, row, .. } = looked;
-        let room = self.stays_open.then(|| CLEAR - bending_room(&row.case));
+        let room = self.stays_open.then(|| CLEAR - bending_room(&row.drawn.case));
         let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
         let floors = self.walk.target.floors.iter();
         let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
@@ -138,7 +139,7 @@ impl<'a> LocalProblem<'a> {
                 let size = floor_size(floor).recip();
                 self.falling(shares, |p| slopes(p).scaled(size), pick)
             }
-            None => self.falling(shares, |p| bending_room_slopes(&row.case, p), pick),
+            None => self.falling(shares, |p| bending_room_slopes(&row.drawn.case, p), pick),
         }
     }
 

@@ -4,3 +4,4 @@ mod brute_force;
 mod columns;
 mod fitness;
 mod searches;
+mod skins;

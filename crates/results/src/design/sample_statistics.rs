@@ -2,35 +2,42 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::failure::finite;
+
 /// Mean and quantiles of a measure over the samples.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
     /// The mean.
     pub mean: f64,
-    /// The 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values (type 7 of
-    /// Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566).
+    /// The 5 %, 50 % and 95 % quantiles, interpolated between the two nearest values ([`quantile_places`]).
     pub quantiles: [f64; 3],
 }
 
-/// The shares of the samples that lie below the quantiles.
-const QUANTILES: [f64; 3] = [0.05, 0.5, 0.95];
+/// The names of the quantiles in tables, and the shares of the samples that lie below them.
+pub const QUANTILES: [(&str, f64); 3] = [("p05", 0.05), ("p50", 0.5), ("p95", 0.95)];
+
+/// The places of a quantile among `count` values in their order, from 0: those of the two nearest values, and the part that the
+/// second has (type 7 of Hyndman and Fan 1996, doi 10.1080/00031305.1996.10473566). `None` without values.
+pub fn quantile_places(count: usize, share: f64) -> Option<([usize; 2], f64)> {
+    let place = share * count.checked_sub(1)? as f64;
+    Some(([place.floor() as usize, place.ceil() as usize], place - place.floor()))
+}
+
+/// A quantile of values in their order; `None` if there are no values, or it is not finite.
+pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let ([below, above], part) = quantile_places(sorted.len(), share)?;
+    finite(sorted[below] + part * (sorted[above] - sorted[below]))
+}
 
 impl Statistics {
     /// The statistics of `values`; `None` if there are no values, or one of the results is not
     /// finite.
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
-        let last = values.len().checked_sub(1)?;
-        let quantile = |share: f64| {
-            let place = share * last as f64;
-            let (below, above) = (place.floor() as usize, place.ceil() as usize);
-            values[below] + (place - place.floor()) * (values[above] - values[below])
-        };
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let statistics = Self { mean, quantiles: QUANTILES.map(quantile) };
-        let is_finite = mean.is_finite() && statistics.quantiles.into_iter().all(f64::is_finite);
-        is_finite.then_some(statistics)
+        let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));
+        let mean = finite(values.iter().sum::<f64>() / values.len() as f64)?;
+        Some(Self { mean, quantiles: [low?, middle?, high?] })
     }
 }
 

@@ -83,8 +83,8 @@ impl Evaluator {
         solved
     }
 
-    /// Solves `case` with the gaps and slants of its imperfect row of that number in place of its own, if they scatter; otherwise
-    /// the design as it is. The coverage stays that of the design, and an imperfect row has no derivatives.
+    /// Solves `case` with the gaps and slants of the imperfect row of that number in place of its own, if they scatter; otherwise
+    /// the design as it is. Rows of one number have the same random numbers in all designs. The coverage stays that of the design, and an imperfect row has no derivatives.
     pub fn solve_sample(&self, number: DesignNumber, case: &Case, sample: u64) -> DesignRow {
         if case.imperfection.is_none() {
             return self.solve(number, case).row;
@@ -103,7 +103,10 @@ impl Evaluator {
 
     fn punctured_sample(&self, case: &Case, sample: u64) -> Result<PunctureResult, Outcome> {
         let substrate = guarded(|| self.substrate(case)).flatten()?;
-        guarded(|| samples::punctured(case, &substrate, sample))?.ok_or(Outcome::Internal)
+        let punctured = || {
+            samples::common(case, sample).and_then(|row| samples::punctured(case, &substrate, &row))
+        };
+        guarded(punctured)?.ok_or(Outcome::Internal)
     }
 
     /// The derivatives of the measures of `case` with respect to the gaps and slants of single scales: for every measure one for each
@@ -214,7 +217,8 @@ fn chain_fits(case: &Case) -> Result<(), Outcome> {
 
 fn bent_sample(case: &Case, sample: u64) -> Result<FlexureResult, Outcome> {
     chain_fits(case)?;
-    let bent = guarded(|| samples::bent(case, sample))?.ok_or(Outcome::Internal)?;
+    let bent = || samples::common(case, sample).and_then(|row| samples::bent(case, &row));
+    let bent = guarded(bent)?.ok_or(Outcome::Internal)?;
     Ok(FlexureResult::new(&bent))
 }
 

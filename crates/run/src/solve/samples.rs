@@ -1,6 +1,7 @@
 //! Solving imperfect samples of a design.
 
 use results::{FlexureResult, PunctureResult, SampleStatistics, Statistics};
+use skin::Sample;
 use skin::flexure::{self, Flexure};
 use skin::puncture;
 use substrate::RowStiffness;
@@ -17,7 +18,8 @@ pub(super) fn puncture(
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        let measures = punctured(case, substrate, number).map(|result| result.measures);
+        let punctured = own(case, number).and_then(|row| punctured(case, substrate, &row));
+        let measures = punctured.map(|result| result.measures);
         work.row_done();
         force.extend(measures.and_then(|measures| measures.critical_force));
         penetration.extend(measures.and_then(|measures| measures.penetration));
@@ -31,7 +33,7 @@ pub(super) fn puncture(
 pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &DesignWork<'_>) {
     let (mut compliance, mut closing_range) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
-        let flexure = bent(case, number);
+        let flexure = own(case, number).and_then(|row| bent(case, &row));
         work.strip_done();
         let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::new(&flexure).measures.compliance {
@@ -44,21 +46,28 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
     statistics.compliance = Statistics::of(compliance);
 }
 
-/// The puncture of sample `number` of `case`; `None` if there is no such row.
+/// The imperfect row of that number of the design of `case`; `None` if there is no such row.
+fn own(case: &Case, number: u64) -> Option<Sample> {
+    case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()
+}
+
+/// The imperfect row of that number of a design with deviations, with the random numbers of all designs.
+pub(super) fn common(case: &Case, number: u64) -> Option<Sample> {
+    case.imperfection.common_sample(&case.design, case.samples.seed as u64, number).ok()
+}
+
+/// The puncture of an imperfect row of `case`; `None` if scales would stand within each other.
 pub(super) fn punctured(
     case: &Case,
     substrate: &RowStiffness,
-    number: u64,
+    row: &Sample,
 ) -> Option<PunctureResult> {
-    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    let puncture =
-        puncture::solve_sample(&case.design, substrate, &case.common, &case.puncture, &sample)
-            .ok()?;
+    let Case { design, common, puncture, .. } = case;
+    let puncture = puncture::solve_sample(design, substrate, common, puncture, row).ok()?;
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 
-/// The bending of sample `number` of `case`; `None` if there is no such strip.
-pub(super) fn bent(case: &Case, number: u64) -> Option<Flexure> {
-    let sample = case.imperfection.sample(&case.design, case.samples.seed as u64, number).ok()?;
-    flexure::solve_sample(&case.design, &case.common, &case.flexure, &sample).ok()
+/// The bending of an imperfect strip of `case`; `None` if scales would stand within each other.
+pub(super) fn bent(case: &Case, row: &Sample) -> Option<Flexure> {
+    flexure::solve_sample(&case.design, &case.common, &case.flexure, row).ok()
 }

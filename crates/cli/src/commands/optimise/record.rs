@@ -6,6 +6,7 @@ use results::columns::design_columns;
 use serde_json::{Map, Value, json};
 
 use super::report::unmet;
+use super::skins;
 use crate::json;
 
 /// The answer of a search to its goal.
@@ -54,11 +55,15 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
     };
     let mut measures: Map<String, Value> = measures.collect();
     measures.extend(objectives(goal, best));
-    json!({
+    let mut design = json!({
         "variables": variables(goal, &best.candidate),
         "values": measures,
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
-    })
+    });
+    if let Some(made) = &best.made {
+        design["made"] = skins::record(made);
+    }
+    design
 }
 
 /// The value of every objective, the fitness among them.
@@ -75,7 +80,7 @@ fn infeasible(
     nearest: Option<usize>,
 ) -> Value {
     let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
-    let unmet = unmet(found, &requirements);
+    let unmet = unmet(goal, found, &requirements);
     let requirement = |r: &ranking::UnmetRequirement| {
         json!({
             "requirement": r.requirement.to_string(),
@@ -85,7 +90,8 @@ fn infeasible(
         })
     };
     let nearest = nearest.map(|index| &found.history[index]);
-    let is_judged = |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_));
+    let is_judged =
+        |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Drawn(_));
     json!({
         "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
         "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),

@@ -8,6 +8,7 @@ use ranking::{Requirement, Unmet};
 use results::columns::{Cell, design_columns};
 
 use super::super::rank::obstacle;
+use super::skins;
 use crate::print::{aligned, counted, digits, rounded, time};
 
 /// The answer of a search, for people.
@@ -74,7 +75,7 @@ impl SearchReport<'_> {
             let rows: Vec<_> = bindings.map(row).collect();
             let _ = write!(text, "\nIt cannot be better because of\n{}", aligned(&rows));
         }
-        text
+        text + &best.made.as_ref().map(skins::text).unwrap_or_default()
     }
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
@@ -92,7 +93,8 @@ impl SearchReport<'_> {
         let mut rows: Vec<[String; 2]> = Vec::new();
         for (column, value) in worth.values(self.goal) {
             let is_variable = self.goal.space.parameters().any(|p| p.key == column);
-            if !is_variable && !rows.iter().any(|[known, _]| *known == column) {
+            let is_of_skins = self.goal.quantity(column).is_some();
+            if !is_variable && !is_of_skins && !rows.iter().any(|[known, _]| *known == column) {
                 rows.push([column.to_owned(), digits(value)]);
             }
         }
@@ -135,14 +137,16 @@ impl SearchReport<'_> {
 
     fn front(&self, front: &Front) -> String {
         let words = Words::new(self.goal);
-        let (title, front) = (self.title(front), &front.designs);
-        let Some(first) = front.first() else { return title };
-        let named =
-            |best: &BestDesign| [self.variables(&best.candidate), self.values(best)].concat();
+        let (title, designs) = (self.title(front), &front.designs);
+        let Some(first) = designs.first() else { return title };
+        let named = |best: &BestDesign| {
+            let made = best.made.as_ref().map(skins::row).unwrap_or_default();
+            [self.variables(&best.candidate), self.values(best), made].concat()
+        };
         let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
         header.push("price".to_owned());
         let mut rows = vec![header];
-        rows.extend(front.iter().map(|best| {
+        rows.extend(designs.iter().map(|best| {
             let mut row: Vec<String> = named(best).into_iter().map(|[_, value]| value).collect();
             let floors = best
                 .bindings
@@ -152,13 +156,13 @@ impl SearchReport<'_> {
             row.push(prices.join("; "));
             row
         }));
-        title + &aligned(&rows)
+        title + &aligned(&rows) + &skins::of_all(designs)
     }
 
     fn infeasible(&self, nearest: Option<usize>) -> String {
         let words = Words::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
-        let unmet = unmet(self.found, &requirements);
+        let unmet = unmet(self.goal, self.found, &requirements);
         let mut text = format!("No design meets all requirements\n{}", obstacle(&unmet));
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
@@ -169,9 +173,17 @@ impl SearchReport<'_> {
 }
 
 /// The obstacle to the requirements among all designs that were looked at.
-pub fn unmet(found: &Found, requirements: &[Requirement]) -> Unmet {
+pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> Unmet {
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
+        Judgement::Drawn(worth) => {
+            let mut drawn = worth.required.iter().copied();
+            let value = |requirement: &Requirement| {
+                let is_drawn = goal.quantity(&requirement.column).is_none();
+                is_drawn.then(|| drawn.next().flatten()).flatten()
+            };
+            requirements.iter().map(value).collect()
+        }
         _ => vec![None; requirements.len()],
     };
     Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), requirements)

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM};
+use optimisation::{DesignGoal, FRONT, GOAL, MadeQuantity, OPTIMUM};
+use ranking::{Criterion, Goal, Relation, Requirement};
 use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{PARAMETERS, Parameter, Scalar, Sweep};
@@ -21,7 +22,9 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let designs = Designs::of(&Results::of_file(&found, table)?);
     let goal = DesignGoal::read(&folder.join(GOAL), &[])?;
     let headers = grid.designs.headers();
-    for objective in &goal.objectives {
+    let drawn = goal.as_drawn();
+    let objectives = objectives(&drawn);
+    for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
             "--front {name}: its objective {} is no column of the designs in {}, expected a sweep with the same measures and [material]",
@@ -31,13 +34,36 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     }
     Ok(PageFront {
         folder: name.to_string(),
-        differences: differences(&goal, grid),
+        differences: differences(&goal, grid).into_iter().chain(of_skins(&goal)).collect(),
         variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
-        objectives: goal.objectives,
-        requirements: goal.requirements,
+        objectives,
+        requirements: drawn.requirements,
         sound: goal.sound,
         designs,
     })
+}
+
+/// The objectives as far as designs as they are drawn have them; of a yield alone the columns that skins are to meet.
+fn objectives(drawn: &DesignGoal) -> Vec<Criterion> {
+    let of_grid = |objective: &&Criterion| objective.column != MadeQuantity::MARGIN;
+    let objectives: Vec<Criterion> = drawn.objectives.iter().filter(of_grid).cloned().collect();
+    if !objectives.is_empty() {
+        return objectives;
+    }
+    let criterion = |requirement: &Requirement| {
+        let is_upper = matches!(requirement.relation, Relation::AtMost | Relation::Below);
+        let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
+        Criterion::new(&requirement.column, goal)
+    };
+    drawn.requirements.iter().take(1).map(criterion).collect()
+}
+
+/// The part of a goal that is about what is made, and that the designs of a grid have not.
+fn of_skins(goal: &DesignGoal) -> Option<String> {
+    let tolerances = goal.space.sweep().deviations().iter();
+    let tolerances = tolerances.map(|d| format!("tolerance.{} {}", d.key(), d.to_toml()));
+    let all: Vec<String> = tolerances.collect();
+    goal.is_about_skins().then(|| all.join(", "))
 }
 
 /// What has one value in the search and another one in the grid: each parameter with both.

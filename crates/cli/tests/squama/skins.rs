@@ -1,0 +1,96 @@
+//! `squama optimise` of what is made: what is printed and written, and bad goals.
+
+use crate::Place;
+
+const GOAL: &str = "name = 'made'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+    slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[material]\nthickness_mm = 1\n\
+    scale_density_kg_m3 = 1000\n[tolerance]\ngap_over_t = { batch_sd = 0.02 }\n[goal]\n\
+    minimize = 'areal_mass_kg_m2'\nrequire = ['coverage >= 0.5', 'yield >= 0.9']\nsamples = 64\n";
+
+#[test]
+fn the_best_for_some_skins_is_shown_to_others() {
+    let place = Place::with(GOAL);
+    let text = place.prints("optimise x.toml --threads 1");
+    let (_, answer) = text.split_once("\n\n").expect("an answer");
+    insta::assert_snapshot!(answer);
+    let header = place.read("results/made/optimum.csv");
+    let header = header.lines().next().expect("a header").to_owned();
+    assert!(header.ends_with(",binding,prices,yield,yield_low,yield_high,yield_seen,fresh_skins"));
+    // Designs of which no skins were made are drawn alone.
+    let history = place.read("results/made/history.csv");
+    for word in [",drawn,", ",short,", ",met,", ",skins,"] {
+        assert!(history.contains(word), "{word}");
+    }
+    let record = place.prints("optimise x.toml --json --fresh");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    let made = &record["optimum"]["made"];
+    assert_eq!((made["seen"].as_u64(), made["fresh"].as_u64()), (Some(200), Some(1000)));
+    assert_eq!(made["estimates"][0]["quantity"], "yield");
+}
+
+#[test]
+fn the_yield_of_a_search_is_that_of_a_tolerance() {
+    let place = Place::with(&GOAL.replace("samples = 64", "samples = 64\nskins = 100"));
+    let record = place.prints("optimise x.toml --json");
+    let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
+    let seen = &record["optimum"]["made"]["estimates"][0]["seen"];
+    let text = "tolerance results/made/optimum.toml --samples 100 --json --out t";
+    let arguments = text.split(' ').chain(["--require", "coverage >= 0.5"]).map(str::to_owned);
+    let arguments: Vec<String> = arguments.collect();
+    let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
+    let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
+    assert_eq!(told["designs"][0]["yields"][0]["yield"], *seen);
+}
+
+#[test]
+fn tables_of_skins_do_not_depend_on_threads_or_interruptions() {
+    let goal = GOAL.replace(
+        "minimize = 'areal_mass_kg_m2'\n",
+        "maximize = 'coverage_p05'\nminimize = 'areal_mass_kg_m2'\npoints = 3\nskins = 40\n",
+    );
+    let place = Place::with(&goal);
+    place.squama("optimise x.toml --threads 1 --out one").assert().code(0);
+    place.squama("optimise x.toml --threads 3 --out three").assert().code(0);
+    let journal = place.read("three/evaluations.jsonl");
+    std::fs::write(place.path("three/evaluations.jsonl"), &journal[..journal.len() / 3 * 2])
+        .expect("writable");
+    place.squama("optimise x.toml --threads 2 --out three --resume").assert().code(0);
+    for file in ["front.csv", "history.csv", "goal.toml", "front.svg", "history.svg"] {
+        let [one, three] = ["one", "three"].map(|folder| place.read(&format!("{folder}/{file}")));
+        assert!(one == three, "{file}");
+    }
+}
+
+#[test]
+fn bad_goals_about_skins_are_one_line() {
+    let message = |from: &str, to: &str| {
+        assert!(GOAL.contains(from), "{from}");
+        let place = Place::with(&GOAL.replace(from, to));
+        let message = place.refused("optimise x.toml");
+        assert_eq!(place.list("."), "x.toml", "nothing is written");
+        message
+    };
+    let deviations = "[tolerance]\ngap_over_t = { batch_sd = 0.02 }\n";
+    let objective = "'areal_mass_kg_m2'";
+    let messages = [
+        (deviations, ""),
+        (deviations, "[imperfection]\ngap_cv = 0.1\n"),
+        ("[tolerance]\n", "[imperfection]\ngap_cv = 0.1\n[tolerance]\n"),
+        ("'coverage >= 0.5', ", ""),
+        ("yield >= 0.9", "yield >= 1.2"),
+        ("yield >= 0.9", "yield >= 0"),
+        ("yield >= 0.9", "yield > 1"),
+        ("yield >= 0.9", "yield <= 0.9"),
+        ("yield >= 0.9", "coverage_p5 >= 0.4"),
+        ("yield >= 0.9", "coverage_p5x >= 0.4"),
+        ("yield >= 0.9", "coverag_p05 >= 0.4"),
+        ("yield >= 0.9", "critical_force_p05 >= 0.4"),
+        (objective, "'design_p05'"),
+        (objective, "'fitness_p05'"),
+        (objective, "'yield'"),
+        ("samples = 64", "skins = 3"),
+        ("'yield >= 0.9']\nsamples = 64", "'coverage <= 0.9']\nskins = 300"),
+    ];
+    let messages = messages.map(|(from, to)| message(from, to));
+    insta::assert_snapshot!(messages.concat());
+}

@@ -1,0 +1,81 @@
+//! The search among what is made: it begins at the best designs as they are drawn, of which skins are made then.
+
+use rayon::iter::{
+    IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
+};
+
+use super::estimate::report;
+use crate::candidate::{Candidate, SearchStage};
+use crate::evaluations::Halt;
+use crate::goal::DesignGoal;
+use crate::local::Search;
+use crate::meter::SearchPart;
+use crate::search::{Answer, Plan, answer as answer_by, apart};
+use crate::space::SpacePoint;
+
+/// Points of a front of designs as they are drawn, at most: a front of skins begins there.
+const DRAWN_POINTS: usize = 10;
+
+/// Designs as they are drawn, for each objective, of which skins are made at first.
+const SEEDS: usize = 16;
+
+/// The answer to a goal about what is made. The history of the designs as they are drawn is part of it.
+pub(crate) fn answer(
+    goal: &DesignGoal,
+    drawn: &Search<'_>,
+    made: &Search<'_>,
+    history: &mut Vec<Candidate>,
+) -> Result<Answer, Halt> {
+    let plan = Plan { points: goal.points.min(DRAWN_POINTS), ..Plan::DRAWN };
+    let first = answer_by(drawn, history, plan)?;
+    let seeds = seeds(drawn, history, &first);
+    for candidate in history.iter_mut() {
+        let row = made.evaluations.row(0, &candidate.point, &candidate.result);
+        candidate.verdict = made.judge.verdict(&row);
+    }
+    if matches!(first, Answer::Infeasible(_)) {
+        return Ok(first);
+    }
+    made.meter.begin(SearchPart::Skins, seeds.len());
+    let look = |point: SpacePoint| {
+        let looked = made.look(SearchStage::Skins, &point, false)?.0;
+        made.meter.step();
+        Ok(looked)
+    };
+    let looked: Vec<Candidate> = seeds.into_par_iter().map(look).collect::<Result<_, _>>()?;
+    history.extend(looked);
+    let plan = Plan { points: goal.points, ..Plan::MADE };
+    let mut answer = answer_by(made, history, plan)?;
+    let best = match &mut answer {
+        Answer::Optimum(best) => std::slice::from_mut(best.as_mut()),
+        Answer::Front(front) => front.designs.as_mut_slice(),
+        Answer::Infeasible(_) => &mut [],
+    };
+    made.meter.begin(SearchPart::Check, best.len());
+    best.par_iter_mut().try_for_each(|best| {
+        made.meter.step();
+        report(made, best)
+    })?;
+    Ok(answer)
+}
+
+/// The designs of which skins are made first: the best as they are drawn, and the best of all others that are apart from each other.
+fn seeds(drawn: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
+    let best = match answer {
+        Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),
+        Answer::Front(front) => front.designs.as_slice(),
+        Answer::Infeasible(_) => &[],
+    };
+    let best = best.iter().map(|best| best.candidate.point.clone());
+    let others = (0..drawn.judge.objectives()).flat_map(|objective| {
+        let target = crate::candidate::Target { objective, floors: Vec::new() };
+        apart(drawn, history, &target, SEEDS).into_iter().map(|candidate| candidate.point)
+    });
+    let mut seeds: Vec<SpacePoint> = Vec::new();
+    for point in best.chain(others) {
+        if !seeds.contains(&point) {
+            seeds.push(point);
+        }
+    }
+    seeds
+}
