@@ -4,7 +4,7 @@
 //! functions of the design like any other:
 //!
 //! ```text
-//! yield ≥ y   ⇔   m₍ₖ₎ ≥ 0,   k = n − ⌈y n⌉ + 1                                          (O5)
+//! yield ≥ y   ⇔   m₍ₖ₎ ≥ 0,   k = n − ⌈y n⌉ + 1                                          (O6)
 //! ```
 //!
 //! with the margins `m₍₁₎ ≤ … ≤ m₍ₙ₎` of the skins in their order, each the least of its margins over all requirements, relative to
@@ -19,7 +19,7 @@ mod slopes;
 pub use estimate::{MadeEstimate, MadeReport};
 pub(crate) use judge::{MadeJudge, Skins, Stake, UsedQuantity};
 pub use quantity::MadeQuantity;
-pub(crate) use search::answer;
+pub(crate) use search::{MadeSearches, answer};
 pub(crate) use slopes::MadeSlope;
 
 use crate::goal::DesignGoal;

@@ -17,6 +17,8 @@ pub enum SearchPart {
     Front,
     /// The first skins of the best designs as they are drawn.
     Skins,
+    /// More skins of designs near the best.
+    Refine,
     /// Other skins of the best designs.
     Check,
 }
@@ -38,6 +40,7 @@ impl SearchPart {
             Self::Finish => "finishing",
             Self::Front => "points of the front",
             Self::Skins => "first skins",
+            Self::Refine => "near the best with more skins",
             Self::Check => "checking with other skins",
         }
     }

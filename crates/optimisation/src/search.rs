@@ -16,7 +16,7 @@ use crate::front::{self, Front};
 use crate::goal::DesignGoal;
 use crate::judge::{Judge, Judgement, has_folded};
 use crate::local::{Effort, Search};
-use crate::made::{self, MadeReport};
+use crate::made::{self, MadeReport, MadeSearches};
 use crate::meter::{SearchMeter, SearchPart};
 use crate::price::{Binding, bindings};
 use crate::sample;
@@ -145,12 +145,14 @@ fn find(
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
     let [drawn, judge] = [Judge::as_drawn(goal, &rescaled), Judge::rescaling(goal, &rescaled)];
+    let finer = Judge::rescaling(&goal.finer(), &rescaled);
     let by = |judge| Search { space: &goal.space, evaluations, judge, meter };
-    let (drawn, search) = (by(&drawn), by(&judge));
+    let (drawn, search, finer) = (by(&drawn), by(&judge), by(&finer));
     let look = |point| Ok(drawn.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_skins() {
-        made::answer(goal, &drawn, &search, &mut history)?
+        let searches = MadeSearches { drawn: &drawn, made: &search, finer: &finer };
+        made::answer(goal, searches, &mut history)?
     } else {
         answer(&search, &mut history, Plan { points: goal.points, ..Plan::DRAWN })?
     };

@@ -24,7 +24,7 @@ fn the_best_for_some_skins_is_shown_to_others() {
     let record = place.prints("optimise x.toml --json --fresh");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
     let made = &record["optimum"]["made"];
-    assert_eq!((made["seen"].as_u64(), made["fresh"].as_u64()), (Some(200), Some(1000)));
+    assert_eq!((made["seen"].as_u64(), made["fresh"].as_u64()), (Some(1000), Some(1000)));
     assert_eq!(made["estimates"][0]["quantity"], "yield");
 }
 
@@ -34,7 +34,7 @@ fn the_yield_of_a_search_is_that_of_a_tolerance() {
     let record = place.prints("optimise x.toml --json");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
     let seen = &record["optimum"]["made"]["estimates"][0]["seen"];
-    let text = "tolerance results/made/optimum.toml --samples 100 --json --out t";
+    let text = "tolerance results/made/optimum.toml --samples 500 --json --out t";
     let arguments = text.split(' ').chain(["--require", "coverage >= 0.5"]).map(str::to_owned);
     let arguments: Vec<String> = arguments.collect();
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();

@@ -41,6 +41,13 @@ impl MadeReport {
     pub fn estimate(&self, name: &str) -> Option<&MadeEstimate> {
         self.estimates.iter().find(|estimate| estimate.name == name)
     }
+
+    /// Whether a requirement that those skins do not keep may be kept all the same: an end of the 95 % interval meets it.
+    pub fn is_open(&self, requirement: &Requirement) -> bool {
+        let estimate = self.estimate(&requirement.column);
+        let mut ends = estimate.into_iter().flat_map(|of| of.interval).flatten();
+        ends.any(|end| requirement.is_met(end))
+    }
 }
 
 /// Adds what other skins say to a design that was found.

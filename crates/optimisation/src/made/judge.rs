@@ -152,7 +152,7 @@ impl MadeJudge {
     }
 
     /// The value of quantity `q` as designs are compared by it: of a yield with a part of a step more, the nearer the best of the
-    /// skins that fall short is to its bounds (O6), or, where none falls short, the farther the worst is within.
+    /// skins that fall short is to its bounds (O7), or, where none falls short, the farther the worst is within.
     pub fn compared(&self, q: usize, skins: &Skins) -> Option<f64> {
         if self.quantities[q].quantity != MadeQuantity::Yield {
             return self.value(q, skins);
@@ -166,7 +166,7 @@ impl MadeJudge {
         Some((met as f64 + part) / sorted.len() as f64)
     }
 
-    /// How far quantity `q` is beyond a requirement, relative to the limits; of a yield by the skin that is to meet (O5).
+    /// How far quantity `q` is beyond a requirement, relative to the limits; of a yield by the skin that is to meet (O6).
     pub fn excess(&self, q: usize, requirement: &Requirement, skins: &Skins) -> Option<f64> {
         if self.quantities[q].quantity != MadeQuantity::Yield {
             return Some(excess(requirement, self.value(q, skins)?));

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use optimisation::{BestDesign, MadeEstimate, MadeReport};
+use ranking::Requirement;
 use serde_json::{Value, json};
 
 use crate::print::{aligned, counted, digits};
@@ -21,15 +22,26 @@ pub fn text(made: &MadeReport) -> String {
         sweep::number::text(made.fresh as f64),
         aligned(&rows)
     );
-    if !made.broken.is_empty() {
-        let broken: Vec<String> = made.broken.iter().map(ToString::to_string).collect();
+    let (open, broken): (Vec<_>, Vec<_>) = made.broken.iter().partition(|r| made.is_open(r));
+    if !broken.is_empty() {
         let _ = writeln!(
             text,
             "  (!) The others do not keep {}: a design looks a little better on the skins that it was chosen by. Ask for more, or let the search see more skins (goal.skins)",
-            broken.join(", ")
+            joined(&broken)
+        );
+    }
+    if !open.is_empty() {
+        let _ = writeln!(
+            text,
+            "  (?) So many others cannot tell whether {} is kept: ask for a little more to be on the safe side",
+            joined(&open)
         );
     }
     text
+}
+
+fn joined(requirements: &[&Requirement]) -> String {
+    requirements.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// What is made of a design of a front: the values of the skins that the search did not see.
