@@ -136,6 +136,21 @@ impl Judge {
         self.made.is_some() && name == MadeQuantity::YIELD
     }
 
+    /// Whether objective `k` is a yield.
+    pub(crate) fn is_yield_objective(&self, k: usize) -> bool {
+        let is_yield =
+            |made: &MadeJudge, q: usize| made.quantities[q].quantity == MadeQuantity::Yield;
+        match (&self.objectives[k].1, &self.made) {
+            (GoalColumn::Made(q), Some(made)) => is_yield(made, *q),
+            _ => false,
+        }
+    }
+
+    /// Whether objective `k` is about what is made.
+    pub(crate) fn is_made_objective(&self, k: usize) -> bool {
+        matches!(self.objectives[k].1, GoalColumn::Made(_))
+    }
+
     /// Whether requirement `k` is about what is made.
     pub(crate) fn is_made(&self, k: usize) -> bool {
         matches!(self.requirements[k].column, GoalColumn::Made(_))

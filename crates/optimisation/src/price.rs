@@ -20,7 +20,7 @@ use crate::slopes::Slopes;
 /// A limit binds that is this near, relative to its size.
 const NEAR: f64 = 1e-5;
 
-/// As [`NEAR`], of a limit of what is made: a direct search comes no nearer to a kink.
+/// As [`NEAR`], of a limit of what is made: a search among skins ends sooner.
 const NEAR_SKINS: f64 = 1e-3;
 
 /// The part of the gradient that multipliers may leave unbalanced.
@@ -83,7 +83,8 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
     for &(k, floor) in &target.floors {
         let turned = search.judge.sign(k) * worth.objectives[k];
-        if turned - floor < NEAR * floor_size(floor) {
+        let near = if search.judge.is_made_objective(k) { NEAR_SKINS } else { NEAR };
+        if turned - floor < near * floor_size(floor) {
             limits.push(Limit::Floor(k));
         }
     }

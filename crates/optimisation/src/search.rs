@@ -178,7 +178,7 @@ fn sample_rows(
 /// The ends between which the criteria of the fitness are rescaled: from here on the fitness is one function.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
-    let judge = Judge::new(goal);
+    let judge = Judge::as_drawn(goal, &fitness.ends);
     rows.retain(|row| judge.is_whole(row));
     fitness.ends_over(goal.space.sweep(), &rows)
 }

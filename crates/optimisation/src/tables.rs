@@ -124,7 +124,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         ),
         plain(
             "verdict",
-            "met, short, folded, drawn: it meets what is asked of it as drawn, and no skins were made of it; or why it cannot be judged",
+            "met, short, folded, drawn: no skins were made of it; or why it cannot be judged",
         ),
         plain(
             "best",

@@ -34,6 +34,9 @@ impl<'a> Words<'a> {
     /// A limit, e.g. `coverage >= 0.5` or `gap_over_t at its lower end 0.1`.
     pub fn limit(&self, limit: &Limit, target: &Target) -> String {
         match *limit {
+            Limit::Requirement(k) if self.judge.is_soundness(k) && self.judge.is_made(k) => {
+                "the surface of more skins is about to fold".to_owned()
+            }
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
                 "the surface is about to fold".to_owned()
             }
@@ -78,10 +81,11 @@ impl<'a> Words<'a> {
         };
         Some(match binding.limit {
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
-                let costs = amount_of(OPEN * price, objective);
+                let of =
+                    if self.judge.is_made(k) { "the gaps of these skins" } else { "every gap" };
+                let (open, costs) = (100.0 * OPEN, amount_of(OPEN * price, objective));
                 format!(
-                    "keeping every gap open by {} % of its width at rest {} {costs}",
-                    100.0 * OPEN,
+                    "keeping {of} open by {open} % of its width at rest {} {costs}",
                     verb(objective)
                 )
             }

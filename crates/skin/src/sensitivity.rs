@@ -102,7 +102,7 @@ pub(crate) struct MeasuredPoint<S: Skin> {
 /// One-sided derivatives that differ by less than this part belong to a smooth measure.
 const SMOOTH: f64 = 1e-9;
 
-/// A value that is farther from the extreme one than this part of it does not take its place within the step of a difference, some
+/// A value that is farther from the extreme one than this part of the largest does not take its place within the step of a difference, some
 /// millionths of a parameter.
 const NEAR: f64 = 1e-3;
 
@@ -247,7 +247,8 @@ impl<S: Skin> MeasuredQuantity<S> {
         let values: Vec<f64> = (0..count).map(value).collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
         let extreme = extreme.unwrap_or(f64::NAN);
-        let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * extreme.abs();
+        let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+        let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * size;
         Contenders { value: extreme, numbers: (0..count).filter(is_near).collect() }
     }
 

@@ -130,7 +130,7 @@ pub trait System {
         f64::NAN
     }
 
-    /// The rate along `direction` of a quantity, one of several, where which is stationary a place of the path may be.
+    /// The rate of a quantity, one of several, along `direction`: a place of the path may be one where it vanishes.
     fn rate(&self, _state: &State<Self::Mode>, _direction: &[f64], _number: usize) -> f64 {
         f64::NAN
     }

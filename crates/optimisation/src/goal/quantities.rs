@@ -25,7 +25,7 @@ pub(super) fn unavailable(
     let quantity = MadeQuantity::named(column)?;
     let is_column = design_columns(sweep).iter().any(|known| known.name == column);
     match (sweep.deviations().is_empty(), sweep.is_imperfect()) {
-        (true, _) if is_column => None,
+        (true, _) | (false, true) if is_column => None,
         (true, _) => refused(DEVIATIONS.to_owned()),
         (false, true) => refused(ONE_SCATTER.to_owned()),
         (false, false) => match quantity {
@@ -40,7 +40,10 @@ fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
     let columns = design_columns(sweep);
     let Some(known) = columns.iter().find(|known| known.name == column) else {
         let names: Vec<&str> = columns.iter().map(|known| known.name.as_ref()).collect();
-        let near = sweep::nearest(column, &names).unwrap_or("critical_force");
+        let is_asked =
+            |name: &&&str| measure_of(name).is_some_and(|m| sweep.measures().contains(&m));
+        let asked = names.iter().find(is_asked).copied();
+        let near = sweep::nearest(column, &names).or(asked).unwrap_or("coverage");
         return Some(format!("a quantile of a column of designs.csv, e.g. {}", quantiles(near)));
     };
     let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
@@ -106,7 +109,7 @@ pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let is_made = goal.columns().any(|(column, ..)| !plain(column));
     if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_made) {
         let expected = "it beside a yield or a quantile".to_owned();
-        refused.push(not_accepted(place, "goal.skins", "a goal about what is drawn", expected));
+        refused.push(not_accepted(place, "goal.skins", &goal.skins.to_string(), expected));
     }
     refused
 }

@@ -18,6 +18,8 @@ mod model;
 #[cfg(test)]
 mod textbook;
 
+use std::iter;
+
 use crate::sample::Sequence;
 use model::{Cut, Model};
 
@@ -168,7 +170,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let gain = better(self.merit(index), self.merit(self.centre));
         if gain >= ENOUGH * told {
             self.centre = index;
-            self.misses = 0;
+            (self.misses, self.filled) = (0, false);
             self.radius *= if far && gain >= PLENTY * told { 2.0 } else { 1.0 };
             return Ok(());
         }
@@ -199,7 +201,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let centre = &self.seen[self.centre].place;
         let within = radii * self.radius * (1.0 + 1e-9);
         let near = move |seen: &&Seen| distance(&seen.place, centre) <= within;
-        let smooth = |seen: &&Seen| seen.pieces.cost.gradient.is_some();
+        let smooth = |seen: &&Seen| seen.pieces.have_tangents();
         self.seen.iter().rev().filter(near).filter(smooth)
     }
 
@@ -224,6 +226,11 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
 }
 
 impl Pieces {
+    /// Whether any piece has a tangent.
+    fn have_tangents(&self) -> bool {
+        iter::once(&self.cost).chain(&self.limits).any(|piece| piece.gradient.is_some())
+    }
+
     /// The largest excess over a limit.
     fn excess(&self) -> f64 {
         self.limits.iter().map(|limit| limit.value).fold(0.0, f64::max)

@@ -13,8 +13,13 @@ const SMALLEST: f64 = 1e-6;
 impl LocalSearch<'_> {
     /// Follows the ridge on which the best design stands, by steps of `reach` and less of the intervals, over at most `most` designs.
     pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
+        // A staircase has no tangents.
+        if self.search.judge.is_yield_objective(self.target.objective) {
+            return Ok(());
+        }
         let Some(problem) = LocalProblem::new(self, SearchStage::Ridge) else { return Ok(()) };
-        let options = BundleOptions { reach, smallest: SMALLEST.min(0.1 * reach), places: most };
+        let smallest = SMALLEST.max(self.search.fineness().step).min(0.1 * reach);
+        let options = BundleOptions { reach, smallest, places: most };
         descend(&problem, &self.best_shares(), options)
     }
 }

@@ -4,7 +4,7 @@ use ranking::Requirement;
 use tolerance::{Proportion, SampledQuantile};
 
 use super::FRESH;
-use super::judge::{MadeJudge, Skins};
+use super::judge::{MadeJudge, Skins, Stake};
 use super::quantity::MadeQuantity;
 use crate::evaluations::Halt;
 use crate::local::Search;
@@ -63,11 +63,15 @@ pub(super) fn report(search: &Search<'_>, best: &mut BestDesign) -> Result<(), H
             estimates.push(estimate(judge, q, &seen, &fresh));
         }
     }
-    let breaks = |requirement: &&Requirement| {
-        let of = estimates.iter().find(|estimate| estimate.name == requirement.column);
-        of.is_some_and(|of| of.value.is_none_or(|value| !requirement.is_met(value)))
-    };
-    let broken = search.judge.requirements().filter(breaks).cloned().collect();
+    let required: Vec<&Requirement> = search.judge.requirements().collect();
+    let broken = search.judge.stakes().filter_map(|(stake, q)| {
+        let Stake::Requirement(k) = stake else { return None };
+        let value = estimate(judge, q, &seen, &fresh).value;
+        let column = judge.quantities[q].name.clone();
+        let is_kept = value.is_some_and(|value| required[k].is_met(value));
+        (!is_kept).then(|| Requirement { column, ..required[k].clone() })
+    });
+    let broken = broken.collect();
     best.made = Some(MadeReport { seen: seen.0.len(), fresh: FRESH, estimates, broken });
     Ok(())
 }

@@ -78,7 +78,10 @@ impl MadeJudge {
         let bounds = self.bounds.iter().map(|bound| &bound.column);
         let columns = bounds.chain(&self.columns);
         let values: Vec<_> = columns.map(|column| column.value(row)).collect();
-        let is_open_again = self.sound && has_folded(row) && self.margin(&values) >= 0.0;
+        // Soundness is the last of the bounds.
+        let bounds = self.bounds.last().filter(|_| self.sound);
+        let is_open = bounds.is_some_and(|open| open.margin(values[self.bounds.len() - 1]) >= 0.0);
+        let is_open_again = is_open && has_folded(row);
         if is_open_again { vec![None; values.len()] } else { values }
     }
 

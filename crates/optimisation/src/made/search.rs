@@ -49,11 +49,13 @@ pub(crate) fn answer(
     let plan = Plan { points: goal.points.min(DRAWN_POINTS), ..Plan::DRAWN };
     let first = answer_by(drawn, history, plan)?;
     let seeds = seeds(drawn, history, &first);
+    let mut is_admitted = false;
     for candidate in history.iter_mut() {
         let row = made.evaluations.row(0, &candidate.point, &candidate.result);
         candidate.verdict = made.judge.verdict(&row);
+        is_admitted |= made.judge.made().is_some_and(|judge| judge.admits(&row));
     }
-    if matches!(first, Answer::Infeasible(_)) {
+    if !is_admitted {
         return Ok(first);
     }
     made.meter.begin(SearchPart::Skins, seeds.len());

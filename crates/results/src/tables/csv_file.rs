@@ -40,7 +40,7 @@ impl<'c, R> CsvFile<'c, R> {
     /// The lines of some rows, as they stand in the file.
     ///
     /// # Errors
-    /// If a row has more cells than there are columns.
+    /// If a row is not as long as the header, which no table of columns has.
     pub fn lines(
         &self,
         rows: impl IntoIterator<Item = impl Borrow<R>>,

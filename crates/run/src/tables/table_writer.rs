@@ -19,7 +19,7 @@ use crate::progress::{Finished, RunError};
 /// Writing the tables takes at most one part in this many of the time of a run.
 const SHARE: u32 = 20;
 
-/// Designs whose rows one thread makes at a time.
+/// Designs whose lines one thread makes at a time.
 const PORTION: usize = 32;
 
 /// Names of tables, each with its SHA-256, in the order in which people read them.
@@ -86,7 +86,7 @@ impl<'a> TableWriter<'a> {
     }
 
     /// Writes the tables; returns what the run comes to, and each with its SHA-256. Entries are read one by
-    /// one, in the order of their designs; their rows are made by all threads.
+    /// one, in the order of their designs; their lines are made by all threads.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
@@ -100,7 +100,7 @@ impl<'a> TableWriter<'a> {
         let mut summary = Summary::new(archive.sweep());
         let mut entries = archive.entries()?.in_order().peekable();
         while entries.peek().is_some() {
-            let some = entries.by_ref().take(PORTION * self.threads);
+            let some = entries.by_ref().take(PORTION * pool.current_num_threads());
             let rows = some.map(|entry| Ok(archive.row(entry?)));
             let rows: Vec<DesignRow> = rows.collect::<Result<_, JournalError>>()?;
             let lines = || rows.par_chunks(PORTION).map(|rows| tables.lines(rows)).collect();

@@ -66,11 +66,12 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
     design
 }
 
-/// The value of every objective, the fitness among them.
+/// The value of every objective of what is drawn, the fitness among them. Quantities over skins stand with what is made.
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);
-    values.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
+    let drawn = values.filter(|(objective, _)| goal.quantity(&objective.column).is_none());
+    drawn.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
 }
 
 fn infeasible(

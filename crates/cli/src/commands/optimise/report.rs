@@ -172,8 +172,11 @@ impl SearchReport<'_> {
     }
 }
 
-/// The obstacle to the requirements among all designs that were looked at.
+/// The obstacle to the requirements among all designs that were looked at: to those of what is drawn, if skins were made of none.
 pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> Unmet {
+    let has_skins = found.history.iter().any(|c| matches!(c.verdict, Judgement::Judged(_)));
+    let is_told = |r: &&Requirement| has_skins || goal.quantity(&r.column).is_none();
+    let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
         Judgement::Drawn(worth) => {
@@ -186,5 +189,5 @@ pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> 
         }
         _ => vec![None; requirements.len()],
     };
-    Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), requirements)
+    Unmet::of_values(&found.history.iter().map(values).collect::<Vec<_>>(), &requirements)
 }

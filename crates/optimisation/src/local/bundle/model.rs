@@ -48,6 +48,10 @@ impl<'c> Model<'c> {
         let along =
             gradient.iter().zip(self.centre.iter().zip(place)).map(|(g, (x, y))| g * (x - y));
         let value = (piece.value + along.sum::<f64>()).min(here);
+        // A skin without a value is beyond its limits without end.
+        if !(value.is_finite() && self.worst.is_finite()) {
+            return;
+        }
         let slope = gradient.iter().map(|g| g * self.radius).collect();
         let right = match cut {
             Cut::Cost => self.worst - value,
