@@ -17,8 +17,10 @@ use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
 use crate::made::{MadeJudge, Skins};
 use crate::space::{DesignSpace, SpacePoint};
-pub use journal::EVALUATIONS;
 use journal::{EvaluationJournal, JournalLine, SkinsLine, SolvedLine};
+
+/// Skins that no search sees: those that `squama tolerance` makes have numbers from 1 on, and are a test of what a search has chosen.
+const BEFORE: u64 = 1 << 32;
 
 /// Why no more is evaluated.
 #[derive(Debug)]
@@ -151,7 +153,7 @@ impl<'a> Evaluations<'a> {
 
     /// The case of the skin of that number that is made of the design of `drawn`, but for its scatter from scale to scale.
     pub fn even_case(&self, drawn: &Case, skin: u64) -> Option<Case> {
-        self.sampler.even_case(drawn, skin)
+        self.sampler.even_case(drawn, BEFORE + skin)
     }
 
     /// The result of a case that belongs to a point, solved if it is not known.
@@ -203,7 +205,7 @@ impl<'a> Evaluations<'a> {
         let none = vec![None; made.bounds.len() + made.columns.len()];
         let values = (first..last).into_par_iter().map(|skin| {
             self.go_on()?;
-            let skin = self.sampler.solve(self.number(0), &case, skin);
+            let skin = self.sampler.solve(self.number(0), &case, BEFORE + skin);
             Ok(skin.map_or_else(|| none.clone(), |skin| made.values(&skin.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;

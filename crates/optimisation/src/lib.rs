@@ -72,7 +72,6 @@ mod words;
 
 pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
-pub use evaluations::EVALUATIONS;
 pub use fitness::{CriterionEnds, FitnessGoal};
 pub use front::Front;
 pub use goal::DesignGoal;

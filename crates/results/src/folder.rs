@@ -30,6 +30,8 @@ pub struct RunFolder {
 impl RunFolder {
     /// The journal: every finished design, from which the tables are written.
     pub const JOURNAL: &'static str = "journal.jsonl";
+    /// The name of the journal of a search.
+    pub const EVALUATIONS: &'static str = "evaluations.jsonl";
     /// The record of the run: its program, its counts, its definition.
     pub const RUN_INFO: &'static str = "run.toml";
     /// The statement of what the folder holds, written last.

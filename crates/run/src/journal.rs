@@ -82,6 +82,9 @@ impl Journal {
         header: JournalHeader,
         start: Start,
     ) -> Result<Self, JournalError> {
+        if folder.file(RunFolder::EVALUATIONS).exists() {
+            return Err(JournalError::HoldsSearch { folder: folder.path().to_owned() });
+        }
         let path = folder.journal();
         if start != Start::Fresh && !path.exists() {
             refuse_strays(folder)?;

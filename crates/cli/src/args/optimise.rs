@@ -24,14 +24,14 @@ criteria, all four alike if it is left out, and rescale = { coverage = [0, 0.9] 
 each, those of the sample if it is left out.
 With a [tolerance], as squama tolerance reads it, the goal may be about what is made: maximize or require has
 quantiles, as critical_force_p05 (or _p50, _p95), and yield, the share of skins that meet all requirements of
-columns, as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. skins = 200 are made of each design, the same deviations
+columns and whose surface has not folded, unless sound = false, as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. skins = 200 are made of each design, the same deviations
 for all, and five times as many near the best; at the end 1000 others are made of it, and what they say stands
 beside what the search saw.
 samples = 1024 designs fill the space first, points = 30 stand on a front, seed = 0 shifts the samples.
 Writes optimum.csv and optimum.toml, which is the definition of the best design, or front.csv; history.csv
 with every design that was looked at; and evaluations.jsonl, from which --resume goes on. Nothing depends on
 the number of threads.
-Exit code: 0 done, 1 no design meets the requirements, 2 bad input or disk, 130, 143 or 129 ended by
+Exit code: 0 done, 1 no design meets the requirements, or what is made of the best does not, 2 bad input or disk, 130, 143 or 129 ended by
 SIGINT, SIGTERM or SIGHUP.")]
 pub struct OptimiseArguments {
     /// Goal in TOML

@@ -73,5 +73,12 @@ fn options<'i>(
 }
 
 fn exit_code(found: &Found) -> u8 {
-    if matches!(found.answer, Answer::Infeasible(_)) { INCOMPLETE } else { DONE }
+    let is_met = match &found.answer {
+        Answer::Optimum(best) => {
+            best.made.as_ref().is_none_or(|made| made.broken.iter().all(|r| made.is_open(r)))
+        }
+        Answer::Front(_) => true,
+        Answer::Infeasible(_) => false,
+    };
+    if is_met { DONE } else { INCOMPLETE }
 }

@@ -20,7 +20,7 @@ use gap_changes::{gap_changes, gap_changes_record};
 use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
-pub(super) use report::obstacle;
+pub(super) use report::{distance, obstacle};
 
 /// Finds the best designs of a run and writes them down.
 pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {

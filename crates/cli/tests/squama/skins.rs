@@ -29,17 +29,19 @@ fn the_best_for_some_skins_is_shown_to_others() {
 }
 
 #[test]
-fn the_yield_of_a_search_is_that_of_a_tolerance() {
-    let place = Place::with(&GOAL.replace("samples = 64", "samples = 64\nskins = 100"));
+fn a_tolerance_puts_what_a_search_has_found_to_the_test() {
+    let place = Place::with(GOAL);
     let record = place.prints("optimise x.toml --json");
     let record: serde_json::Value = serde_json::from_str(&record).expect("JSON");
-    let seen = &record["optimum"]["made"]["estimates"][0]["seen"];
-    let text = "tolerance results/made/optimum.toml --samples 500 --json --out t";
+    let others = record["optimum"]["made"]["estimates"][0]["value"].as_f64().expect("a yield");
+    let text = "tolerance results/made/optimum.toml --samples 1000 --json --out t";
     let arguments = text.split(' ').chain(["--require", "coverage >= 0.5"]).map(str::to_owned);
     let arguments: Vec<String> = arguments.collect();
     let output = place.squama_with(&arguments).assert().code(0).get_output().stdout.clone();
     let told: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
-    assert_eq!(told["designs"][0]["yields"][0]["yield"], *seen);
+    let told = told["designs"][0]["yields"][0]["yield"].as_f64().expect("a yield");
+    // Two samples of 1,000 each, none of which the search has seen: three standard deviations of their difference.
+    assert!((told - others).abs() < 0.04 && told != others, "{told} {others}");
 }
 
 #[test]

@@ -14,9 +14,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::OptimisationError;
 
-/// The name of the journal.
-pub const EVALUATIONS: &str = "evaluations.jsonl";
-
 /// The interval at which it is forced to the disk.
 const SYNC: Duration = Duration::from_secs(1);
 
@@ -91,7 +88,7 @@ impl EvaluationJournal {
             return Err(OptimisationError::HoldsRun { folder: folder.to_owned() });
         }
         make_folder(folder)?;
-        let path = folder.join(EVALUATIONS);
+        let path = folder.join(RunFolder::EVALUATIONS);
         let header = SearchHeader {
             optimisation: FORMAT,
             program: format!("{} ({})", program.version, program.revision),

@@ -87,7 +87,7 @@ pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
         let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
         let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
         if is_yield(&requirement.column) && (!is_bound || !is_share || is_strict) {
-            let expected = "the least share of skins, e.g. yield >= 0.9".to_owned();
+            let expected = "the least share of skins, at most 1, e.g. yield >= 0.9".to_owned();
             let text = requirement.to_string();
             refused.push(not_accepted(&placed.place, "goal.require", &text, expected));
         }

@@ -166,7 +166,7 @@ fn threads_and_interruptions_change_nothing() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let whole = found_in(folder.path(), &goal, 1, Start::New);
-    let journal = folder.path().join(optimisation::EVALUATIONS);
+    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
     let bytes = std::fs::read(&journal).expect("a journal");
     for share in [3, 2] {
         // Cut in the middle of a line.

@@ -17,6 +17,8 @@ pub struct PageFront {
     pub objectives: Vec<Criterion>,
     /// The bounds that a design must keep.
     pub requirements: Vec<Requirement>,
+    /// The quantities over what is made by which the search has judged, as columns of the designs that were found.
+    pub made: Vec<String>,
     /// Whether designs whose surface folds over are left out.
     pub sound: bool,
     /// The parameters that vary, as their columns.
@@ -55,6 +57,7 @@ impl PageFront {
             "objectives": self.objectives.iter().map(objective).collect::<Vec<_>>(),
             "requirements": self.requirements.iter().map(requirement).collect::<Vec<_>>(),
             "sound": self.sound,
+            "made": self.made,
             "variables": self.variables,
             "differences": self.differences,
             "axes": self.axes(),

@@ -14,6 +14,12 @@ pub enum JournalError {
         /// The folder.
         folder: PathBuf,
     },
+    /// There are the results of a search.
+    #[error("{}: holds the results of a search, expected another folder with --out DIR", folder.display())]
+    HoldsSearch {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// There are tables that no journal stands behind.
     #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
     NoJournal {

@@ -163,7 +163,10 @@ impl SearchReport<'_> {
         let words = Words::new(self.goal);
         let requirements: Vec<Requirement> = words.requirements().into_iter().cloned().collect();
         let unmet = unmet(self.goal, self.found, &requirements);
-        let mut text = format!("No design meets all requirements\n{}", obstacle(&unmet));
+        // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
+        let obstacle =
+            if self.goal.is_about_skins() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
+        let mut text = format!("No design meets all requirements\n{obstacle}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
             let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&rows));

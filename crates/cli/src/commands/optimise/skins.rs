@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use optimisation::{BestDesign, MadeEstimate, MadeReport};
-use ranking::Requirement;
+use ranking::{Requirement, Unmet};
 use serde_json::{Value, json};
 
+use super::super::rank::distance;
 use crate::print::{aligned, counted, digits};
 
 /// What is made of the best design.
@@ -40,6 +41,14 @@ pub fn text(made: &MadeReport) -> String {
     text
 }
 
+/// How far the design that comes nearest is from each requirement.
+pub fn shortfalls(unmet: &Unmet) -> String {
+    let header = ["requirement", "nearest has", "short by"].map(str::to_owned);
+    let rows: Vec<_> =
+        [header].into_iter().chain(unmet.requirements.iter().map(distance)).collect();
+    format!("{}\n", aligned(&rows))
+}
+
 fn joined(requirements: &[&Requirement]) -> String {
     requirements.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
@@ -55,7 +64,7 @@ pub fn of_all(designs: &[BestDesign]) -> String {
     let Some(first) = made.first() else { return String::new() };
     let fresh = sweep::number::text(first.fresh as f64);
     let mut text = format!(
-        "  Quantiles and yields are those of {fresh} skins of each design that the search did not see; front.csv has their intervals, and what it saw\n"
+        "  Quantiles and yields are those of {fresh} skins of each design that the search did not see; front.csv has their intervals, and what it saw. Designs of a front that differ by less than that may beat each other\n"
     );
     let broken = made.iter().filter(|made| !made.broken.is_empty()).count();
     if broken > 0 {

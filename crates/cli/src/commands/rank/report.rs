@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, Weights};
+use ranking::{Preferences, RankedDesign, Ranking, Scale, Unmet, UnmetRequirement, Weights};
 use results::Results;
 use results::columns::parameter_of;
 use run::GapChange;
@@ -212,19 +212,20 @@ pub fn obstacle(unmet: &Unmet) -> String {
     let mut rows =
         vec![["requirement", "met by", "without it", "nearest has", "short by"].map(str::to_owned)];
     rows.extend(unmet.requirements.iter().map(|requirement| {
-        let short = match requirement.shortfall {
-            0.0 => "-".to_owned(),
-            short => format!("{:.2} %", 100.0 * short),
-        };
-        [
-            requirement.requirement.to_string(),
-            designs(requirement.met),
-            designs(requirement.met_without),
-            requirement.nearest.map_or_else(|| "no value".to_owned(), digits),
-            short,
-        ]
+        let [text, nearest, short] = distance(requirement);
+        [text, designs(requirement.met), designs(requirement.met_without), nearest, short]
     }));
     format!("{}\n{}", aligned(&rows), binding(unmet))
+}
+
+/// A requirement, what the nearest design has, and how much that is short.
+pub fn distance(requirement: &UnmetRequirement) -> [String; 3] {
+    let short = match requirement.shortfall {
+        0.0 => "-".to_owned(),
+        short => format!("{:.2} %", 100.0 * short),
+    };
+    let nearest = requirement.nearest.map_or_else(|| "no value".to_owned(), digits);
+    [requirement.requirement.to_string(), nearest, short]
 }
 
 /// Which requirement stands in the way.

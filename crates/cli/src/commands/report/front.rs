@@ -37,6 +37,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
         differences: differences(&goal, grid).into_iter().chain(of_skins(&goal)).collect(),
         variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
         objectives,
+        made: made(&goal),
         requirements: drawn.requirements,
         sound: goal.sound,
         designs,
@@ -56,6 +57,19 @@ fn objectives(drawn: &DesignGoal) -> Vec<Criterion> {
         Criterion::new(&requirement.column, goal)
     };
     drawn.requirements.iter().take(1).map(criterion).collect()
+}
+
+/// The quantities over what is made that a goal names, each once.
+fn made(goal: &DesignGoal) -> Vec<String> {
+    let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
+    let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
+    let mut made: Vec<String> = Vec::new();
+    for column in columns.filter(|column| goal.quantity(column).is_some()) {
+        if !made.iter().any(|known| known == column) {
+            made.push(column.to_owned());
+        }
+    }
+    made
 }
 
 /// The part of a goal that is about what is made, and that the designs of a grid have not.

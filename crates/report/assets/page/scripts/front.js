@@ -29,7 +29,8 @@
     const judged = [...could].filter((row) => found.objectives.every(({ column }) => !Number.isNaN(squama.numbers(column)[row])));
     const beaten = judged.filter((row) => rows.some((k) => beats(k, row))).length;
     const grid = judged.length === 0 ? "No design of the grid keeps them." : `Of the ${judged.length} designs of the grid that keep them, ${beaten === judged.length ? "all" : beaten} are beaten by one that was found.`;
-    return `${isFront ? `${found.count} designs of a front` : "The best design"} between those of the grid, from ${found.folder}: ${objectives}${bounds === "" ? "" : `; ${bounds}`}${found.sound ? "; the surface does not fold" : ""}. ${grid}`;
+    const made = found.made.length === 0 ? "" : ` Judged by what is made of each design, ${found.made.join(" and ")}, which stand in the table with their 95 % intervals; everything else shows designs as they are drawn.`;
+    return `${isFront ? `${found.count} designs of a front` : "The best design"} between those of the grid, from ${found.folder}: ${objectives}${bounds === "" ? "" : `; ${bounds}`}${found.sound ? "; the surface does not fold" : ""}.${made} ${grid}`;
   };
   squama.at("front-words").textContent = words();
   squama.at("front-differences").hidden = found.differences.length === 0;
@@ -62,9 +63,10 @@
     description: "Diamonds: found by the search. Grey: designs of the grid; pale: those that do not keep the bounds of the search.", make, tip, says: (row) => found.axes.map((name) => `${squama.label(name)} ${squama.short(squama.cell(row, name))}`).join(", "),
   });
 
-  const head = [isFront ? "front" : "", ...columns.map(squama.label), "held by, and what that costs"];
+  const within = (k, name) => `${value(k, name)} (${value(k, `${name}_low`)} to ${value(k, `${name}_high`)})`;
+  const head = [isFront ? "front" : "", ...columns.map(squama.label), ...found.made, "held by, and what that costs"];
   squama.at("front-table").append(
     squama.element("thead", {}, squama.element("tr", {}, ...head.map((text) => squama.element("th", { scope: "col" }, text)))),
-    squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", {}, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))),
+    squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", {}, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))), ...found.made.map((name) => squama.element("td", {}, within(k, name))),
       squama.element("td", { class: "words" }, cell(k, "binding") ?? "–", ...(cell(k, "prices") ? [squama.element("small", {}, ` (${cell(k, "prices")})`)] : []))))));
 })();
