@@ -13,7 +13,7 @@ Examples:
   squama validate --search sweeps/open-questions.toml sweeps/gaps.toml
 
 Solves problems with known answers, both sweeps of the paper, sweeps over what the paper leaves open, and
-searches between the grid points; prints the tables and writes them down. Takes about a minute on two
+searches between the grid points; prints the tables and writes them down. Takes half a minute on two
 cores, half of it for the searches. With --search, checks the claims on every setting of sweeps over
 open choices instead, and prints what each reproduces.
 Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
