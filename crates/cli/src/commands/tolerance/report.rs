@@ -6,7 +6,9 @@ use ranking::Requirement;
 use results::MEASURE_TABLES;
 use results::columns::measure_name;
 use sweep::Sweep;
-use tolerance::{DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled};
+use tolerance::{
+    DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,
+};
 
 use crate::print::{aligned, counted, rounded};
 
@@ -47,7 +49,20 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
         let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
         let _ = write!(text, "\nYield\n{}", aligned(&rows));
     }
+    text.push_str(&folded(design).unwrap_or_default());
     text
+}
+
+/// The line about samples whose surface folds on the way, which a yield leaves out only if that is required.
+fn folded(design: &DesignTolerance) -> Option<String> {
+    let place = design.columns.iter().position(|column| column == "fold_force")?;
+    let folds = |sample: &&SolvedSample| sample.values.get(place).is_some_and(Option::is_some);
+    let count = design.samples.iter().filter(folds).count();
+    let samples = counted(count as u64, "sample");
+    let line = format!(
+        "  (!) {samples}: two bases pass each other; --require 'gap_stretch_min >= 0' leaves out those that end so\n"
+    );
+    (count > 0).then_some(line)
 }
 
 /// Whether people see a measure: what the tables are about, in all units, and what is required.
