@@ -48,7 +48,7 @@ pub struct Worth {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnWorth {
     /// The values of the columns that are required, without those of what is made.
-    pub required: Vec<Option<f64>>,
+    pub required: Vec<f64>,
     /// The largest shortfall, relative to the limit; 0 where every requirement is met.
     pub shortfall: f64,
 }
@@ -294,8 +294,7 @@ impl Judge {
             GoalColumn::Made(_) => row.made_slopes(Stake::Requirement(k), parameter),
         };
         // The margin of the skin that has to meet is relative already.
-        let factor = direction(requirement) / size(requirement);
-        slopes.scaled(if self.is_yield(k) { 1.0 } else { factor })
+        slopes.scaled(if self.is_yield(k) { 1.0 } else { margin_rate(requirement) })
     }
 }
 
@@ -310,6 +309,11 @@ pub(crate) fn direction(requirement: &Requirement) -> f64 {
         Relation::AtLeast | Relation::Above | Relation::Equal => 1.0,
         Relation::AtMost | Relation::Below => -1.0,
     }
+}
+
+/// How fast the margin of a requirement, relative to its size, grows with the value.
+pub(crate) fn margin_rate(requirement: &Requirement) -> f64 {
+    direction(requirement) / size(requirement)
 }
 
 /// The size that shortfalls are relative to: the limit, or 1 if that is 0.

@@ -4,7 +4,7 @@ use results::{Column, DesignRow, SlopeSide};
 use sweep::Parameter;
 
 use crate::fitness::Fitness;
-use crate::judge::{RequiredColumn, direction, excess, size};
+use crate::judge::{RequiredColumn, excess, margin_rate};
 use crate::made::MadeQuantity;
 use crate::slopes::Slopes;
 
@@ -63,8 +63,7 @@ fn tightest(bounds: &[RequiredColumn<NumberColumn>], row: &DesignRow) -> Option<
 impl RequiredColumn<NumberColumn> {
     /// The derivatives of how far a design is within the bound, relative to the limit.
     pub fn margin_slopes(&self, row: &DesignRow, parameter: &Parameter) -> Slopes {
-        let factor = direction(&self.requirement) / size(&self.requirement);
-        self.column.slopes(row, parameter).scaled(factor)
+        self.column.slopes(row, parameter).scaled(margin_rate(&self.requirement))
     }
 }
 

@@ -81,13 +81,7 @@ impl<'a> Words<'a> {
         };
         Some(match binding.limit {
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
-                let of =
-                    if self.judge.is_made(k) { "the gaps of these skins" } else { "every gap" };
-                let (open, costs) = (100.0 * OPEN, amount_of(OPEN * price, objective));
-                format!(
-                    "keeping {of} open by {open} % of its width at rest {} {costs}",
-                    verb(objective)
-                )
+                self.openness(k, price, objective)
             }
             Limit::Requirement(k) => {
                 let requirement = self.requirement(k)?;
@@ -104,6 +98,13 @@ impl<'a> Words<'a> {
                 format!("1 % more end rotation without contact {} {costs}", verb(objective))
             }
         })
+    }
+
+    /// The cost of gaps that stay open by a part of their width at rest, where requirement `k` is that the surface has not folded.
+    fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
+        let of = if self.judge.is_made(k) { "the gaps of these skins" } else { "every gap" };
+        let (open, costs) = (100.0 * OPEN, amount_of(OPEN * price, objective));
+        format!("keeping {of} open by {open} % of its width at rest {} {costs}", verb(objective))
     }
 
     /// All that binds a design, in one line.

@@ -115,6 +115,15 @@ impl Place {
         message
     }
 
+    /// The one line in which `squama optimise` refuses `goal` with `to` in place of `from`; it writes nothing.
+    fn refused_goal(goal: &str, from: &str, to: &str) -> String {
+        assert!(goal.contains(from), "{from}");
+        let place = Self::with(&goal.replace(from, to));
+        let message = place.refused("optimise x.toml");
+        assert_eq!(place.list("."), "x.toml", "nothing is written");
+        message
+    }
+
     /// The output of `squama` when it is done well.
     fn prints(&self, arguments: &str) -> String {
         let output = self.squama(arguments).assert().code(0).get_output().stdout.clone();

@@ -65,13 +65,7 @@ fn tables_of_skins_do_not_depend_on_threads_or_interruptions() {
 
 #[test]
 fn bad_goals_about_skins_are_one_line() {
-    let message = |from: &str, to: &str| {
-        assert!(GOAL.contains(from), "{from}");
-        let place = Place::with(&GOAL.replace(from, to));
-        let message = place.refused("optimise x.toml");
-        assert_eq!(place.list("."), "x.toml", "nothing is written");
-        message
-    };
+    let message = |from: &str, to: &str| Place::refused_goal(GOAL, from, to);
     let deviations = "[tolerance]\ngap_over_t = { batch_sd = 0.02 }\n";
     let objective = "'areal_mass_kg_m2'";
     let messages = [

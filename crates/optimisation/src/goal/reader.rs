@@ -65,8 +65,18 @@ pub(super) fn read(
     if !refused.is_empty() {
         return Err(several(refused));
     }
+    Ok(checked(section, sweep, fitness, text))
+}
+
+/// The goal of a section in which nothing is wrong.
+fn checked(
+    section: GoalSection,
+    sweep: Sweep,
+    fitness: Option<FitnessGoal>,
+    text: String,
+) -> DesignGoal {
     let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } = section;
-    Ok(DesignGoal {
+    DesignGoal {
         space: DesignSpace::new(sweep),
         objectives: objectives.into_iter().map(|objective| objective.criterion).collect(),
         requirements: requirements.into_iter().map(|placed| placed.requirement).collect(),
@@ -77,7 +87,7 @@ pub(super) fn read(
         skins,
         seed,
         text,
-    })
+    }
 }
 
 /// Errors as one, of which there is at least one.

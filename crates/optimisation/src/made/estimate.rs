@@ -57,21 +57,21 @@ pub(super) fn report(search: &Search<'_>, best: &mut BestDesign) -> Result<(), H
     let seen = search.evaluations.skins(point, 1, judge.skins, judge)?;
     let first = judge.skins as u64 + 1;
     let fresh = search.evaluations.skins(point, first, FRESH, judge)?;
-    let mut estimates: Vec<MadeEstimate> = Vec::new();
-    for q in 0..judge.quantities.len() {
-        if !estimates.iter().any(|known| known.name == judge.quantities[q].name) {
-            estimates.push(estimate(judge, q, &seen, &fresh));
-        }
-    }
+    let of_quantity = |q| estimate(judge, q, &seen, &fresh);
+    let all: Vec<MadeEstimate> = (0..judge.quantities.len()).map(of_quantity).collect();
     let required: Vec<&Requirement> = search.judge.requirements().collect();
     let broken = search.judge.stakes().filter_map(|(stake, q)| {
         let Stake::Requirement(k) = stake else { return None };
-        let value = estimate(judge, q, &seen, &fresh).value;
-        let column = judge.quantities[q].name.clone();
-        let is_kept = value.is_some_and(|value| required[k].is_met(value));
-        (!is_kept).then(|| Requirement { column, ..required[k].clone() })
+        let is_kept = all[q].value.is_some_and(|value| required[k].is_met(value));
+        (!is_kept).then(|| Requirement { column: all[q].name.clone(), ..required[k].clone() })
     });
     let broken = broken.collect();
+    let mut estimates: Vec<MadeEstimate> = Vec::new();
+    for estimate in all {
+        if !estimates.iter().any(|known| known.name == estimate.name) {
+            estimates.push(estimate);
+        }
+    }
     best.made = Some(MadeReport { seen: seen.0.len(), fresh: FRESH, estimates, broken });
     Ok(())
 }

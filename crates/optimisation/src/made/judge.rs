@@ -4,7 +4,9 @@ use ranking::{Goal, Relation, Requirement};
 use results::{DesignRow, QUANTILES, quantile_places};
 
 use super::quantity::MadeQuantity;
-use crate::judge::{DrawnWorth, Judgement, RequiredColumn, direction, excess, has_folded, size};
+use crate::judge::{
+    DrawnWorth, Judgement, RequiredColumn, direction, excess, has_folded, margin_rate,
+};
 use crate::number_column::NumberColumn;
 
 /// The values of skins of a design, skin by skin: those in the columns of the bounds, then in those of the quantiles.
@@ -96,6 +98,7 @@ impl MadeJudge {
         if margin >= 0.0 && self.sound && has_folded(row) {
             return Judgement::Folded;
         }
+        let required = required.into_iter().flatten().collect();
         Judgement::Drawn(DrawnWorth { shortfall: (-margin).max(0.0), required })
     }
 
@@ -206,8 +209,7 @@ impl MadeJudge {
     pub fn carried(&self, q: usize, values: &[Option<f64>]) -> Option<(&NumberColumn, f64)> {
         if self.quantities[q].quantity == MadeQuantity::Yield {
             let bound = &self.bounds[self.tightest(values)?];
-            let factor = direction(&bound.requirement) / size(&bound.requirement);
-            return Some((&bound.column, factor));
+            return Some((&bound.column, margin_rate(&bound.requirement)));
         }
         Some((&self.columns[self.place(q) - self.bounds.len()], 1.0))
     }

@@ -8,6 +8,9 @@ use super::csv_format::CsvFormat;
 use crate::columns::Column;
 use crate::folder::{AtomicFile, OutputError, RunFolder};
 
+/// Rows whose lines are in memory at a time.
+const PORTION: usize = 1024;
+
 /// A table that grows row by row and appears when it is complete.
 pub struct CsvFile<'c, R> {
     file: BufWriter<AtomicFile>,
@@ -114,8 +117,10 @@ pub fn write_rows<R>(
     rows: impl IntoIterator<Item = impl Borrow<R>>,
 ) -> Result<String, OutputError> {
     let mut table = CsvFile::create(folder, name, format, columns)?;
-    for row in rows {
-        table.write(row.borrow())?;
+    let mut rows = rows.into_iter().peekable();
+    while rows.peek().is_some() {
+        let lines = table.lines(rows.by_ref().take(PORTION))?;
+        table.append(&lines)?;
     }
     table.finish()
 }

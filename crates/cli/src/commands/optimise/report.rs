@@ -186,7 +186,7 @@ pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> 
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
                 let is_drawn = goal.quantity(&requirement.column).is_none();
-                is_drawn.then(|| drawn.next().flatten()).flatten()
+                is_drawn.then(|| drawn.next()).flatten()
             };
             requirements.iter().map(value).collect()
         }
