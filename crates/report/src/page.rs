@@ -123,7 +123,7 @@ impl Page {
 }
 
 /// Returns `template` with each place filled; text that is filled in is not searched again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub(crate) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut page = String::new();
     let mut rest = template;
     while let Some((start, place, text)) = first_place(rest, parts) {
@@ -143,7 +143,7 @@ fn first_place<'a>(
     found.min_by_key(|(start, ..)| *start)
 }
 
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;").replace('\'', "&#39;")
 }
