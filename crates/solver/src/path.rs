@@ -81,7 +81,7 @@ pub struct Path<S: System> {
     /// The guards (N5) at `point`, with its active set, and how fast they change as the path leaves.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
-    /// The unknowns that are neither forces nor the load.
+    /// [`System::coordinates`].
     coordinates: Vec<usize>,
     /// The orientation ([`Newton::is_positive`]) with which the path leaves `point`.
     pub(crate) is_positive: bool,
@@ -107,7 +107,7 @@ impl<S: System> Path<S> {
             Point { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
         let mut path = Self {
             newton: Newton::new(&system),
-            coordinates: coordinates(&system),
+            coordinates: system.coordinates(),
             is_positive: true,
             system,
             settings,
@@ -137,7 +137,7 @@ impl<S: System> Path<S> {
     pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) {
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
-        self.coordinates = coordinates(&system);
+        self.coordinates = system.coordinates();
         self.system = system;
         self.stop = None;
         let condition = self.condition(&point);
@@ -459,14 +459,6 @@ impl<S: System> Path<S> {
     fn at_target(&self, state: &State<S::Mode>) -> bool {
         (self.progress(&state.z) - 1.0).abs() <= FLOOR
     }
-}
-
-/// The unknowns of a system that are neither forces nor the load.
-fn coordinates(system: &impl System) -> Vec<usize> {
-    let forces = system.constraints();
-    let is_coordinate =
-        |index: &usize| *index != system.load() && forces.binary_search(index).is_err();
-    (0..system.size()).filter(is_coordinate).collect()
 }
 
 impl<S: System> Iterator for Path<S> {
