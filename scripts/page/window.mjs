@@ -21,6 +21,8 @@ export default ({ page, open, folders }) => ({
     await page.setViewportSize({ width: 390, height: 844 });
     await page.reload();
     await ready(page);
+    // A page that is read again stands where it stood.
+    await page.evaluate(() => scrollTo({ top: 0, behavior: "instant" }));
     const best = await page.locator("#summary-list dt", { hasText: "largest critical force" }).first().boundingBox();
     assert.ok(best.y > 0 && best.y < 844, `${best.y}`);
     const [summary, run] = await page.evaluate(() => ["summary", "run"].map((id) => document.getElementById(id).getBoundingClientRect().y));
