@@ -5,7 +5,7 @@ use results::columns::{design_columns, measure_of};
 use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
-    Axis, InvalidDefinition, Problem, Sweep, Variable, VariableValues, WrongValue, nearest,
+    Axis, InvalidDefinition, Problem, Role, Sweep, Variable, VariableValues, WrongValue, nearest,
 };
 
 use super::section::GoalSection;
@@ -133,7 +133,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     };
     let is_vague = |variable: &&Variable| {
         let parameter = variable.parameter();
-        let describes = parameter.is_continuous() || parameter.section == "material";
+        let describes = parameter.has(Role::Continuous) || parameter.has(Role::Made);
         matches!(variable.values(), VariableValues::Between(..)) && !describes
     };
     let vague = sweep.variables().iter().filter(is_vague).map(|variable| {

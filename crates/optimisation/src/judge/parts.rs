@@ -1,7 +1,7 @@
 //! What a judge is made of.
 
 use ranking::{Goal, Relation, Requirement};
-use results::columns::{design_columns, measure_of};
+use results::columns::{GAP_STRETCH_MIN, design_columns, measure_of};
 use sweep::Measure;
 
 use super::{GoalColumn, Judge, RequiredColumn};
@@ -11,7 +11,7 @@ use crate::made::{MadeJudge, MadeQuantity, UsedQuantity};
 use crate::number_column::NumberColumn;
 
 /// The requirement that the surface of the substrate has not folded: no gap has closed at the critical tilt.
-const SOUND: (&str, Relation, f64) = ("gap_stretch_min", Relation::AtLeast, 0.0);
+const SOUND: (&str, Relation, f64) = (GAP_STRETCH_MIN, Relation::AtLeast, 0.0);
 
 /// A goal, and the ends between which the criteria of its fitness are rescaled.
 pub(super) struct JudgeParts<'a> {

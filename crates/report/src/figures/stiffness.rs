@@ -1,5 +1,7 @@
 //! Stiffness against critical force (Fig. 8).
 
+use results::columns::{MAX_STIFFNESS, SECANT_STIFFNESS};
+
 use super::{FORCE, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, fold_legend, mark, slant_legend};
@@ -11,12 +13,12 @@ const HEIGHT: f64 = 520.0;
 /// The stiffnesses that a puncture has.
 const STIFFNESSES: [(&str, &str, &str); 2] = [
     (
-        "max_stiffness",
+        MAX_STIFFNESS,
         "largest slope of the path",
         "stiffness $K_{max}^*$ = $K_{max}$/($E_s t$), dimensionless",
     ),
     (
-        "secant_stiffness",
+        SECANT_STIFFNESS,
         "secant at the critical tilt",
         "stiffness $K_{sec}^*$ = $K_{sec}$/($E_s t$), dimensionless",
     ),

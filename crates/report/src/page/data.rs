@@ -1,5 +1,6 @@
 //! The data of a page, as its scripts read them.
 
+use results::columns::{FOLD_FORCE, GAP_STRETCH_MIN, Goal, Shown, plain_goal, shown};
 use results::shell_word;
 use results::yardsticks;
 use serde_json::{Map, Value, json};
@@ -28,9 +29,10 @@ pub(super) fn of(page: &Page) -> Value {
     let measured_by = |name: &str| -> Vec<_> {
         yardsticks(name).into_iter().filter(|parameter| varied.contains(parameter)).collect()
     };
-    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "measuredBy": measured_by(name)});
+    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
     let fact = |(name, value): &Fact| json!({"name": name, "value": value});
     let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
+    let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     let shade = |k: u32| map_color((f64::from(k) + 0.5) / f64::from(SHADES));
     json!({
         "name": visible(&page.name),
@@ -38,6 +40,9 @@ pub(super) fn of(page: &Page) -> Value {
         "opening": page.opening,
         "axes": page.axes,
         "axesOf": axes_of(page),
+        "fold": FOLD_FORCE,
+        "tightest": GAP_STRETCH_MIN,
+        "shown": {"first": shown(Shown::First), "last": last},
         "columns": columns.map(column).collect::<Vec<_>>(),
         "values": headers.iter().map(|header| cells(&page.designs, header)).collect::<Vec<_>>(),
         "slants": slants(page.designs.values("slant_deg")),
