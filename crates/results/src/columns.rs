@@ -2,6 +2,7 @@
 
 pub mod cell;
 mod column;
+mod entry;
 mod failures;
 mod made;
 pub(crate) mod measured_value;
