@@ -321,18 +321,15 @@ impl<S: System> Path<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// Whether the path has another orientation at the candidate, or the way there, or the path there, makes a large angle with
-    /// the direction in which the path left.
+    /// Whether the way to the candidate, or the path there, makes a large angle with the direction
+    /// in which the path left.
     pub(crate) fn turns_sharply(
         &self,
         from: &Point<S::Mode>,
         candidate: &Candidate<S::Mode>,
     ) -> bool {
-        if candidate.is_positive != self.is_positive {
-            return true;
-        }
         if self.is_hidden(&from.leaving) || self.is_hidden(&candidate.direction) {
-            return self.swerves(from, candidate);
+            return self.bends(from, candidate);
         }
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
@@ -346,9 +343,15 @@ impl<S: System> Path<S> {
         chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
     }
 
+    /// Whether the candidate, the end of a step, is on another branch: the path has another orientation there, or gets there
+    /// by a bend. Before events are looked for a step may well end on a continuation of the path that turns round.
+    fn strays(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+        candidate.is_positive != self.is_positive || self.bends(from, candidate)
+    }
+
     /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
     /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
-    fn swerves(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    fn bends(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
         let way = |index: usize| {
             let chord = candidate.state.z[index] - from.state.z[index];
             [from.leaving[index], candidate.direction[index], chord]
@@ -403,7 +406,7 @@ impl<S: System> Path<S> {
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
         let mut candidate = match self.predicted_event(&from, distance) {
-            Some(candidate) if !self.swerves(&from, &candidate) => candidate,
+            Some(candidate) if !self.strays(&from, &candidate) => candidate,
             _ => self.plain_step(&from, distance)?,
         };
         if self.turns(&from, &candidate) {
@@ -412,7 +415,7 @@ impl<S: System> Path<S> {
         if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
         }
-        if self.swerves(&from, &candidate) {
+        if self.strays(&from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
         Ok(candidate)
