@@ -179,9 +179,11 @@ impl<'a> Evaluations<'a> {
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, skin, shares, chosen, result };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let result = Arc::new(line.result);
+        let solved = result.clone();
+        let line = SolvedLine { differentiated, skin, shares, chosen, result: solved };
+        let line = JournalLine::Solved(Box::new(line));
+        lock(&self.journal).append(line).map_err(Halt::Output)?;
+        let result = Arc::new(result);
         lock(&self.known).insert(key, Arc::clone(&result));
         Ok(result)
     }
@@ -210,9 +212,9 @@ impl<'a> Evaluations<'a> {
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SkinsLine { first, shares, chosen, values };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let skins = Arc::new(Skins(line.values));
+        let line = SkinsLine { first, shares, chosen, values: values.clone() };
+        lock(&self.journal).append(JournalLine::Skins(line)).map_err(Halt::Output)?;
+        let skins = Arc::new(Skins(values));
         lock(&self.made).insert(key, Arc::clone(&skins));
         Ok(skins)
     }

@@ -13,9 +13,9 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{OutputError, sha256, sha256_of};
 
-use crate::digest::{sha256, sha256_of};
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 
 /// The line that seals the text before it.
 const SEAL: &str = "sha256_of_the_above = ";

@@ -2,13 +2,14 @@
 
 use skin::flexure::Flexure;
 use skin::puncture::Puncture;
+use store::OutputError;
 
 use crate::columns::{
     BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
     FLEXURE_STEPS, PATH, PunctureEvent, SCALES, STEPS,
 };
 use crate::design::row::SolvedDesign;
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
 

@@ -4,9 +4,10 @@ use std::time::{Duration, Instant};
 
 use results::DesignRow;
 use results::columns::tables;
+use store::Seal;
 use sweep::Sweep;
 
-use crate::journal::{JournalEntry, Line, Seal};
+use crate::journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
 /// Places of the grid at which designs are solved, and how many neighbours at each: neighbours share their springs.
@@ -60,7 +61,7 @@ fn spread(designs: u64) -> impl Iterator<Item = u64> {
 fn room(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
     let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
-    let journal = Seal::default().write(&Line::Design(Box::new(entry))).len();
+    let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
     let layouts = tables(sweep);
     let columns = layouts.iter().flat_map(|layout| &layout.columns);
     journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()

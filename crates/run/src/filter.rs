@@ -4,9 +4,10 @@ use std::str::FromStr;
 
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
+use store::JournalError;
 use sweep::{NoSuchDesign, nearest};
 
-use crate::journal::{Archive, JournalEntry, JournalError};
+use crate::journal::{Archive, JournalEntry};
 
 /// A filter of the designs of a run: those pass for which everything holds that is set.
 #[derive(Clone, Debug, Default)]

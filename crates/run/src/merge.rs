@@ -7,12 +7,11 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use results::{CsvFormat, RunFolder};
+use store::{JournalError, Program, Start};
 use sweep::{SubsetDesigns, Sweep};
 
-use crate::journal::{
-    self, Archive, Entries, Journal, JournalEntry, JournalError, SessionStart, Start,
-};
-use crate::options::{Options, Program};
+use crate::journal::{self, Archive, Entries, Journal, JournalEntry, Line, SessionStart};
+use crate::options::Options;
 use crate::progress::{Finished, RunError};
 use crate::run::Run;
 use crate::solve::work::WorkMeter;
@@ -83,9 +82,9 @@ pub fn merge(
     }
     let header = sources[0].archive.header().clone().of_all_shards();
     out.make().map_err(RunError::from)?;
-    let mut journal = Journal::begin(&out, header, Start::Resume)?;
+    let mut journal = journal::begin(&out, header, Start::Resume)?;
     out.remove_abandoned_files();
-    let formats = [journal.archive(), &sources[0].archive].map(Archive::format);
+    let formats = [journal.records(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
     finish(journal, out, format, added, program, clock)
@@ -97,7 +96,7 @@ fn written_again(
     format: Option<CsvFormat>,
     program: &Program,
 ) -> Result<Merged, MergeError> {
-    let journal = Journal::resume(&out)?;
+    let journal = journal::resume(&out)?;
     out.remove_abandoned_files();
     finish(journal, out, format, 0, program, Instant::now())
 }
@@ -110,7 +109,7 @@ fn finish(
     program: &Program,
     clock: Instant,
 ) -> Result<Merged, MergeError> {
-    let archive = journal.archive();
+    let archive = journal.records();
     let (sweep, missing) =
         (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
     let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
@@ -141,7 +140,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
     };
     let mut sources: Vec<ShardResults> = Vec::new();
     for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
-        if journal::in_use(&folder) {
+        if store::in_use(&folder.journal()) {
             return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
         }
         let archive = Archive::open(&folder)?;
@@ -163,7 +162,7 @@ fn gather(
     out: &RunFolder,
     format: CsvFormat,
 ) -> Result<u64, MergeError> {
-    let designs = journal.archive().designs().clone();
+    let designs = journal.records().designs().clone();
     let mut readers = Vec::new();
     for source in sources {
         readers.push((source, source.archive.entries()?));
@@ -177,11 +176,12 @@ fn gather(
         let known = there.last(position)?;
         let best = choose(design, known, &mut readers, &holders, out)?;
         if added == 0 && !best.is_empty() {
-            journal.begin_session(SessionStart::now(1, format)).map_err(RunError::from)?;
+            let session = Line::Session(SessionStart::now(1, format));
+            journal.append(session).map_err(RunError::from)?;
         }
         added += u64::from(!best.is_empty());
         for entry in best {
-            journal.append(entry).map_err(RunError::from)?;
+            journal.append(Line::Design(Box::new(entry))).map_err(RunError::from)?;
         }
     }
     Ok(added)

@@ -4,11 +4,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use results::{RunFolder, SEPARATOR};
+use store::{JournalError, Program};
 use sweep::{DesignNumber, PARAMETERS, Setting, Sweep};
 
 use crate::filter::{Filter, InvalidFilter};
-use crate::journal::{Archive, Journal, JournalError, JournalHeader};
-use crate::options::{Options, Program};
+use crate::journal::{self, Archive};
+use crate::options::Options;
 use crate::progress::{Finished, Progress, RunError};
 use crate::run::Run;
 use crate::solve::task::Task;
@@ -95,11 +96,11 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        let journal = Journal::resume(&folder)?;
-        require_program(journal.archive(), &folder, program)?;
+        let journal = journal::resume(&folder)?;
+        require_program(journal.records(), &folder, program)?;
         folder.remove_abandoned_files();
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
-        let rerun = journal.archive().reruns() + 1;
+        let rerun = journal.records().reruns() + 1;
         let settings = self.settings.clone();
         let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
         let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
@@ -114,7 +115,7 @@ fn require_program(
     program: &Program,
 ) -> Result<(), JournalError> {
     let header = archive.header();
-    let wanted = JournalHeader::new(archive.sweep(), header.subset(), program);
+    let wanted = journal::header(archive.sweep(), header.subset(), program);
     header.require(&wanted, &folder.journal(), "the program that solved the others")
 }
 

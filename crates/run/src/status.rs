@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 use std::path::Path;
 
 use results::{Completeness, Derivation, RunFolder, VerifiedFolder};
+use store::JournalError;
 use sweep::DesignNumber;
 
-use crate::journal::{self, Archive, JournalEntry, JournalError};
+use crate::journal::{Archive, JournalEntry};
 
 /// The number of slowest designs that are listed.
 const SLOWEST: usize = 5;
@@ -46,7 +47,7 @@ impl RunStatus {
     /// If there is no run, or its journal is damaged.
     pub fn of(folder: &Path) -> Result<Self, JournalError> {
         let folder = RunFolder::new(folder);
-        let in_use = journal::in_use(&folder);
+        let in_use = store::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
         let mut status = Self {
             in_use,

@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{OutputError, sha256};
 
 use super::verified_folder::VerifiedFolder;
-use crate::digest::sha256;
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 
 /// A product of the tables of a results folder: a ranking, a workbook, figures, a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -72,7 +72,7 @@ impl Derivation {
 
     /// Removes those of its files in `folder` that are as they were made, and returns their names. What stands elsewhere,
     /// or was changed by somebody, is not squama's to remove.
-    pub fn remove(&self, folder: &RunFolder) -> Vec<String> {
+    fn remove(&self, folder: &RunFolder) -> Vec<String> {
         let is_ours = |(name, digest): &(&String, &String)| {
             Path::new(name).is_relative()
                 && fs::read(folder.file(name)).is_ok_and(|bytes| sha256(bytes) == **digest)
@@ -82,6 +82,13 @@ impl Derivation {
         for name in &removed {
             folder.remove(name);
         }
+        removed
+    }
+    /// Removes all products of `folder` that are as they were made, and the records of all; returns the names of the files.
+    pub fn remove_all(folder: &RunFolder) -> Vec<String> {
+        let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
+        // Records, and nothing else, stand in that folder.
+        let _ = fs::remove_dir_all(folder.file(RunFolder::DERIVED));
         removed
     }
 }

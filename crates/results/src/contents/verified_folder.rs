@@ -5,12 +5,12 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 
+use store::{sha256, sha256_of};
 use sweep::reason;
 
 use super::derivation::Derivation;
 use super::{Contents, JournalExtent};
-use crate::digest::{sha256, sha256_of};
-use crate::folder::RunFolder;
+use crate::folder::{FileEntry, Maker, RunFolder};
 use crate::shell::shell_word;
 
 /// Whether results are used that are not whole.
@@ -166,8 +166,9 @@ impl VerifiedFolder {
         // A ranking that was removed as a whole is not missed.
         let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
         let ranked = ranking.iter().flat_map(|made| made.files.keys());
-        let expected: BTreeSet<_> = stated.chain(ranked).collect();
-        RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name)).collect()
+        let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
+        let tables = RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
+        tables.map(str::to_owned).collect()
     }
 
     /// The tables as one SHA-256, if the run states it.
@@ -226,12 +227,11 @@ impl VerifiedFolder {
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
         }
-        if RunFolder::of_runs().any(|table| table == name) {
-            // Tables of a run that was ended before it stated them.
-            return Err(self.changed(name));
-        }
-        if !RunFolder::RANKING.contains(&name) {
-            return Ok(None);
+        match FileEntry::of(name).filter(|file| file.is_stated).map(|file| file.maker) {
+            None => return Ok(None),
+            Some(Maker::Ranking) => {}
+            // Of a run that was ended before it stated it, or of one that never made it.
+            Some(_) => return Err(self.changed(name)),
         }
         let refuse = |problem| InvalidFolder::Ranking {
             folder: self.path().to_owned(),
@@ -243,12 +243,13 @@ impl VerifiedFolder {
         if ranking.from != contents.digest() {
             return Err(refuse("is made from other tables"));
         }
-        Ok(ranking.files.get(name).cloned())
+        let stated = ranking.files.get(name).cloned();
+        stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
         let (folder, file) = (self.path().to_owned(), name.to_owned());
-        if RunFolder::RANKING.contains(&name) {
+        if FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking) {
             InvalidFolder::Ranking { folder, file, problem: "is not as it was written" }
         } else {
             InvalidFolder::Changed { folder, file }

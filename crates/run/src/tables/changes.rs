@@ -2,8 +2,9 @@
 
 use results::columns::design_columns;
 use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
+use store::JournalError;
 
-use crate::journal::{Archive, JournalError};
+use crate::journal::Archive;
 
 /// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
 pub(super) fn write(

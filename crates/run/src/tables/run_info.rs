@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use results::{OutputError, RunFolder};
+use results::RunFolder;
+use store::{OutputError, Program};
 use sweep::toml_source::quoted;
 
 use super::summary::Summary;
 use crate::journal::Archive;
-use crate::options::{Options, Program};
+use crate::options::Options;
 
 /// The information on a run that is neither its sweep nor its results.
 pub(crate) struct RunInfo<'a> {

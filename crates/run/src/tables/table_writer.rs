@@ -6,13 +6,14 @@ use std::time::{Duration, Instant};
 use rayon::iter::ParallelIterator as _;
 use rayon::slice::ParallelSlice as _;
 use results::columns::tables;
-use results::{Contents, CsvFormat, DesignRow, OutputError, RunFolder, failure_columns};
+use results::{Contents, CsvFormat, DesignRow, RunFolder, failure_columns};
+use store::{JournalError, OutputError};
 
 use super::changes;
 use super::open_tables::OpenTables;
 use super::run_info::RunInfo;
 use super::summary::Summary;
-use crate::journal::{Archive, Journal, JournalError};
+use crate::journal::{Archive, Journal};
 use crate::options::Options;
 use crate::progress::{Finished, RunError};
 
@@ -59,7 +60,7 @@ impl<'a> TableWriter<'a> {
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
         journal.sync()?;
-        let archive = journal.archive();
+        let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
         self.folder.remove_tables_but(&names);

@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest as _, Sha256};
 use sweep::reason;
 
-use super::partial_file::PartialFile;
 use crate::digest::digits;
+use crate::partial_file::PartialFile;
 
 /// A file or a folder that cannot be written.
 #[derive(Debug, thiserror::Error)]
