@@ -256,3 +256,50 @@ impl RunFolder {
         let _ = fs::remove_file(self.file(name));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_file_has_one_entry() {
+        let names: BTreeSet<_> = FILES.iter().map(|file| file.name).collect();
+        assert_eq!(names.len(), FILES.len());
+        for (value, _) in MEASURE_TABLES {
+            let file = FileEntry::of(&RunFolder::measure_table(value)).expect("an entry");
+            assert_eq!((file.maker, file.role), (Maker::Run, Role::Table));
+        }
+        for name in RunFolder::RANKING.into_iter().chain([RunFolder::PREFERENCES]) {
+            assert!(FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking));
+        }
+    }
+
+    #[test]
+    fn no_file_of_a_stranger_is_written_over() {
+        for file in FILES.iter().filter(|file| file.role != Role::Journal) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            fs::write(folder.file(file.name), "a stranger's").expect("writable");
+            let refused = folder.require_own(file.maker, Start::Resume).expect_err(file.name);
+            assert!(refused.to_string().contains(file.name), "{refused}");
+            folder.require_own(file.maker, Start::Fresh).expect("what was asked for");
+            folder.remove_results();
+            assert_eq!(folder.holds(file.name), file.maker != Maker::Run, "{}", file.name);
+        }
+    }
+
+    #[test]
+    fn a_folder_has_one_maker() {
+        for (maker, journal) in
+            [(Maker::Run, RunFolder::EVALUATIONS), (Maker::Search, RunFolder::JOURNAL)]
+        {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            fs::write(folder.file(journal), "").expect("writable");
+            let refused = folder.require_own(maker, Start::Fresh).expect_err("another's");
+            assert!(refused.to_string().contains("holds the results of a"), "{refused}");
+        }
+    }
+}

@@ -67,6 +67,7 @@ impl Rerun {
     ) -> Result<Self, InvalidRerun> {
         let folder = RunFolder::new(folder);
         let archive = Archive::open(&folder)?;
+        // Two programs in one table would differ for reasons that no setting explains.
         require_program(&archive, &folder, program)?;
         let (sweep, settings) = changed(archive.sweep(), settings)?;
         let designs = filter.designs(&archive)?;
@@ -96,10 +97,12 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
+        // Locked from here on; what was planned may have changed since, which only adds designs and reruns.
         let journal = journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
         folder.remove_abandoned_files();
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
+        // One number for all designs of this rerun, so that the table of changes tells which belong together.
         let rerun = journal.records().reruns() + 1;
         let settings = self.settings.clone();
         let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
@@ -124,6 +127,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
         let is_shared = |parameter: &sweep::Parameter| {
+            // An axis that is set would give every design another place in the grid.
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
         };
@@ -132,11 +136,13 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
+    // Imperfections bring columns of their own, and a table has one header.
     let (before, after) = (on_or_off(sweep), on_or_off(&changed));
     if before != after {
         return Err(InvalidRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
+    // Only what differs is noted: a setting to the value that the sweep has anyway is none.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
     let texts: Vec<_> = different.map(|p| format!("{}={}", p.path(), p.get(new))).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))

@@ -41,11 +41,13 @@ pub fn run(
     let folder = RunFolder::new(folder);
     folder.make()?;
     let journal = journal::begin(&folder, journal::header(sweep, subset, program), start)?;
+    // Only now: the lock tells that nobody else is writing here.
     folder.remove_abandoned_files();
     let removed = if start == Start::Fresh { Derivation::remove_all(&folder) } else { Vec::new() };
     let archive = journal.records();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
+    // Tables of an earlier run must not stand beside a journal that knows nothing of them.
     if archive.done() == 0 {
         folder.remove_results();
     }
@@ -83,6 +85,7 @@ impl<'a> Run<'a> {
         options: &'a Options<'a>,
         info: RunInfo<'a>,
     ) -> Self {
+        // A run that goes on keeps the format of its tables, unless it is told another one.
         let format = options.format.or(journal.records().format()).unwrap_or_default();
         let tables = TableWriter::new(folder, format, options, info);
         Self { journal, options, format, tables }
@@ -115,9 +118,11 @@ impl<'a> Run<'a> {
         progress: &mut impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let failed = entry.result.failed();
+        // In the journal first: what is told as done survives a kill.
         self.journal.append(Line::Design(Box::new(entry)))?;
         progress(Progress::Done { failed });
         if failed && self.options.fail_fast {
+            // Designs in hand are finished, as after a signal.
             self.options.stop.store(true, Ordering::Relaxed);
         }
         if self.tables.are_due() {

@@ -321,3 +321,47 @@ fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, Invalid
     }
     Ok(metadata.len() > extent.bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::folder::FILES;
+
+    /// A folder whose run states these files.
+    fn folder(place: &Path, files: BTreeMap<String, String>) -> RunFolder {
+        let folder = RunFolder::new(place);
+        let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
+        let program = "0 (none)".to_owned();
+        let contents = Contents { program, designs: 0, done: 0, journal, files };
+        contents.write(&folder).expect("writable");
+        folder
+    }
+
+    #[test]
+    fn of_every_file_whose_maker_states_it_no_other_is_read() {
+        for file in FILES.iter().filter(|file| file.is_stated) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = folder(place.path(), BTreeMap::new());
+            fs::write(folder.file(file.name), "forged").expect("writable");
+            let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains(file.name), "{refused}");
+            let written = BTreeMap::from([(file.name.to_owned(), sha256("as it was written"))]);
+            if file.maker == Maker::Ranking {
+                let from = open().expect("a folder").digest().expect("a digest");
+                let (product, command) = ("ranking".to_owned(), "squama rank".to_owned());
+                let made = Derivation { product, command, from, made_from: None, files: written };
+                made.write(&folder, RunFolder::RANKING_RECORD).expect("writable");
+            } else {
+                self::folder(place.path(), written);
+            }
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains("is not as"), "{refused}");
+            fs::write(folder.file(file.name), "as it was written").expect("writable");
+            let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
+            assert_eq!(read, "as it was written", "{}", file.name);
+        }
+    }
+}

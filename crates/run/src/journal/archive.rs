@@ -69,6 +69,7 @@ impl Records for Archive {
     fn take(&mut self, line: Line, bytes: Range<u64>) -> Result<(), String> {
         match line {
             Line::Session(session) => {
+                // The rate is that of the last session: threads and settings of the machine change between them.
                 self.latest = LatestSession::default();
                 self.sessions.push(session);
             }
@@ -101,6 +102,7 @@ impl Archive {
     /// If there is none, or it is damaged.
     pub fn open(folder: &RunFolder) -> Result<Self, JournalError> {
         let path = folder.journal();
+        // Also if the first line is torn: nothing was solved then.
         let missing = || JournalError::Missing { folder: folder.path().to_owned() };
         if !path.exists() {
             return Err(missing());
@@ -138,6 +140,7 @@ impl Archive {
 
     /// The message if the journal has fewer lines than it had when the tables in `folder` were written.
     pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
+        // Only whole lines are counted: a torn one was never stated.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!(

@@ -13,6 +13,7 @@ pub(super) fn write(
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
+    // No empty table: its absence says that nothing was solved again.
     if pairs.peek().is_none() {
         return Ok(None);
     }
@@ -42,6 +43,7 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
         columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
+    // A rerun that changes nothing is worth a row: it says that the settings do not matter.
     if changes.is_empty() {
         changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }

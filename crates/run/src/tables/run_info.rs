@@ -55,6 +55,7 @@ impl<'a> RunInfo<'a> {
              sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
             quoted(self.program.version),
             quoted(self.program.revision),
+            // A run that was killed before its first design has no session.
             started.unwrap_or("1970-01-01T00:00:00Z"),
             self.elapsed().as_secs_f64(),
             self.threads,
