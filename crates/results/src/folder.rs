@@ -23,8 +23,42 @@ pub enum Maker {
     Ranking,
     /// `squama compare`.
     Comparison,
+    /// `squama design`.
+    Design,
     /// `squama optimise`.
     Search,
+    /// `squama tolerance`.
+    Tolerance,
+    /// `squama sensitivity`.
+    Sensitivity,
+}
+
+impl Maker {
+    /// The name of its record.
+    pub(crate) fn key(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Ranking => RunFolder::RANKING_RECORD,
+            Self::Comparison => "comparison",
+            Self::Design => "design",
+            Self::Search => "search",
+            Self::Tolerance => "tolerance",
+            Self::Sensitivity => "sensitivity",
+        }
+    }
+
+    /// The command.
+    pub(crate) fn command(self) -> &'static str {
+        match self {
+            Self::Run => "squama run",
+            Self::Ranking => "squama rank",
+            Self::Comparison => "squama compare",
+            Self::Design => "squama design",
+            Self::Search => "squama optimise",
+            Self::Tolerance => "squama tolerance",
+            Self::Sensitivity => "squama sensitivity",
+        }
+    }
 }
 
 /// What a file of a results folder is for.
@@ -63,8 +97,8 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
     FileEntry { name, maker, role, is_stated: false }
 }
 
-/// Every file that runs, searches, rankings and comparisons leave in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 24] = [
+/// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
+pub static FILES: [FileEntry; 39] = [
     // The statement is the first of its maker: where it is gone nobody takes the others for whole.
     plain(RunFolder::CONTENTS, Maker::Run, Role::Statement),
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
@@ -85,21 +119,36 @@ pub static FILES: [FileEntry; 24] = [
     plain(RunFolder::COMPARISON[0], Maker::Comparison, Role::Table),
     plain(RunFolder::COMPARISON[1], Maker::Comparison, Role::Table),
     plain(RunFolder::EVALUATIONS, Maker::Search, Role::Journal),
-    plain("goal.toml", Maker::Search, Role::Record),
-    plain("history.csv", Maker::Search, Role::Record),
-    plain("optimum.csv", Maker::Search, Role::Record),
-    plain("optimum.toml", Maker::Search, Role::Record),
-    plain("front.csv", Maker::Search, Role::Record),
+    stated("goal.toml", Maker::Search, Role::Record),
+    stated("history.csv", Maker::Search, Role::Record),
+    stated("optimum.csv", Maker::Search, Role::Record),
+    stated("optimum.toml", Maker::Search, Role::Record),
+    stated("front.csv", Maker::Search, Role::Record),
+    plain("tolerance.csv", Maker::Tolerance, Role::Record),
+    plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),
+    plain("yield.csv", Maker::Tolerance, Role::Record),
+    plain("sobol.csv", Maker::Sensitivity, Role::Record),
+    plain("design.toml", Maker::Design, Role::Record),
+    plain(RunFolder::MEASURES, Maker::Design, Role::Record),
+    plain(RunFolder::SENSITIVITY, Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[0], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[1], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[2], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[3], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[0], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[1], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[2], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[3], Maker::Design, Role::Record),
 ];
 
 impl FileEntry {
-    /// The entry of the file `name`, if it is one of squama's.
+    /// The entry of the file `name`, if it is one of squama's; of several makers, that of the run.
     pub fn of(name: &str) -> Option<&'static Self> {
         FILES.iter().find(|file| file.name == name)
     }
 
     /// The files that a maker writes from its journal, and its statement.
-    fn products(maker: Maker) -> impl Iterator<Item = &'static Self> {
+    pub(crate) fn products(maker: Maker) -> impl Iterator<Item = &'static Self> {
         FILES.iter().filter(move |file| file.maker == maker && file.role != Role::Journal)
     }
 }
@@ -182,7 +231,7 @@ impl RunFolder {
         self.file(name).is_file()
     }
 
-    /// Makes the folder and those above it.
+    /// Makes the folder and those above it, and removes what killed processes have left half-written there.
     ///
     /// # Errors
     /// If it cannot be made.
@@ -224,7 +273,8 @@ impl RunFolder {
             let what = if other.maker == Maker::Run { "a run" } else { "a search" };
             return Err(JournalError::Holds { folder: folder(), what });
         }
-        if start == Start::Fresh || journals.next().is_some() {
+        // What other makers have written is told by their records, see `Claim`.
+        if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
             return Ok(());
         }
         let stray = FileEntry::products(maker).find(is_there);
@@ -245,11 +295,6 @@ impl RunFolder {
         FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }
 
-    /// Removes what killed processes left half-written.
-    pub fn remove_abandoned_files(&self) {
-        store::remove_abandoned_files(&self.path);
-    }
-
     /// Removes the file `name`, if it is there.
     pub fn remove(&self, name: &str) {
         // Nearly always there is none.
@@ -265,7 +310,7 @@ mod tests {
 
     #[test]
     fn every_file_has_one_entry() {
-        let names: BTreeSet<_> = FILES.iter().map(|file| file.name).collect();
+        let names: BTreeSet<_> = FILES.iter().map(|file| (file.maker.key(), file.name)).collect();
         assert_eq!(names.len(), FILES.len());
         for (value, _) in MEASURE_TABLES {
             let file = FileEntry::of(&RunFolder::measure_table(value)).expect("an entry");

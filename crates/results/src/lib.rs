@@ -24,7 +24,7 @@
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
-//! | [`Derivation`] | what was made from the tables, and from which |
+//! | [`Derivation`], [`Claim`] | what was made from the tables, and from which; the right of a command to write its files |
 //!
 //! ```
 //! use results::columns::design_columns;
@@ -62,6 +62,7 @@ pub use columns::cell::Cell;
 pub use columns::{
     Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
 };
+pub use contents::claim::Claim;
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
@@ -82,7 +83,7 @@ pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use store::{
-    AtomicFile, OutputError, exit_without_partial_files, make_folder, remove_abandoned_files,
+    AtomicFile, OutputError, exit_without_partial_files, make_folder,
     sha256, sync_folder, write_text,
 };
 pub use tables::csv_file::{CsvFile, write_rows};

@@ -85,7 +85,6 @@ pub fn merge(
     out.make().map_err(RunError::from)?;
     // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
     let mut journal = journal::begin(&out, header, Start::Resume)?;
-    out.remove_abandoned_files();
     // What is asked for, else what the folder has, else what the shards have.
     let formats = [journal.records(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
@@ -100,7 +99,7 @@ fn written_again(
     program: &Program,
 ) -> Result<Merged, MergeError> {
     let journal = journal::resume(&out)?;
-    out.remove_abandoned_files();
+    out.make().map_err(RunError::from)?;
     finish(journal, out, format, 0, program, Instant::now())
 }
 

@@ -100,7 +100,7 @@ impl Rerun {
         // Locked from here on; what was planned may have changed since, which only adds designs and reruns.
         let journal = journal::resume(&folder)?;
         require_program(journal.records(), &folder, program)?;
-        folder.remove_abandoned_files();
+        folder.make()?;
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
         // One number for all designs of this rerun, so that the table of changes tells which belong together.
         let rerun = journal.records().reruns() + 1;

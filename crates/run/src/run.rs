@@ -41,8 +41,6 @@ pub fn run(
     let folder = RunFolder::new(folder);
     folder.make()?;
     let journal = journal::begin(&folder, journal::header(sweep, subset, program), start)?;
-    // Only now: the lock tells that nobody else is writing here.
-    folder.remove_abandoned_files();
     let removed = if start == Start::Fresh { Derivation::remove_all(&folder) } else { Vec::new() };
     let archive = journal.records();
     let (subset, missing) = (archive.designs().clone(), archive.missing());

@@ -8,7 +8,7 @@
 //! The file is locked before it is read and for as long as it is written. The lock dies with its process.
 
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{ErrorKind, Write as _};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
@@ -171,6 +171,35 @@ fn folder(path: &Path) -> PathBuf {
     path.parent().unwrap_or(path).to_owned()
 }
 
+/// Locks a file or a folder, for this process and as long as it is open; whether that came to pass.
+fn locked(file: &File) -> io::Result<bool> {
+    let begun = Instant::now();
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(true),
+            // A file system without locks cannot tell whether another process is there.
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
+                return Ok(true);
+            }
+            Err(TryLockError::Error(error)) => return Err(error),
+            Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => {
+                sleep(Duration::from_millis(20));
+            }
+            Err(TryLockError::WouldBlock) => return Ok(false),
+        }
+    }
+}
+
+/// Locks a folder for who writes several files there that belong together; the lock ends with what is returned.
+///
+/// # Errors
+/// If another process writes there, or the folder cannot be opened.
+pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
+    let file = File::open(folder).map_err(|error| OutputError::folder(folder, &error))?;
+    // Not every system locks folders; then two writers make the files of one of them, each file whole.
+    if locked(&file).unwrap_or(true) { Ok(file) } else { Err(OutputError::in_use(folder)) }
+}
+
 /// The journal at `path`, made if there is none, and locked for this process and as long as it lives.
 fn lock(path: &Path) -> Result<File, JournalError> {
     // What a link points to is not ours to write.
@@ -180,22 +209,10 @@ fn lock(path: &Path) -> Result<File, JournalError> {
     require_file(path)?;
     let file = OpenOptions::new().read(true).append(true).create(true).open(path);
     let file = file.map_err(|error| OutputError::folder(&folder(path), &error))?;
-    let begun = Instant::now();
-    loop {
-        match file.try_lock() {
-            Ok(()) => return Ok(file),
-            // A file system without locks cannot tell whether another process is there.
-            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {
-                return Ok(file);
-            }
-            Err(TryLockError::Error(error)) => return Err(OutputError::file(path, &error).into()),
-            Err(TryLockError::WouldBlock) if begun.elapsed() < PATIENCE => {
-                sleep(Duration::from_millis(20));
-            }
-            Err(TryLockError::WouldBlock) => {
-                return Err(JournalError::InUse { folder: folder(path) });
-            }
-        }
+    if locked(&file).map_err(|error| OutputError::file(path, &error))? {
+        Ok(file)
+    } else {
+        Err(JournalError::InUse { folder: folder(path) })
     }
 }
 

@@ -27,12 +27,14 @@ mod seal;
 mod tail;
 mod windows;
 
-pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
+pub use atomic_file::{
+    AtomicFile, OutputError, make_folder, read_text, sync_folder, write_text,
+};
 pub use digest::{sha256, sha256_of};
 pub use error::JournalError;
 pub use header::{JournalHeader, Program};
-pub use journal::{Journal, Start, in_use};
-pub use partial_file::{exit_without_partial_files, remove_abandoned_files};
+pub use journal::{Journal, Start, in_use, lock_folder};
+pub use partial_file::exit_without_partial_files;
 pub use reader::{Records, read, read_from};
 pub use seal::Seal;
 pub use windows::Windows;

@@ -118,7 +118,6 @@ impl SampleStore {
             return Err(JournalError::OtherFormat { path: record, found: 1, by }.into());
         }
         self.folder.make()?;
-        self.folder.remove_abandoned_files();
         // Another definition or program has a journal of its own: who comes back to the first finds its samples.
         let digest = header.digest();
         let name = format!("{label}-{}.jsonl", &digest[..DIGITS]);

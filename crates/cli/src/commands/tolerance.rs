@@ -8,7 +8,7 @@ use anyhow::{Context as _, ensure};
 use ranking::Requirement;
 use rayon::prelude::*;
 
-use results::{CsvFormat, RunFolder, write_rows};
+use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
     Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
@@ -36,6 +36,8 @@ pub fn tolerance(
     let designs = designs(arguments, &sweep)?;
     let default = || folder_within(&arguments.definition, &sweep, "tolerance");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    // Before hours of work, and not behind them.
+    Claim::check(&folder, Maker::Tolerance)?;
     let store = SampleStore::new(&folder.file(SAMPLES));
     interrupt.ask_first();
     let samples = arguments.samples as usize;
@@ -44,10 +46,16 @@ pub fn tolerance(
     let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
+    let mut claim = Claim::take(&folder, Maker::Tolerance)?;
     let mut files = write(&folder, &all)?;
     if let [design] = all.as_slice() {
-        files.extend(figures::write(&folder, &sweep, &requirements, design)?);
+        for (name, svg) in figures::figures(&sweep, &requirements, design) {
+            claim.add(&name)?;
+            folder.write_text(&name, &svg)?;
+            files.push(name);
+        }
     }
+    claim.state()?;
     let place = folder.path();
     if arguments.json {
         json::print(&record::record(&sweep, &all, place, &files))?;
@@ -126,7 +134,6 @@ fn analysed(
 
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
-    folder.make()?;
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
         let number = design.drawn.number;
@@ -149,10 +156,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     if all.iter().any(|design| !design.yields.is_empty()) {
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
-    } else {
-        folder.remove("yield.csv");
     }
-    folder.sync();
     Ok(files)
 }
 

@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use results::{DesignResult, Maker, OutputError, RunFolder, make_folder};
+use results::{Claim, DesignResult, Maker, OutputError, RunFolder};
 use run::{JournalError, JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
 use store::{Journal, Records};
@@ -95,12 +95,18 @@ impl EvaluationJournal {
         program: &Program,
         start: Start,
     ) -> Result<(Self, Vec<JournalLine>), JournalError> {
-        make_folder(folder)?;
         let folder = RunFolder::new(folder);
         folder.require_own(Maker::Search, start)?;
+        // A file of our names that no search has written here may be the very goal that is searched for.
+        Claim::check(&folder, Maker::Search)?;
+        folder.make()?;
         let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
         let path = folder.file(RunFolder::EVALUATIONS);
         let mut journal = Journal::<Recalled>::begin(&path, header, start)?;
+        if start == Start::Fresh {
+            // An optimum of another goal must not stand beside the journal of this one.
+            Claim::release(&folder, Maker::Search);
+        }
         let lines = journal.records_mut().lines.take().unwrap_or_default();
         Ok((Self(journal), lines))
     }

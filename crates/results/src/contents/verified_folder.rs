@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 
-use store::{sha256, sha256_of};
+use store::{read_text, sha256, sha256_of};
 use sweep::reason;
 
 use super::derivation::Derivation;
@@ -78,6 +78,16 @@ pub enum InvalidFolder {
         /// The folder.
         folder: PathBuf,
         /// The name of the table.
+        file: String,
+        /// The fault.
+        problem: &'static str,
+    },
+    /// A file of a search that did not come to its end, or one that was changed.
+    #[error("{}: {problem}, expected the file that squama optimise wrote; the same command with --resume writes it again", folder.join(file).display())]
+    Search {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the file.
         file: String,
         /// The fault.
         problem: &'static str,
@@ -223,11 +233,15 @@ impl VerifiedFolder {
 
     /// The SHA-256 that the file `name` must have, if anybody states it.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let entry = FileEntry::of(name).filter(|file| file.is_stated);
+        if entry.is_some_and(|file| file.maker == Maker::Search) {
+            return self.expected_of_search(name);
+        }
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
         }
-        match FileEntry::of(name).filter(|file| file.is_stated).map(|file| file.maker) {
+        match entry.map(|file| file.maker) {
             None => return Ok(None),
             Some(Maker::Ranking) => {}
             // Of a run that was ended before it stated it, or of one that never made it.
@@ -247,12 +261,28 @@ impl VerifiedFolder {
         stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
     }
 
+    /// The SHA-256 that the file `name` of a search must have. A folder without a journal holds tables alone.
+    fn expected_of_search(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let made = Derivation::read(&self.folder, Maker::Search.key());
+        if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
+            return Ok(None);
+        }
+        let stated = made.and_then(|made| made.files.get(name).cloned());
+        // Without a digest the search was ended before it stated what it had written.
+        stated.filter(|digest| !digest.is_empty()).map(Some).ok_or_else(|| InvalidFolder::Search {
+            folder: self.path().to_owned(),
+            file: name.to_owned(),
+            problem: "its search did not come to its end",
+        })
+    }
+
     fn changed(&self, name: &str) -> InvalidFolder {
         let (folder, file) = (self.path().to_owned(), name.to_owned());
-        if FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking) {
-            InvalidFolder::Ranking { folder, file, problem: "is not as it was written" }
-        } else {
-            InvalidFolder::Changed { folder, file }
+        let problem = "is not as it was written";
+        match FileEntry::of(name).map(|file| file.maker) {
+            Some(Maker::Ranking) => InvalidFolder::Ranking { folder, file, problem },
+            Some(Maker::Search) => InvalidFolder::Search { folder, file, problem },
+            _ => InvalidFolder::Changed { folder, file },
         }
     }
 
@@ -266,7 +296,8 @@ impl VerifiedFolder {
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
-        all.filter(|made| made.from != digest && made.is_there(&self.folder)).collect()
+        let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
+        all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
     }
 }
 
@@ -289,7 +320,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
 /// The contents of `folder`; `None` if it holds tables alone.
 fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
     let path = || folder.path().to_owned();
-    match fs::read_to_string(folder.file(RunFolder::CONTENTS)) {
+    match read_text(&folder.file(RunFolder::CONTENTS)) {
         Ok(text) => match Contents::parse(&text) {
             Ok(contents) => Ok(Some(contents)),
             Err(problem) => Err(InvalidFolder::Contents { folder: path(), problem }),
