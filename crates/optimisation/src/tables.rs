@@ -2,7 +2,8 @@
 
 use results::columns::{Cell, design_columns};
 use results::{
-    Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows, write_text,
+    Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
+    write_text,
 };
 
 use crate::candidate::Candidate;

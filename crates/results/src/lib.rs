@@ -83,8 +83,8 @@ pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use store::{
-    AtomicFile, OutputError, exit_without_partial_files, make_folder,
-    sha256, sync_folder, write_text,
+    AtomicFile, OutputError, exit_without_partial_files, make_folder, sha256, sync_folder,
+    write_text,
 };
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};

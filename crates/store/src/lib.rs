@@ -27,9 +27,7 @@ mod seal;
 mod tail;
 mod windows;
 
-pub use atomic_file::{
-    AtomicFile, OutputError, make_folder, read_text, sync_folder, write_text,
-};
+pub use atomic_file::{AtomicFile, OutputError, make_folder, read_text, sync_folder, write_text};
 pub use digest::{sha256, sha256_of};
 pub use error::JournalError;
 pub use header::{JournalHeader, Program};

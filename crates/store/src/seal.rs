@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn a_line_is_json_and_reads_back() {
         let mut bytes = Seal::default().seal(&line());
-        let text = "{\"crc\":\"3fd1dbd8\",\"coverage\":0.30000000000000004,\"design\":417.0}\n";
+        let text = "{\"crc\":\"3966396f\",\"coverage\":0.30000000000000004,\"design\":417.0}\n";
         assert_eq!(String::from_utf8_lossy(&bytes), text);
         assert_eq!(Seal::default().read(&mut bytes), Ok(line()));
     }

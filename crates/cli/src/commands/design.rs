@@ -3,8 +3,8 @@
 use anyhow::ensure;
 use results::columns::design_columns;
 use results::{
-    Cell, Claim, Column, DesignRow, Maker, ParameterDerivative, RunFolder, SolvedDesign, write_measures,
-    write_path_tables,
+    Cell, Claim, Column, DesignRow, Maker, ParameterDerivative, RunFolder, SolvedDesign,
+    write_measures, write_path_tables,
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};

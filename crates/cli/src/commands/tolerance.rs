@@ -4,6 +4,9 @@ mod figures;
 mod record;
 mod report;
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
 use anyhow::{Context as _, ensure};
 use ranking::Requirement;
 use rayon::prelude::*;
@@ -21,6 +24,9 @@ use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
+
+/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
+const MOST: u64 = 100_000;
 
 /// The folder of the samples in that of the tables.
 pub(super) const SAMPLES: &str = "samples";
@@ -104,16 +110,27 @@ fn requirements(arguments: &args::ToleranceArguments) -> anyhow::Result<Vec<Requ
 /// The indices of the designs that are asked for.
 fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
-    if arguments.numbers.is_empty() {
-        return Ok((0..grid.len()).collect());
-    }
     let path = arguments.definition.path.display();
     let range = |text: &String| {
         let range = grid.parse_numbers(text.trim());
         range.with_context(|| format!("{path}: --design {text}"))
     };
-    let ranges: anyhow::Result<Vec<_>> = arguments.numbers.iter().map(range).collect();
-    Ok(ranges?.into_iter().flatten().collect())
+    let mut ranges: Vec<_> = arguments.numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
+    if arguments.numbers.is_empty() {
+        ranges.push(0..=grid.len().saturating_sub(1));
+    }
+    // Counted before they are listed: a list of 10⁹ designs takes all memory.
+    let count = |range: &RangeInclusive<u64>| (range.end() - range.start()).saturating_add(1);
+    let count = ranges.iter().map(count).fold(0, u64::saturating_add);
+    ensure!(
+        count <= MOST,
+        "{path}: {count} designs, at most {MOST} at a time: choose some with --design"
+    );
+    let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
+    // The samples of a design are solved once, however often it is named.
+    let mut known = BTreeSet::new();
+    designs.retain(|design| known.insert(*design));
+    Ok(designs)
 }
 
 /// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.

@@ -5,9 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use optimisation::{
     Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchMeter, SearchOptions,
-    SearchStage, optimise,
+    SearchStage, optimise, write_found,
 };
-use results::Results;
+use results::{CsvFormat, Results};
 use run::{Program, Start};
 use store::Seal;
 
@@ -221,6 +221,25 @@ fn a_damaged_line_costs_nothing_of_a_search() {
         message.contains("a journal of format 1") && message.contains("0.1.0 (abc)"),
         "{message}"
     );
+}
+
+#[test]
+fn an_old_optimum_does_not_outlive_its_search() {
+    let (old, new) = (goal("maximize = 'coverage'"), goal("minimize = 'areal_mass_kg_m2'"));
+    let place = tempfile::tempdir().expect("a folder");
+    let folder = results::RunFolder::new(place.path());
+    let found = found_in(place.path(), &old, 1, Start::New);
+    let figures = [("history.svg".to_owned(), "<svg/>".to_owned())];
+    write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
+    assert!(folder.holds("optimum.csv") && folder.holds("history.svg"));
+    // Another search begins afresh, and is ended before it has found anything.
+    let (stop, meter) = (AtomicBool::new(true), SearchMeter::default());
+    let options = SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, meter: &meter };
+    let ended = optimise(&new, place.path(), &options, &PROGRAM).expect("a search");
+    assert!(ended.is_none());
+    for file in ["optimum.csv", "optimum.toml", "goal.toml", "history.csv", "history.svg"] {
+        assert!(!folder.holds(file), "{file}");
+    }
 }
 
 #[cfg(unix)]

@@ -80,7 +80,8 @@ impl<'f> Claim<'f> {
     pub fn release(folder: &RunFolder, maker: Maker) {
         if let Some(made) = Derivation::read(folder, maker.key()) {
             made.remove(folder);
-            RunFolder::new(folder.file(RunFolder::DERIVED)).remove(&format!("{}.toml", maker.key()));
+            RunFolder::new(folder.file(RunFolder::DERIVED))
+                .remove(&format!("{}.toml", maker.key()));
         }
     }
 }

@@ -76,7 +76,8 @@ impl Derivation {
         // Without a digest it was not finished, and whatever is there of it is ours.
         let is_ours = |(name, digest): &(&String, &String)| {
             let path = folder.file(name);
-            let is_own = || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
+            let is_own =
+                || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
             Path::new(name).is_relative() && path.is_file() && is_own()
         };
         let removed: Vec<_> =
