@@ -133,11 +133,6 @@ impl<R: Records> Journal<R> {
         &self.records
     }
 
-    /// The content so far, to take something out of it.
-    pub fn records_mut(&mut self) -> &mut R {
-        &mut self.records
-    }
-
     /// Adds a line, which then counts as done.
     ///
     /// # Errors

@@ -3,74 +3,135 @@
 //! The search itself is not written down: it does the same again, and finds what it asks for in the journal until it comes to
 //! points that nobody has solved yet.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
-use results::{Claim, DesignResult, Maker, OutputError, RunFolder};
-use run::{JournalError, JournalHeader, Program, Start};
+use results::{Claim, DesignResult, Maker, RunFolder};
+use run::{JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
 use store::{Journal, Records};
 use sweep::Subset;
 
+use crate::error::OptimisationError;
+use crate::sample::Samples;
+use crate::space::SpacePoint;
+
 /// A line of the journal behind the first.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum JournalLine {
     Solved(Box<SolvedLine>),
-    Skins(SkinsLine),
+    Samples(SamplesLine),
 }
 
 /// A point that was solved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolvedLine {
     /// Whether its measures have derivatives.
     pub differentiated: bool,
-    /// The number of the skin made of its design, with the deviations of the batch; none of the design as it is drawn.
+    /// The number of the sample of its design, with the deviations of the batch; none of the nominal design.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub skin: Option<u64>,
+    pub sample: Option<u64>,
     /// Shares of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
     /// The result.
-    pub result: DesignResult,
+    #[serde(with = "shared")]
+    pub result: Arc<DesignResult>,
 }
 
-/// Skins made of the design of a point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Samples of the design of a point.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SkinsLine {
-    /// The number of the first skin.
+pub(super) struct SamplesLine {
+    /// The number of the first sample.
     pub first: u64,
     /// Shares of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
-    /// The values of each skin in the columns that it is judged by.
-    pub values: Vec<Vec<Option<f64>>>,
+    /// The values of each sample in the columns that it is judged by.
+    #[serde(with = "shared")]
+    pub values: Arc<Samples>,
 }
 
-/// What a journal holds when it is opened.
-struct Recalled {
+/// Values that the journal shares with who asked for them, written as they are.
+mod shared {
+    use std::sync::Arc;
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<T: Serialize, S: Serializer>(
+        value: &Arc<T>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.as_ref().serialize(to)
+    }
+
+    pub fn deserialize<'d, T: Deserialize<'d>, D: Deserializer<'d>>(
+        from: D,
+    ) -> Result<Arc<T>, D::Error> {
+        T::deserialize(from).map(Arc::new)
+    }
+}
+
+/// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct EvaluationKey {
+    pub differentiated: bool,
+    /// The number of the sample whose batch it is; `None` of the nominal design.
+    pub sample: Option<u64>,
+    pub point: PointKey,
+}
+
+/// A point, to the last bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct PointKey {
+    shares: Vec<u64>,
+    chosen: Vec<usize>,
+}
+
+/// A point, and the first and the count of its samples.
+type SamplesKey = (PointKey, u64, usize);
+
+impl PointKey {
+    pub fn of(point: &SpacePoint) -> Self {
+        let shares = point.shares.iter().map(|share| share.to_bits()).collect();
+        Self { shares, chosen: point.chosen.clone() }
+    }
+}
+
+/// What was solved.
+pub(super) struct Known {
     header: JournalHeader,
-    /// The lines, until somebody takes them.
-    lines: Option<Vec<JournalLine>>,
+    pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
+    pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
-impl Records for Recalled {
+impl Records for Known {
     type Line = JournalLine;
 
     const KEY: &'static str = "optimisation";
 
     fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {
-        Ok(Self { header, lines: Some(Vec::new()) })
+        Ok(Self { header, solved: HashMap::new(), sampled: HashMap::new() })
     }
 
     fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
-        // What is appended later is known to whoever has solved it.
-        if let Some(lines) = &mut self.lines {
-            lines.push(line);
+        match line {
+            JournalLine::Solved(line) => {
+                let SolvedLine { differentiated, sample, shares, chosen, result } = *line;
+                let point = PointKey::of(&SpacePoint { shares, chosen });
+                self.solved.insert(EvaluationKey { differentiated, sample, point }, result);
+            }
+            JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
+                let point = PointKey::of(&SpacePoint { shares, chosen });
+                self.sampled.insert((point, first, values.0.len()), values);
+            }
         }
         Ok(())
     }
@@ -80,44 +141,27 @@ impl Records for Recalled {
     }
 
     fn is_empty(&self) -> bool {
-        self.lines.as_ref().is_none_or(Vec::is_empty)
+        self.solved.is_empty() && self.sampled.is_empty()
     }
 }
 
-/// A journal that is being written.
-pub(super) struct EvaluationJournal(Journal<Recalled>);
-
-impl EvaluationJournal {
-    /// The journal in `folder` of the search for `goal`, and the lines that it has.
-    pub fn begin(
-        folder: &Path,
-        goal: &str,
-        program: &Program,
-        start: Start,
-    ) -> Result<(Self, Vec<JournalLine>), JournalError> {
-        let folder = RunFolder::new(folder);
-        folder.require_own(Maker::Search, start)?;
-        // A file of our names that no search has written here may be the very goal that is searched for.
-        Claim::check(&folder, Maker::Search)?;
-        folder.make()?;
-        let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
-        let path = folder.file(RunFolder::EVALUATIONS);
-        let mut journal = Journal::<Recalled>::begin(&path, header, start)?;
-        if start == Start::Fresh {
-            // An optimum of another goal must not stand beside the journal of this one.
-            Claim::release(&folder, Maker::Search);
-        }
-        let lines = journal.records_mut().lines.take().unwrap_or_default();
-        Ok((Self(journal), lines))
+/// The journal in `folder` of the search for `goal`.
+pub(super) fn begin(
+    folder: &Path,
+    goal: &str,
+    program: &Program,
+    start: Start,
+) -> Result<Journal<Known>, OptimisationError> {
+    let folder = RunFolder::new(folder);
+    folder.require_own(Maker::Search, start)?;
+    // A file of our names that no search has written here may be the very goal that is searched for.
+    Claim::check(&folder, Maker::Search)?;
+    folder.make()?;
+    let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
+    let journal = Journal::begin(&folder.file(RunFolder::EVALUATIONS), header, start)?;
+    if start == Start::Fresh {
+        // An optimum of another goal must not stand beside the journal of this one.
+        Claim::release(&folder, Maker::Search);
     }
-
-    /// Adds a line, which then counts as solved.
-    pub fn append(&mut self, line: JournalLine) -> Result<(), OutputError> {
-        self.0.append(line)
-    }
-
-    /// Forces it to the disk.
-    pub fn sync(&mut self) -> Result<(), OutputError> {
-        self.0.sync()
-    }
+    Ok(journal)
 }
