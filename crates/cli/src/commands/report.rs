@@ -73,7 +73,8 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         run: results.run.clone(),
         shared: shared.collect(),
         solved: solved(results, &rankings),
-        opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
+        opening: Preferences::read(results.verified())?
+            .map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
         front: None,
     })

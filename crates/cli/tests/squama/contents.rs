@@ -112,6 +112,45 @@ fn a_changed_digit_is_noticed_and_mended() {
 }
 
 #[test]
+fn the_derivatives_belong_to_the_run_like_any_table() {
+    let place = Place::with(FEW);
+    let with = FEW.replace("[designs]", "measures = ['coverage', 'sensitivity']\n[designs]");
+    fs::write(place.path("with.toml"), with).expect("writable");
+    place.squama("run with.toml -q --out r").assert().code(0);
+    assert!(place.list("r").contains("sensitivity.csv"));
+    // A run that has no derivatives leaves none of an earlier one, and takes none that somebody puts there.
+    place.squama("run x.toml -q --fresh --out r").assert().code(0);
+    assert!(!place.list("r").contains("sensitivity.csv"));
+    fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
+    let message = place.refused("export r --xlsx x.xlsx");
+    assert!(message.starts_with("error: r/sensitivity.csv: is not as it was written"), "{message}");
+    // A stranger's is not written over.
+    fs::create_dir(place.path("strange")).expect("a folder");
+    fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");
+    let message = place.refused("run with.toml -q --out strange");
+    assert!(message.contains("holds sensitivity.csv without a journal"), "{message}");
+    assert_eq!(place.read("strange/sensitivity.csv"), "mine");
+}
+
+#[test]
+fn requirements_that_nobody_ranked_by_are_noticed() {
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    place.prints("rank r --require coverage>=0.1");
+    for reader in ["export r --xlsx x.xlsx", "report r --out page.html"] {
+        place.prints(reader);
+    }
+    change(&place, "r/ranking.toml", "coverage >= 0.1", "coverage >= 0.2");
+    for reader in ["export r --xlsx x.xlsx", "report r --out page.html"] {
+        insta::allow_duplicates! {
+            insta::assert_snapshot!(place.refused(reader), @"error: r/ranking.toml: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+        }
+    }
+    place.prints("rank r --require coverage>=0.2");
+    place.prints("export r --xlsx x.xlsx");
+}
+
+#[test]
 fn tables_that_the_journal_has_left_behind_are_noticed() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q --out r").assert().code(0);
