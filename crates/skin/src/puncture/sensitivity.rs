@@ -49,7 +49,7 @@ pub fn differentiate(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (start, longest) = problem.start()?;
-    let mut followed = problem.follow(start, longest, &FOLLOWED)?;
+    let mut followed = problem.follow(start, longest, &FOLLOWED, &[])?;
     let derivatives = match followed.status {
         Status::Complete => problem.derivatives(&mut followed, variations)?,
         _ => Vec::new(),

@@ -123,12 +123,6 @@ fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, f64)>
 }
 
 impl Chain {
-    /// This row as a part of a longer one.
-    pub(crate) fn within(mut self, surroundings: Surroundings) -> Self {
-        self.surroundings = surroundings;
-        self
-    }
-
     /// Number of scales in the row: of one without ends those that are solved for.
     pub(super) fn row_length(&self) -> usize {
         let [left, right] = self.surroundings.scales_to_ends();

@@ -3,8 +3,9 @@
 use contact::{ContactLaw, CornerContact};
 use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
-use substrate::{Neighbour, RowStiffness};
+use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
+use super::PunctureParameters;
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, PAIR_FORCES, SkinState};
@@ -123,13 +124,14 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
+    /// The part of a row that is solved for, with what lies beyond it. `length` is `L/t`.
     pub(crate) fn new(
         arrangement: Arrangement,
         stiffness: &RowStiffness,
         law: ContactLaw,
         layout: Layout,
-        load_position: f64,
-        critical_tilt: f64,
+        surroundings: Surroundings,
+        parameters: &PunctureParameters,
         length: f64,
     ) -> Self {
         let scale = arrangement.scale(layout.left);
@@ -140,20 +142,26 @@ impl Chain {
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
+        // The tilt is clockwise: it decreases the rotation.
+        let tilt = control(2, -parameters.critical_tilt_deg.to_radians());
+        let bars = match parameters.substrate_law {
+            SubstrateLaw::Linear => None,
+            SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
+        };
         Self {
             layout,
             contacts: Contacts::new(arrangement, law, scales, forces),
             length,
-            plane_modulus: 1.0,
+            plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
             direct,
+            // Coupling beyond the neighbours fills the matrix: the band elimination takes it.
+            blocks: (neighbours.len() <= 1).then(|| layout.blocks()),
             neighbours,
-            bars: None,
-            surroundings: Surroundings::default(),
-            load_arm: left + load_position * (right - left),
-            // The tilt is clockwise: it decreases the rotation.
-            blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
-            controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
+            bars,
+            surroundings,
+            load_arm: left + parameters.load_position * (right - left),
+            controls: [tilt, control(0, 1.0), control(1, 1.0)],
             units: layout.units(direct),
         }
     }

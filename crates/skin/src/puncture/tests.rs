@@ -68,12 +68,22 @@ fn path_on(
     load_position: f64,
 ) -> Path<Chain> {
     let layout = Layout { left: 10, right: 10 };
-    let tilt = 10.0_f64.to_radians();
-    let row = design.row().unwrap();
-    let row = Arrangement::Even(row);
-    let chain = Chain::new(row, stiffness, law, layout, load_position, tilt, design.length);
+    let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
+    let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
+}
+
+/// A row with nothing beyond its ends.
+fn whole(
+    stiffness: &RowStiffness,
+    design: &Design,
+    law: ContactLaw,
+    layout: Layout,
+    parameters: &PunctureParameters,
+) -> Chain {
+    let row = Arrangement::Even(design.row().unwrap());
+    Chain::new(row, stiffness, law, layout, Surroundings::default(), parameters, design.length)
 }
 
 /// Shows every segment of a path.
@@ -324,7 +334,11 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let row = Rows::Even(DOMINO.row().unwrap());
     let problem =
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
-    let cut = problem.grow(60).unwrap();
+    let grown = |longest| {
+        let start = problem.start().unwrap().0;
+        problem.follow(start, longest, &[], &[]).unwrap().puncture()
+    };
+    let cut = grown(60);
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);
     assert!(cut.measures.first_contact_displacement.is_some());
@@ -332,7 +346,7 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     assert_eq!(cut.measures.critical_force, None);
     assert_eq!(cut.measures.peak_force, cut.path.last().map(|end| end.force));
     assert!(cut.path.last().unwrap().tilt_deg < 10.0);
-    let whole = problem.grow(4001).unwrap();
+    let whole = grown(4001);
     assert_eq!(whole.status, Status::Complete);
     assert!(whole.measures.scales > 60);
 }
@@ -441,18 +455,18 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let law = law(&design, Law::EXCHANGED, modulus);
         let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
-        let chain = |stiffness: &RowStiffness| {
-            let (layout, tilt) = (Layout { left: 7, right: 9 }, 40.0_f64.to_radians());
-            let row = Arrangement::Even(design.row().unwrap());
-            Chain::new(row, stiffness, law, layout, 1.0, tilt, design.length)
-        };
-        let nearest: RowStiffness = (&springs).into();
+        let parameters =
+            &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
         let layout = Layout { left: 7, right: 9 };
+        let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
+        let nearest: RowStiffness = (&springs).into();
         let rows = Rows::Even(design.row().unwrap());
         let endless = |stiffness: &RowStiffness| {
             let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
             let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
-            chain(stiffness).within(Surroundings::new(rows, layout, beyond).unwrap())
+            let surroundings = Surroundings::new(rows, layout, beyond).unwrap();
+            let row = rows.row(layout).unwrap();
+            Chain::new(row, stiffness, law, layout, surroundings, parameters, design.length)
         };
         for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);

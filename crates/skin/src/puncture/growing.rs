@@ -1,15 +1,98 @@
-//! The part of a row that is solved for.
+//! A path of a row that grows.
 //!
 //! Contact reaches some scales of a row. Beyond the last of them the row is linear, and its scales follow those at the end
 //! ([`FarField`](substrate::FarField)): they are not solved for. As contact spreads the row grows, at the point of the path where it
 //! has to.
 
-use solver::{Change, Event};
+use std::sync::Arc;
+
+use geometry::OutOfRange;
+use solver::{Change, Event, Path};
 use substrate::{FarField, SubstrateLaw};
 
+use super::Problem;
 use super::surroundings::Reach;
 use super::system::{Chain, Layout};
 use crate::contacts::{Contacts, PAIR_FORCES, SkinPoint, SkinState};
+
+/// A path of a part of a row, which grows as far as the deformation reaches.
+///
+/// ```text
+/// next ─► the next step ─► does it reach beyond an end?  no ─► it is yielded
+///            ▲                     │ yes
+///            └── on a longer row ◄─┘ from the point before
+/// ```
+pub(super) struct GrowingPath<'a> {
+    problem: &'a Problem<'a>,
+    pub(super) path: Path<Chain>,
+    longest: usize,
+    /// Whether the row was as long as it had to be.
+    pub(super) has_room: bool,
+    /// How near the point that was yielded last has come to the ends.
+    reach: [Reach; 2],
+    /// The shorter rows that the path has left, in order.
+    shorter: Vec<Chain>,
+}
+
+impl<'a> GrowingPath<'a> {
+    pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
+        let rest = SkinState::at_rest(&chain);
+        let path = Path::new(chain, rest, problem.settings);
+        let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
+        Self { problem, path, longest, has_room, reach, shorter }
+    }
+
+    /// The next segment of the path, both its ends on the row as it is now; `None` where the path ends, or the row may not grow
+    /// any more.
+    ///
+    /// # Errors
+    /// If the scales of a longer row cannot be made.
+    pub(super) fn next(&mut self) -> Result<Option<(Arc<SkinPoint>, SkinPoint)>, OutOfRange> {
+        let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
+        self.lengthen(&self.path.point_shared(), reach)?;
+        while self.has_room {
+            let from = self.path.point_shared();
+            let Some(to) = self.path.next() else { break };
+            let reach = self.path.system().reach(&to.state);
+            if !reach.contains(&Reach::Beyond) {
+                self.reach = reach;
+                return Ok(Some((from, to)));
+            }
+            // What lies beyond may have touched within the step: it is taken again.
+            self.lengthen(&from, reach)?;
+        }
+        Ok(None)
+    }
+
+    /// Lets the path go on from a point on a longer row, if it reaches an end and there is room.
+    fn lengthen(&mut self, from: &SkinPoint, reach: [Reach; 2]) -> Result<(), OutOfRange> {
+        if reach == [Reach::Short; 2] {
+            return Ok(());
+        }
+        let layout = self.path.system().layout;
+        let longer = layout.grown(reach, self.longest);
+        let longer = self.problem.whole().map_or(longer, |whole| longer.within(whole));
+        self.has_room = longer != layout;
+        if self.has_room {
+            let chain = self.problem.part(longer)?;
+            let from = chain.extended(self.path.system(), from);
+            self.shorter.push(self.path.go_on(chain, from));
+        }
+        Ok(())
+    }
+
+    /// A point that was yielded, on the row as it is now. A row is known by its size, since each is longer than the one before.
+    pub(super) fn lengthened(&self, point: &SkinPoint) -> SkinPoint {
+        let mut point = point.clone();
+        let longer = self.shorter.iter().skip(1).chain([self.path.system()]);
+        for (shorter, longer) in self.shorter.iter().zip(longer) {
+            if shorter.layout.size() == point.state.z.len() {
+                point = longer.extended(shorter, &point);
+            }
+        }
+        point
+    }
+}
 
 /// Scales on each side of the punctured one with which the path of an endless row begins.
 const FIRST_SCALES: usize = 4;
