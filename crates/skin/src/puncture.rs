@@ -5,6 +5,7 @@ mod ending;
 mod fold;
 mod growing;
 mod measures;
+mod needle;
 mod number_list;
 mod odd_scale;
 mod point;
@@ -23,6 +24,7 @@ use contact::ContactLaw;
 use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
 use growing::GrowingPath;
+use needle::{NEEDLE_UNKNOWNS, PassageWatch};
 use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
@@ -37,6 +39,8 @@ use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
+pub(crate) use needle::NeedleMode;
+pub use needle::{CriticalEvent, Needle, Passage};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
@@ -77,6 +81,8 @@ pub struct PunctureParameters {
     pub substrate_law: SubstrateLaw,
     /// Tilts at which measures are taken on the way, degrees.
     pub tilts_deg: NumberList,
+    /// How the needle is held.
+    pub needle: Needle,
 }
 
 impl Default for PunctureParameters {
@@ -90,6 +96,7 @@ impl Default for PunctureParameters {
             critical_tilt_deg: 10.0,
             substrate_law: SubstrateLaw::Linear,
             tilts_deg: NumberList::default(),
+            needle: Needle::Free,
         }
     }
 }
@@ -103,6 +110,8 @@ pub struct Puncture {
     pub measures: PunctureMeasures,
     /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
     pub at_tilts: Vec<Option<TiltMeasures>>,
+    /// How a guided needle came through.
+    pub passage: Passage,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -191,6 +200,7 @@ impl PunctureParameters {
 /// A path that was followed to its end.
 struct Followed {
     watch: PathWatch,
+    passage: Passage,
     path: Path<Chain>,
     status: Status,
 }
@@ -198,7 +208,7 @@ struct Followed {
 impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
-        let Self { watch, mut path, status } = self;
+        let Self { watch, passage, mut path, status } = self;
         let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, .. } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
@@ -216,6 +226,7 @@ impl Followed {
             status,
             measures,
             at_tilts,
+            passage,
             path,
             instability,
             events,
@@ -280,7 +291,10 @@ impl<'a> Problem<'a> {
     /// The system with which the path begins, and the longest row that it may grow to.
     fn start(&self) -> Result<(Chain, usize), OutOfRange> {
         let law = self.parameters.substrate_law;
-        let first = |far: &FarField| Layout::first(far, self.stiffness.neighbours.len(), law);
+        let first = |far: &FarField| {
+            let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
+            Layout { needle: self.needle_unknowns(), ..layout }
+        };
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(first);
             return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
@@ -291,12 +305,17 @@ impl<'a> Problem<'a> {
         Ok((self.part(layout)?, whole.scales()))
     }
 
+    /// Unknowns of the needle behind the load.
+    fn needle_unknowns(&self) -> usize {
+        if self.parameters.needle.is_guided() { NEEDLE_UNKNOWNS } else { 0 }
+    }
+
     /// All of a row that ends.
     fn whole(&self) -> Option<Layout> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                Some(Layout { left, right: scales - 1 - left })
+                Some(Layout { left, right: scales - 1 - left, needle: self.needle_unknowns() })
             }
             RowLength::Auto => None,
         }
@@ -313,8 +332,10 @@ impl<'a> Problem<'a> {
     ) -> Result<Followed, OutOfRange> {
         let mut growing = GrowingPath::new(self, chain, longest);
         let mut watch = PathWatch::new(&growing.path, self.parameters.tilts_deg, functions, places);
+        let mut passage = PassageWatch::default();
         while let Some((from, to)) = growing.next()? {
             watch.follow(&mut growing.path, &from, &to);
+            passage.follow(growing.path.system(), &from, &to);
         }
         // What was kept of shorter rows is looked at, from here on, on the row as it is in the end.
         watch.lengthen(&growing);
@@ -325,7 +346,8 @@ impl<'a> Problem<'a> {
         } else {
             Status::RowLimit
         };
-        Ok(Followed { watch, path, status })
+        let passage = passage.finish(path.system(), &path.point().state);
+        Ok(Followed { watch, passage, path, status })
     }
 
     /// The system of a part of the row.

@@ -3,10 +3,10 @@
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-use contact::{CornerContact, CornerEdge};
+use contact::CornerEdge;
 use solver::{Change, Path, Peak, Summit, System};
 
-use crate::contacts::{ContactChange, Contacts, SkinPoint, SkinState};
+use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 
 /// A contact that changes its state: it opens, closes or passes a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Iteration {
 }
 
 /// A row or a strip of scales whose path is recorded.
-pub(crate) trait Skin: System<Mode = Vec<CornerContact>> {
+pub(crate) trait Skin: System<Mode = SkinMode> {
     /// The numbers that are recorded of an equilibrium.
     type PathPoint: Copy;
 
@@ -68,11 +68,11 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
     initial_stiffness: f64,
-    stiffness: Peak<Vec<CornerContact>>,
+    stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
-    stiffness_summit: OnceCell<Option<Summit<Vec<CornerContact>>>>,
+    stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
     /// Further functions of which the largest value is searched.
-    followed: Vec<(PathFunction<S>, Peak<Vec<CornerContact>>)>,
+    followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// The equilibrium at which the first contact closes.
     pub(crate) touching: Option<SkinPoint>,
 }
@@ -142,6 +142,10 @@ impl<S: Skin> Record<S> {
         point: S::PathPoint,
         change: Change,
     ) -> Option<ContactEvent<S::PathPoint>> {
+        if change.constraint >= skin.contacts().forces().len() {
+            // A guided needle has changes of its own.
+            return None;
+        }
         let corner_edge = |mode| Contacts::corner_edge(mode, change.constraint);
         Some(ContactEvent {
             point,

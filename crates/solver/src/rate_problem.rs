@@ -141,10 +141,13 @@ impl<S: System> Path<S> {
         let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
-        slopes
-            .filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(c, _)| c)
+        let meeting =
+            slopes.filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART);
+        // What only grows may not turn back at a kink either, however far it has come.
+        let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
+        let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
+        let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
+        meeting.chain(turned).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, _)| c)
     }
 
     /// More pivots than this do not happen at one place.

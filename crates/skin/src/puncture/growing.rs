@@ -36,7 +36,7 @@ pub(super) struct GrowingPath<'a> {
 
 impl<'a> GrowingPath<'a> {
     pub(super) fn new(problem: &'a Problem<'a>, chain: Chain, longest: usize) -> Self {
-        let rest = SkinState::at_rest(&chain);
+        let rest = chain.at_rest();
         let path = Path::new(chain, rest, problem.settings);
         let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
         Self { problem, path, longest, has_room, reach, shorter }
@@ -114,7 +114,7 @@ impl Layout {
             SubstrateLaw::Linear => least,
             SubstrateLaw::NeoHookean => least + decayed_beyond(far),
         };
-        Self { left: side, right: side }
+        Self { left: side, right: side, needle: 0 }
     }
 
     /// More scales on the sides that are reached, as far as a row of the `longest` length has room.
@@ -123,12 +123,12 @@ impl Layout {
         let room = longest.saturating_sub(self.scales());
         let [left, right] = reach.map(|reach| if reach == Reach::Short { 0 } else { more });
         let right = right.min(room);
-        Self { left: self.left + left.min(room - right), right: self.right + right }
+        Self { left: self.left + left.min(room - right), right: self.right + right, ..self }
     }
 
     /// What this row and another have in common.
     pub(super) fn within(self, other: Self) -> Self {
-        Self { left: self.left.min(other.left), right: self.right.min(other.right) }
+        Self { left: self.left.min(other.left), right: self.right.min(other.right), ..self }
     }
 }
 
@@ -143,7 +143,15 @@ impl Chain {
     /// A point of the path of a `shorter` row, which lies within this one, as a point of this one.
     pub(super) fn extended(&self, shorter: &Self, point: &SkinPoint) -> SkinPoint {
         let added = self.layout.left - shorter.layout.left;
-        let constraint = |constraint: usize| constraint + PAIR_FORCES * added;
+        let contacts = [shorter, self].map(|chain| chain.contacts.forces().len());
+        let constraint = |number: usize| {
+            // Those of the needle follow those of all contacts.
+            if number < contacts[0] {
+                number + PAIR_FORCES * added
+            } else {
+                number - contacts[0] + contacts[1]
+            }
+        };
         let event = point.event.clone().map(|event| match event {
             Event::Changed(changes) => {
                 let moved = changes.into_iter().map(|Change { constraint: number, activated }| {
@@ -156,8 +164,11 @@ impl Chain {
         let unknowns = |z: &[f64]| self.extended_unknowns(shorter, z);
         let mut state = SkinState::at_rest(self);
         state.z = unknowns(&point.state.z);
-        copy_to(&mut state.active, constraint(0), &point.state.active);
+        let (of_contacts, of_needle) = point.state.active.split_at(contacts[0]);
+        copy_to(&mut state.active, PAIR_FORCES * added, of_contacts);
+        copy_to(&mut state.active, contacts[1], of_needle);
         copy_to(&mut state.mode, Contacts::contacts_of(added).start, &point.state.mode);
+        state.mode.needle = point.state.mode.needle;
         SkinPoint {
             state,
             arriving: unknowns(&point.arriving),
@@ -179,7 +190,8 @@ impl Chain {
             let longer = self.layout.force(force + PAIR_FORCES * added);
             extended[longer] = z[shorter.layout.force(force)];
         }
-        extended[self.layout.load()] = z[shorter.layout.load()];
+        let [from, to] = [shorter, self].map(|chain| chain.layout.load());
+        copy_to(&mut extended, to, &z[from..=from + self.layout.needle]);
         extended
     }
 }

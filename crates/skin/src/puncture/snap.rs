@@ -29,7 +29,7 @@ pub struct Snap {
 
 /// Follows along a path how far a needle can follow it.
 #[derive(Debug, Default)]
-pub(super) struct Needle {
+pub(super) struct SnapWatch {
     /// Whether the load has turned back: before that a row is stable.
     has_unloaded: bool,
     /// Of every point that the path has left.
@@ -41,7 +41,7 @@ pub(super) struct Needle {
     snaps: Vec<Snap>,
 }
 
-impl Needle {
+impl SnapWatch {
     /// Follows the path from one point to the next.
     ///
     /// On a path that leaves a stable state the load rises as long as the stiffness has an even number of negative eigenvalues. So
@@ -59,7 +59,7 @@ impl Needle {
 
     /// At an extremum of the load the stiffness is singular, and what holds behind it is found half-way to the next point.
     fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
-        if !self.has_unloaded {
+        if !self.has_unloaded || path.system().needle.is_some() {
             return self.instability.push(Instability::default());
         }
         let is_singular = from.event == Some(Event::LoadExtremum);
@@ -108,13 +108,15 @@ impl Needle {
         path: &Path<Chain>,
         measures: &mut PunctureMeasures,
     ) -> (Vec<Instability>, Vec<Snap>) {
-        let end = if self.has_unloaded {
+        let is_guided = path.system().needle.is_some();
+        let end = if self.has_unloaded && !is_guided {
             self.at(path.system(), &path.point().state)
         } else {
             Instability::default()
         };
         self.instability.push(end);
-        measures.stable_under_load = Some(end.load == 0);
+        // The stiffness under a guided needle is not that of a dead load, and with friction not symmetric.
+        measures.stable_under_load = (!is_guided).then_some(end.load == 0);
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));

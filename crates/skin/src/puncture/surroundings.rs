@@ -77,7 +77,8 @@ impl Surroundings {
             scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
         };
         let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
-        let row = rows.row(Layout { left: layout.left + left, right: layout.right + right })?;
+        let row =
+            rows.row(Layout { left: layout.left + left, right: layout.right + right, ..layout })?;
         let end = left + layout.scales() - 1;
         let pairs: [Vec<usize>; 2] = [(0..left).rev().collect(), (end..end + right).collect()];
         let side = |(beyond, pairs): (Option<Beyond>, Vec<usize>)| {

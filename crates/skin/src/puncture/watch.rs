@@ -6,7 +6,7 @@ use solver::Path;
 
 use super::fold::FoldWatch;
 use super::growing::GrowingPath;
-use super::snap::Needle;
+use super::snap::SnapWatch;
 use super::system::Chain;
 use super::{At, NumberList};
 use crate::contacts::SkinPoint;
@@ -16,7 +16,7 @@ use crate::record::{PathFunction, Record};
 /// All that is looked for along the path of a puncture.
 pub(super) struct PathWatch {
     pub(super) record: Record<Chain>,
-    pub(super) needle: Needle,
+    pub(super) needle: SnapWatch,
     pub(super) folds: FoldWatch,
     pub(super) tilts: PlaceWatch<Chain>,
     /// Of snapshots.
@@ -33,7 +33,7 @@ impl PathWatch {
         let tilts = tilts.as_slice().iter().map(|&tilt| At::Tilt(tilt).crossing());
         Self {
             record: Record::new(path, functions),
-            needle: Needle::default(),
+            needle: SnapWatch::default(),
             folds: FoldWatch::default(),
             tilts: PlaceWatch::new(path, tilts),
             places: PlaceWatch::new(path, places.iter().map(|place| place.crossing())),
@@ -53,7 +53,7 @@ impl PathWatch {
     /// Takes the points that were kept to the row as it is in the end.
     pub(super) fn lengthen(&mut self, path: &GrowingPath) {
         let longer = |point: &SkinPoint| path.lengthened(point);
-        let Needle { load_limit, depth_limit, .. } = &mut self.needle;
+        let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let places = self.tilts.found.iter_mut().chain(&mut self.places.found);
         for point in single.into_iter().chain(places).flatten() {
