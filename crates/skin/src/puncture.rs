@@ -333,20 +333,20 @@ impl<'a> Problem<'a> {
         let mut growing = GrowingPath::new(self, chain, longest);
         let mut watch = PathWatch::new(&growing.path, self.parameters.tilts_deg, functions, places);
         let mut passage = PassageWatch::default();
-        while let Some((from, to)) = growing.next()? {
-            watch.follow(&mut growing.path, &from, &to);
-            passage.follow(growing.path.system(), &from, &to);
+        while let Some(segment) = growing.next()? {
+            watch.follow(&mut growing.path, &segment);
+            passage.follow(growing.path.system(), &segment);
         }
         // What was kept of shorter rows is looked at, from here on, on the row as it is in the end.
         watch.lengthen(&growing);
         let path = growing.path;
-        let status = if growing.has_room {
-            let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
-            ending::judged(status, &watch.record.path)
-        } else {
-            Status::RowLimit
-        };
         let passage = passage.finish(path.system(), &path.point().state);
+        let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
+        let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
+            _ if !growing.has_room => Status::RowLimit,
+            Status::Complete if is_untilted => Status::Untilted,
+            status => ending::judged(status, &watch.record.path),
+        };
         Ok(Followed { watch, passage, path, status })
     }
 

@@ -32,6 +32,16 @@ pub(super) struct GrowingPath<'a> {
     reach: [Reach; 2],
     /// The shorter rows that the path has left, in order.
     shorter: Vec<Chain>,
+    /// The point from which the path goes on on a longer row, as the shorter one left it.
+    left: Option<SkinPoint>,
+}
+
+/// A step of a path; all its points are on the row as it is now.
+pub(super) struct Segment {
+    pub(super) from: Arc<SkinPoint>,
+    pub(super) to: SkinPoint,
+    /// The first point as the path came to it: after the row has grown there, it is solved for again before the path goes on.
+    pub(super) left: Arc<SkinPoint>,
 }
 
 impl<'a> GrowingPath<'a> {
@@ -39,7 +49,7 @@ impl<'a> GrowingPath<'a> {
         let rest = chain.at_rest();
         let path = Path::new(chain, rest, problem.settings);
         let (has_room, reach, shorter) = (true, [Reach::Short; 2], Vec::new());
-        Self { problem, path, longest, has_room, reach, shorter }
+        Self { problem, path, longest, has_room, reach, shorter, left: None }
     }
 
     /// The next segment of the path, both its ends on the row as it is now; `None` where the path ends, or the row may not grow
@@ -47,7 +57,7 @@ impl<'a> GrowingPath<'a> {
     ///
     /// # Errors
     /// If the scales of a longer row cannot be made.
-    pub(super) fn next(&mut self) -> Result<Option<(Arc<SkinPoint>, SkinPoint)>, OutOfRange> {
+    pub(super) fn next(&mut self) -> Result<Option<Segment>, OutOfRange> {
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
         while self.has_room {
@@ -56,7 +66,8 @@ impl<'a> GrowingPath<'a> {
             let reach = self.path.system().reach(&to.state);
             if !reach.contains(&Reach::Beyond) {
                 self.reach = reach;
-                return Ok(Some((from, to)));
+                let left = self.left.take().map_or_else(|| Arc::clone(&from), Arc::new);
+                return Ok(Some(Segment { from, to, left }));
             }
             // What lies beyond may have touched within the step: it is taken again.
             self.lengthen(&from, reach)?;
@@ -76,6 +87,8 @@ impl<'a> GrowingPath<'a> {
         if self.has_room {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
+            let left = self.left.take().map(|left| chain.extended(self.path.system(), &left));
+            self.left = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.go_on(chain, from));
         }
         Ok(())

@@ -14,6 +14,14 @@ use crate::contacts::{Contacts, PAIR_FORCES, SkinMode, SkinState};
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
 
+/// Depth in which the way of a guided needle is measured, over `t`: about what a tilt of 10° takes, but no more than some tops of a
+/// scale, since steps are parts of it and a needle is soon beyond a narrow top.
+const DEPTH: f64 = 0.5;
+const TOPS: f64 = 4.0;
+
+/// Depth at which the path of a guided needle ends if nothing else ends it.
+const DEEPEST: f64 = 2.0;
+
 /// Numbers of the rates that tell where load and depth turn back.
 pub(super) const LOAD_RATE: usize = 0;
 pub(super) const DEPTH_RATE: usize = 1;
@@ -165,7 +173,11 @@ impl Chain {
             }
         };
         let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
-        controls.extend(needle.as_ref().map(|_| Control { index: depth, scale: 1.0 }));
+        if needle.is_some() {
+            // The way of a guided needle is measured by its depth; scales may tilt either way, or not at all.
+            let scale = DEPTH.min(TOPS * (right - left).norm());
+            controls.insert(0, Control { index: depth, scale });
+        }
         let of_needle = needle.iter().flat_map(GuidedNeedle::constraints);
         let constraints = forces.iter().copied().chain(of_needle).collect();
         let bars = match parameters.substrate_law {
@@ -306,9 +318,9 @@ impl System for Chain {
         self.layout.load()
     }
 
-    /// The path of a guided needle ends by its constraints.
+    /// The path of a guided needle ends by its constraints, or where it is as deep as two scales are thick and has tilted none.
     fn target(&self) -> f64 {
-        if self.needle.is_some() { f64::INFINITY } else { 1.0 }
+        if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }
 
     fn ends(&self, constraint: usize) -> bool {

@@ -1,6 +1,7 @@
 //! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
 mod bars;
+mod needle;
 
 use std::collections::HashSet;
 
@@ -67,7 +68,7 @@ fn path_on(
     law: ContactLaw,
     load_position: f64,
 ) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10 };
+    let layout = Layout { left: 10, right: 10, needle: 0 };
     let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
     let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
@@ -169,7 +170,12 @@ fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let chain = path.system();
-    let u = states.map(|state| chain.depth(&state.z));
+    integral(states.map(|state| [state.z[chain.load()], chain.depth(&state.z)]))
+}
+
+/// `∫ F du` by the values of both at five places.
+fn integral(values: [[f64; 2]; 5]) -> f64 {
+    let u = values.map(|[_, u]| u);
     let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
     let slopes = [
         [-25.0, 48.0, -36.0, 16.0, -3.0],
@@ -180,7 +186,7 @@ fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     ]
     .map(slope);
     let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
-    (0..5).map(|k| weights[k] * states[k].z[chain.load()] * slopes[k]).sum::<f64>() / 90.0
+    (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
 
 /// Work and energy along a path.
@@ -314,9 +320,9 @@ fn soft_contacts_store_their_part_of_the_work() {
 #[test]
 fn rows_grow_as_far_as_there_is_room() {
     use Reach::{Beyond, Near, Short};
-    let layout = Layout { left: 14, right: 17 };
+    let layout = Layout { left: 14, right: 17, needle: 0 };
     let grown = |reach, longest| {
-        let Layout { left, right } = layout.grown(reach, longest);
+        let Layout { left, right, .. } = layout.grown(reach, longest);
         [left, right]
     };
     assert_eq!(grown([Near, Short], 100), [22, 17]);
@@ -457,7 +463,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
         let parameters =
             &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
-        let layout = Layout { left: 7, right: 9 };
+        let layout = Layout { left: 7, right: 9, needle: 0 };
         let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
         let nearest: RowStiffness = (&springs).into();
         let rows = Rows::Even(design.row().unwrap());

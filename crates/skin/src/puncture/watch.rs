@@ -1,11 +1,9 @@
 //! All that is looked for along the path of a puncture.
 
-use std::sync::Arc;
-
 use solver::Path;
 
 use super::fold::FoldWatch;
-use super::growing::GrowingPath;
+use super::growing::{GrowingPath, Segment};
 use super::snap::SnapWatch;
 use super::system::Chain;
 use super::{At, NumberList};
@@ -40,14 +38,14 @@ impl PathWatch {
         }
     }
 
-    /// Follows the path from one point to the next.
-    pub(super) fn follow(&mut self, path: &mut Path<Chain>, from: &Arc<SkinPoint>, to: &SkinPoint) {
+    /// Follows the path over a segment.
+    pub(super) fn follow(&mut self, path: &mut Path<Chain>, Segment { from, to, left }: &Segment) {
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
         self.places.follow(path, from, to);
         self.folds.follow(path, [from, to], events_before);
-        self.record.visit(path, from, to);
+        self.record.visit(path, left, to);
     }
 
     /// Takes the points that were kept to the row as it is in the end.

@@ -104,8 +104,15 @@ impl Chain {
         let push = needle.push(number);
         let forces = [state.z[push], state.z[push + 1]];
         let friction = needle.friction;
+        values[PUSH] = tip.gap;
         match touch.rub {
-            Rub::Slip { .. } => {
+            Rub::Slip { from, .. } => {
+                for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
+                    if state.active[needle.number(number, constraint)] {
+                        values[constraint] =
+                            state.z[push + 1 + constraint] + sign * (from - tip.way);
+                    }
+                }
                 if touch.place != Place::Left {
                     values[LOW] = tip.way;
                 }
@@ -141,7 +148,17 @@ impl Chain {
     }
 
     /// The gap to the face that the needle would come to next, while its foot lies within it.
+    ///
+    /// A tip that sticks on a corner which lies on the neighbour's face meets that face without pressing on it: corner and face bear
+    /// their force alone, until the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
+        let here = self.tip(&state.z, touch.scale, touch.place);
+        if let (Rub::Stick { .. }, Place::Top, Some(here)) = (touch.rub, touch.place, here)
+            && here.way > here.length - BESIDE
+            && self.is_notched(state, touch.scale)
+        {
+            return HOLDS;
+        }
         let next = Self::next_touch(touch);
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
         let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.way));
@@ -184,23 +201,15 @@ impl Chain {
         touches.filter_map(lateral).sum()
     }
 
-    /// Work that friction takes between two neighbouring states, by the trapezoidal rule.
+    /// `T` and `ξ` of both touches: friction takes `∫ T dξ`.
     #[cfg(test)]
-    pub(in crate::puncture) fn friction_rate(&self, state: &SkinState, direction: &[f64]) -> f64 {
-        let Some(needle) = &self.needle else { return 0.0 };
-        let touches = state.mode.needle.touches.iter().enumerate();
-        let rate = |(number, touch): (usize, &Option<Touch>)| {
-            let touch = touch.as_ref()?;
-            let at = self.layout.scale(self.scale_numbered(touch.scale)?);
-            let tip = self.tip(&state.z, touch.scale, touch.place)?;
-            let slid: f64 = [at, at + 1, at + 2, needle.depth]
-                .into_iter()
-                .zip(tip.way_slopes())
-                .map(|(unknown, slope)| slope * direction[unknown])
-                .sum();
-            Some(state.z[needle.push(number) + 1] * slid)
-        };
-        touches.filter_map(rate).sum()
+    pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> [[f64; 2]; 2] {
+        std::array::from_fn(|number| {
+            let touch = state.mode.needle.touches[number].as_ref();
+            let tip = touch.and_then(|t| self.tip(&state.z, t.scale, t.place));
+            let push = self.needle.as_ref().map(|needle| needle.push(number));
+            push.zip(tip).map_or([0.0; 2], |(push, tip)| [state.z[push + 1], tip.way])
+        })
     }
 }
 

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::mode::{Place, Rub, Touch};
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::SkinState;
 use crate::puncture::PuncturePoint;
+use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
 use crate::record::Skin;
 
@@ -50,7 +51,11 @@ pub(in crate::puncture) struct PassageWatch {
 }
 
 impl PassageWatch {
-    pub(in crate::puncture) fn follow(&mut self, chain: &Chain, from: &SkinPoint, to: &SkinPoint) {
+    pub(in crate::puncture) fn follow(
+        &mut self,
+        chain: &Chain,
+        Segment { from, to, .. }: &Segment,
+    ) {
         if self.passed.is_none() && !is_on_its_face(&to.state) {
             let mut state = from.state.clone();
             state.z.clone_from(&to.state.z);
