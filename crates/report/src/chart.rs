@@ -175,6 +175,11 @@ pub(crate) enum MarkLook {
 impl MarkLook {
     const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
+    /// Returns the look of a design in a figure of what folds touch.
+    pub(crate) fn of(designs: &Designs, row: usize) -> Self {
+        if designs.folded(row) { Self::Folded } else { Self::Filled }
+    }
+
     /// Returns the identifier of the shape of a mark with this look.
     fn shape(self, mark: Mark) -> String {
         match self {

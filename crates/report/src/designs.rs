@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use results::Results;
 use results::columns::{FOLD_FORCE, parameter_of};
 
-use crate::chart::MarkLook;
 use crate::palette::SlantPalette;
 
 /// Parameters that figures of a sweep are drawn over.
@@ -109,11 +108,6 @@ impl Designs {
     /// Returns whether the surface of the substrate folds over before the puncture of a design ends.
     pub(crate) fn folded(&self, row: usize) -> bool {
         !self.text(FOLD_FORCE, row).is_empty()
-    }
-
-    /// Returns the look of the mark of a design in a figure of what folds touch.
-    pub(crate) fn look(&self, row: usize) -> MarkLook {
-        if self.folded(row) { MarkLook::Folded } else { MarkLook::Filled }
     }
 
     /// Returns whether the surface folds over under any of the designs.

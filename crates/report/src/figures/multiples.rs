@@ -150,7 +150,7 @@ impl PanelSeries<'_> {
     fn look(&self, row: usize) -> MarkLook {
         match self.is_filled(row) {
             false => MarkLook::Open,
-            true if is_touched_by_folds(&self.quantity.column) => self.designs.look(row),
+            true if is_touched_by_folds(&self.quantity.column) => MarkLook::of(self.designs, row),
             true => MarkLook::Filled,
         }
     }

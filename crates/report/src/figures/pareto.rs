@@ -2,7 +2,7 @@
 
 use super::{of_perfect, sheet, thinned};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, design_mark, mark_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::colors::{FAINT, INK};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
@@ -88,7 +88,7 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
     let line = polyline(&spots).with("stroke", FAINT).at("stroke-width", 1.2);
     let marks = front
         .iter()
-        .filter_map(|p| design_mark(designs, palette, p.row, p.spot, designs.look(p.row)));
+        .filter_map(|p| design_mark(designs, palette, p.row, p.spot, MarkLook::of(designs, p.row)));
     Element::group("front")
         .containing(beaten)
         .containing([line.with("class", "line")])

@@ -5,7 +5,7 @@ use results::columns::{MAX_STIFFNESS, SECANT_STIFFNESS};
 use super::names::axis_label;
 use super::{of_perfect, physical, sheet, thinned};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, design_mark, mark_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::designs::Designs;
 
 const WIDTH: f64 = 1000.0;
@@ -35,7 +35,13 @@ pub(crate) fn figure(name: &str, designs: &Designs) -> String {
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(52.0)]);
         inside.extend(thinned(designs.count(), STIFFNESSES.len()).filter_map(|row| {
             let [force, stiffness] = [&force, &stiffness].map(|name| designs.number(name, row));
-            design_mark(designs, &palette, row, panel.place(force?, stiffness?)?, designs.look(row))
+            design_mark(
+                designs,
+                &palette,
+                row,
+                panel.place(force?, stiffness?)?,
+                MarkLook::of(designs, row),
+            )
         }));
     }
     let title = format!("{name}: puncture stiffness against critical force{}", of_perfect(designs));

@@ -245,8 +245,11 @@ fn curves_of_solved_designs_stand_in_one_chart() {
     }
 }
 
+/// A column and its value of a design, by the number of the design.
+type Column = (&'static str, fn(u32) -> f64);
+
 /// A table like [`table`], with more columns, each made from the number of a design.
-fn table_with(columns: &[(&str, fn(u32) -> f64)]) -> String {
+fn table_with(columns: &[Column]) -> String {
     let own = table();
     let mut lines = own.lines();
     let names = columns.iter().map(|(name, _)| *name);
@@ -297,7 +300,7 @@ fn figures_of_random_gaps_show_the_median_and_the_band() {
 
 #[test]
 fn figures_of_a_material_are_in_newtons_and_millimetres() {
-    let columns: [(&str, fn(u32) -> f64); 2] =
+    let columns: [Column; 2] =
         [("critical_force_N", |k| 7.0 / f64::from(k)), ("penetration_mm", f64::from)];
     let table = table_with(&columns);
     let all = figures("x", &Designs::of(&results(&table)), None);

@@ -198,15 +198,20 @@ fn is_folded(results: &Results, row: usize) -> bool {
 }
 
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
+    let columns = shown_columns(results, preferences);
+    // A force up to the fold can be trusted.
+    let is_doubtful = columns.iter().any(|column| column.starts_with("critical_force"));
     let cell = |column: &String| {
         let text = results.column(column).map_or("", |column| results.text(row, column));
         match text.parse::<f64>() {
-            _ if column == "design" && is_folded(results, row) => format!("{text}{FOLDED}"),
+            _ if column == "design" && is_doubtful && is_folded(results, row) => {
+                format!("{text}{FOLDED}")
+            }
             Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
             _ => text.to_owned(),
         }
     };
-    shown_columns(results, preferences).iter().map(cell).collect()
+    columns.iter().map(cell).collect()
 }
 
 /// The answer where no design meets the requirements.
