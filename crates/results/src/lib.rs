@@ -88,4 +88,4 @@ pub use store::{
 };
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
-pub use yardstick::{YARDSTICKS, Yardstick, incomparable_by, yardsticks};
+pub use yardstick::{incomparable_by, yardsticks};
