@@ -36,27 +36,19 @@ pub enum Maker {
 impl Maker {
     /// The name of its record.
     pub(crate) fn key(self) -> &'static str {
-        match self {
-            Self::Run => "run",
-            Self::Ranking => RunFolder::RANKING_RECORD,
-            Self::Comparison => "comparison",
-            Self::Design => "design",
-            Self::Search => "search",
-            Self::Tolerance => "tolerance",
-            Self::Sensitivity => "sensitivity",
-        }
+        self.names().0
     }
 
-    /// The command.
-    pub(crate) fn command(self) -> &'static str {
+    /// The names of its record and of its command.
+    pub(crate) fn names(self) -> (&'static str, &'static str) {
         match self {
-            Self::Run => "squama run",
-            Self::Ranking => "squama rank",
-            Self::Comparison => "squama compare",
-            Self::Design => "squama design",
-            Self::Search => "squama optimise",
-            Self::Tolerance => "squama tolerance",
-            Self::Sensitivity => "squama sensitivity",
+            Self::Run => ("run", "squama run"),
+            Self::Ranking => (RunFolder::RANKING_RECORD, "squama rank"),
+            Self::Comparison => ("comparison", "squama compare"),
+            Self::Design => ("design", "squama design"),
+            Self::Search => ("search", "squama optimise"),
+            Self::Tolerance => ("tolerance", "squama tolerance"),
+            Self::Sensitivity => ("sensitivity", "squama sensitivity"),
         }
     }
 }
@@ -99,8 +91,6 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
 pub static FILES: [FileEntry; 39] = [
-    // The statement is the first of its maker: where it is gone nobody takes the others for whole.
-    plain(RunFolder::CONTENTS, Maker::Run, Role::Statement),
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -111,6 +101,7 @@ pub static FILES: [FileEntry; 39] = [
     stated(RunFolder::FAILURES, Maker::Run, Role::Table),
     stated(RunFolder::RERUNS, Maker::Run, Role::Table),
     stated(RunFolder::RUN_INFO, Maker::Run, Role::Record),
+    plain(RunFolder::CONTENTS, Maker::Run, Role::Statement),
     stated(RunFolder::RANKING[0], Maker::Ranking, Role::Table),
     stated(RunFolder::RANKING[1], Maker::Ranking, Role::Table),
     stated(RunFolder::RANKING[2], Maker::Ranking, Role::Table),
@@ -292,6 +283,8 @@ impl RunFolder {
 
     /// Removes the tables of an earlier run and what it states of itself, but not its journal.
     pub fn remove_results(&self) {
+        // Where it is gone nobody takes the others for whole.
+        self.remove(Self::CONTENTS);
         FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }
 

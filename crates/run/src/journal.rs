@@ -5,6 +5,7 @@
 //! rerun, and the largest counts, wherever it stands. What a journal promises of its lines is said in the crate `store`.
 
 mod archive;
+mod edited;
 mod entry;
 mod index;
 
@@ -36,7 +37,7 @@ pub(crate) fn begin(
     folder.require_own(Maker::Run, start)?;
     let journal = Journal::begin(&folder.journal(), header, start)?;
     // Whoever starts afresh has thrown the lines away.
-    Ok(if start == Start::Fresh { journal } else { with_losses(journal, folder) })
+    if start == Start::Fresh { Ok(journal) } else { checked(journal, folder) }
 }
 
 /// The journal that is there in `folder`, to go on with whatever it is of.
@@ -44,13 +45,14 @@ pub(crate) fn begin(
 /// # Errors
 /// If there is none, or it is in use or damaged.
 pub(crate) fn resume(folder: &RunFolder) -> Result<Journal, JournalError> {
-    Ok(with_losses(Journal::resume(&folder.journal())?, folder))
+    checked(Journal::resume(&folder.journal())?, folder)
 }
 
-/// The journal with a word about the lines that it has lost since the tables in `folder` were written.
-fn with_losses(mut journal: Journal, folder: &RunFolder) -> Journal {
+/// The journal, checked against the tables in `folder` that were written from it, with a word about the lines that it has lost since.
+fn checked(mut journal: Journal, folder: &RunFolder) -> Result<Journal, JournalError> {
+    edited::refuse(journal.records(), folder)?;
     if let Some(lost) = journal.records().lost_lines(folder) {
         journal.note(format!("{}: {lost}", folder.journal().display()));
     }
-    journal
+    Ok(journal)
 }

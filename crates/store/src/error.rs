@@ -48,6 +48,14 @@ pub enum JournalError {
         /// The path of the journal.
         path: PathBuf,
     },
+    /// A line was changed and sealed again.
+    #[error("{}: design {design} is not what the tables beside it say, though its line is sealed: somebody has changed it; put back the journal as it was, or solve everything again with --fresh", path.display())]
+    Edited {
+        /// The path of the journal.
+        path: PathBuf,
+        /// The number of the first such design.
+        design: String,
+    },
     /// Lines at the end of the journal are missing.
     #[error("{}: {lost}; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing", path.display())]
     LinesLost {

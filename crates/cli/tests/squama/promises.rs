@@ -20,8 +20,8 @@ const WRITERS: [(&str, &str); 9] = [
     ("optimise my/goal.toml --out out", "history.csv"),
     ("tolerance x.toml --samples 2 --out out", "yield.csv"),
     ("tolerance x.toml --samples 2 --out out", "tolerance.csv"),
-    ("sensitivity my/goal.toml --samples 4 --out out", "sobol.csv"),
-    ("rank r --by coverage --out out", "ranking.csv"),
+    ("sensitivity --global my/box.toml --samples 4 --out out", "sobol.csv"),
+    ("rank r --maximize coverage --out out", "ranking.csv"),
     ("compare r r --out out", "differences.csv"),
     ("design x.toml --design 1 --out out", "measures.csv"),
 ];
@@ -31,6 +31,8 @@ fn place() -> Place {
     let place = Place::with(COVERED);
     fs::create_dir(place.path("my")).expect("a folder");
     fs::write(place.path("my/goal.toml"), GOAL).expect("writable");
+    let (variables, _) = GOAL.split_once("[goal]").expect("a goal");
+    fs::write(place.path("my/box.toml"), variables).expect("writable");
     place.squama("run x.toml -q --out r").assert().code(0);
     place
 }
@@ -118,7 +120,10 @@ fn samples_of_each_definition_are_kept() {
 
 #[test]
 fn a_million_designs_are_refused_at_once() {
-    let place = Place::with(&COVERED.replace("[0.1, 0.3]", "{ from = 0.1, to = 1, step = 1e-8 }"));
+    let many = "{ from = 0.1, to = 1, step = 0.001 }";
+    let slants = "{ from = 0, to = 70, step = 0.01 }";
+    let text = COVERED.replace("[0.1, 0.3]", many).replace("[30, 45]", slants);
+    let place = Place::with(&text);
     let message = place.refused("tolerance x.toml --samples 2");
     assert!(message.contains("designs, at most 100000 at a time"), "{message}");
 }
@@ -129,10 +134,10 @@ fn what_a_kill_has_left_is_removed_by_the_next_command() {
     place.prints("optimise my/goal.toml --out found");
     let abandoned = ".x.csv.squama-1-2.partial";
     for command in [
-        "rank r --by coverage --out out",
+        "rank r --maximize coverage --out out",
         "compare r r --out out",
         "tolerance x.toml --samples 2 --out out",
-        "sensitivity my/goal.toml --samples 4 --out out",
+        "sensitivity --global my/box.toml --samples 4 --out out",
         "design x.toml --design 1 --out out",
         "export r --xlsx out/x.xlsx",
         "plot r --out out",
@@ -156,7 +161,7 @@ fn pipes_and_devices_are_no_stores() {
     };
     for device in ["", "/dev/zero"] {
         for (file, command) in [
-            ("r/contents.toml", "rank r --by coverage"),
+            ("r/contents.toml", "rank r --maximize coverage"),
             ("r/derived/ranking.toml", "export r --xlsx x.xlsx"),
             ("r/run.toml", "export r --xlsx x.xlsx"),
             ("r/ranking.toml", "report r"),
@@ -165,7 +170,7 @@ fn pipes_and_devices_are_no_stores() {
             ("found/optimum.csv", "report r --front found"),
         ] {
             let place = place();
-            place.prints("rank r --by coverage");
+            place.prints("rank r --maximize coverage");
             place.prints("optimise my/goal.toml --out found");
             fs::remove_file(place.path(file)).expect("a file");
             if device.is_empty() {
@@ -197,6 +202,7 @@ fn a_folder_may_have_a_name_that_is_no_text() {
         match command {
             "compare" => squama.arg(strange),
             "plot" => squama.args(["--out", "figures"]),
+            "export" => squama.args(["--xlsx", "x.xlsx"]),
             _ => &mut squama,
         };
         squama.assert().code(0);

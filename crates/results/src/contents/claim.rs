@@ -25,8 +25,12 @@ impl<'f> Claim<'f> {
     /// # Errors
     /// If there is one.
     pub fn check(folder: &RunFolder, maker: Maker) -> Result<(), OutputError> {
-        let known = Derivation::read(folder, maker.key()).map(|made| made.files);
-        let known = known.unwrap_or_default();
+        let made = Derivation::read(folder, maker.key());
+        // A record that was damaged tells no names, but that there were some.
+        if made.is_none() && folder.holds(&format!("{}/{}.toml", RunFolder::DERIVED, maker.key())) {
+            return Ok(());
+        }
+        let known = made.map(|made| made.files).unwrap_or_default();
         let mut strange = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
         strange.try_for_each(|file| require_none(folder, file.name))
     }
@@ -42,7 +46,8 @@ impl<'f> Claim<'f> {
         Self::check(folder, maker)?;
         Self::release(folder, maker);
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
-        let (product, command) = (maker.key().to_owned(), maker.command().to_owned());
+        let (product, command) = maker.names();
+        let (product, command) = (product.to_owned(), command.to_owned());
         let (from, files) = (String::new(), names.collect());
         let made = Derivation { product, command, from, made_from: None, files };
         made.write(folder, maker.key())?;

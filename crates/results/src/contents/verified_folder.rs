@@ -82,6 +82,14 @@ pub enum InvalidFolder {
         /// The fault.
         problem: &'static str,
     },
+    /// A table of a ranking that no record names.
+    #[error("{}: no record in derived says that squama rank wrote it; move it out of the folder", folder.join(file).display())]
+    Unrecorded {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the table.
+        file: String,
+    },
     /// A file of a search that did not come to its end, or one that was changed.
     #[error("{}: {problem}, expected the file that squama optimise wrote; the same command with --resume writes it again", folder.join(file).display())]
     Search {
@@ -164,9 +172,9 @@ impl VerifiedFolder {
         self.folder.path()
     }
 
-    /// Whether it holds the file `name`.
+    /// Whether it holds anything of the name `name`: what is no file is refused when it is opened.
     pub fn holds(&self, name: &str) -> bool {
-        self.folder.holds(name)
+        self.folder.file(name).exists()
     }
 
     /// The names of the tables that are there, and of those that should be, in the order in which people read them.
@@ -253,7 +261,9 @@ impl VerifiedFolder {
             problem,
         };
         let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
-        let ranking = ranking.ok_or_else(|| refuse("its ranking did not come to its end"))?;
+        let unrecorded =
+            || InvalidFolder::Unrecorded { folder: self.path().to_owned(), file: name.to_owned() };
+        let ranking = ranking.ok_or_else(unrecorded)?;
         if ranking.from != contents.digest() {
             return Err(refuse("is made from other tables"));
         }

@@ -148,6 +148,11 @@ impl Archive {
         ))
     }
 
+    /// Whether the line that counts for the design at `position` stands among the first `bytes` bytes.
+    pub(crate) fn stands_before(&self, position: u64, bytes: u64) -> bool {
+        self.index.offset(position).is_some_and(|offset| offset < bytes)
+    }
+
     /// Refuses it if it has lost lines.
     pub(crate) fn require_all_lines(&self, folder: &RunFolder) -> Result<(), JournalError> {
         let path = self.path.clone();
