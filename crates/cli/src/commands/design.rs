@@ -1,6 +1,9 @@
 //! `squama design`.
 
+use std::path::PathBuf;
+
 use anyhow::ensure;
+use clap::Args;
 use results::columns::design_columns;
 use results::{
     Cell, Column, DesignRow, ParameterDerivative, RunFolder, SolvedDesign, write_measures,
@@ -10,15 +13,50 @@ use run::Evaluator;
 use serde_json::{Map, Value, json};
 use sweep::PARAMETERS;
 
-use super::selection::{SelectedDesign, select};
-use super::source::folder_within;
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
-use crate::args;
 use crate::json;
 use crate::print::{aligned, print, rounded};
 
+/// Arguments of `squama design`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama design sweeps/paper.toml --design 0417
+  squama design sweeps/paper.toml --gap 0.1 --length 1 --slant 75
+  squama design sweeps/paper.toml --gap 0.15 --length 1 --slant 40 --set scale.width_over_t=2
+  squama design results/paper --design 0417 --json
+  squama design results/paper --design 0417 --sensitivity
+
+Solves the design exactly as the sweep does. A design given by its lengths need not be on the
+grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
+Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
+steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
+With --sensitivity, sensitivity.csv as well, and what one per cent of each parameter does to the measures.
+Exit code: 0 done, 1 the design stopped early, 2 bad input or disk.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    /// Differentiate every measure with respect to every continuous parameter: sensitivity.csv
+    #[arg(long)]
+    pub sensitivity: bool,
+
+    /// Folder of the files [default: designs/NUMBER in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// Solves one design, prints its measures and writes them down with its path.
-pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
+pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut design = choose(arguments)?;
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
@@ -39,7 +77,7 @@ pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
 }
 
 /// The one design that is asked for.
-fn choose(arguments: &args::DesignArguments) -> anyhow::Result<SelectedDesign> {
+fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     let mut designs = select(&arguments.definition, &arguments.selection)?;
     ensure!(
         designs.len() == 1,
@@ -80,7 +118,7 @@ impl SolvedChoice {
         Self { design, solved, columns }
     }
 
-    fn folder(&self, arguments: &args::DesignArguments) -> std::path::PathBuf {
+    fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
         let designs = || folder_within(&arguments.definition, &self.design.sweep, "designs");
         arguments.out.clone().unwrap_or_else(|| designs().join(self.design.label()))
     }

@@ -3,17 +3,58 @@
 use std::path::Path;
 
 use anyhow::{Context as _, bail, ensure};
+use clap::Args;
 use report::drawings;
 use skin::{flexure, puncture};
 use substrate::RowStiffness;
 use sweep::Case;
 
 use super::DONE;
-use super::figure_file::{Written, check_dpi, joined, write_html, write_svg};
-use super::selection::{SelectedDesign, select};
-use super::source::folder_within;
-use crate::args;
+use super::figure_file::{FigureOutput, Written, check_dpi, joined, write_html, write_svg};
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, folder_within};
 use crate::print::print;
+
+/// Arguments of `squama draw`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama draw sweeps/paper.toml --design 0417
+  squama draw sweeps/paper.toml --design 0417 --at 0.1,0.4,0.7 --png
+  squama draw sweeps/paper.toml --design 0417,0418 --flexure
+  squama draw sweeps/paper.toml --design 0067,0070,0072 --force 0.1
+  squama draw sweeps/paper.toml --design 0417 --animate
+  squama draw results/paper --gap 0.1 --length 1 --slant 15..60
+
+Shows the row at rest and at the critical tilt, or at the displacements u/t of --at; each is solved
+for. Contacts are red, forces between scales are arrows, the bars are the reactions of the
+substrate. With --flexure, the strip where its ends have turned by the angles of --at (degrees).")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Displacements u/t of the punctured point, or rotations of the ends in degrees
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<f64>,
+
+    /// Puncture forces F* instead of displacements
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["at", "flexure", "animate"])]
+    pub force: Vec<f64>,
+
+    /// The strip in bending instead of the puncture
+    #[arg(long)]
+    pub flexure: bool,
+
+    /// One page that plays the path instead of drawings
+    #[arg(long)]
+    pub animate: bool,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+}
 
 /// Frames of an animation.
 const FRAMES: u32 = 60;
@@ -22,7 +63,7 @@ const FRAMES: u32 = 60;
 const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 
 /// Draws designs.
-pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
+pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_places(arguments)?;
     check_dpi(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
@@ -43,7 +84,7 @@ pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
 }
 
 /// Refuses places that no path of puncture goes through.
-fn check_places(arguments: &args::DrawArguments) -> anyhow::Result<()> {
+fn check_places(arguments: &Arguments) -> anyhow::Result<()> {
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
     check_place("--at", "a displacement u/t", displacements)?;
     check_place("--force", "a force F*", &arguments.force)
@@ -64,7 +105,7 @@ pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Resu
 struct Drawing<'a> {
     design: &'a SelectedDesign,
     case: Case,
-    arguments: &'a args::DrawArguments,
+    arguments: &'a Arguments,
     folder: &'a Path,
 }
 

@@ -3,16 +3,36 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 use sweep::Sweep;
 
 use super::DONE;
 use super::source::require_folder_of;
-use crate::args;
 use crate::print::{counted, print};
 use crate::templates;
 
+/// Arguments of `squama init`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama init                       the sweep of the paper, in paper.toml
+  squama init smoke mine.toml       a dozen designs, as a sweep of the name mine
+
+Every key that may be set is explained in the definition of the paper. A file that exists is left alone.
+Exit code: 0 done, 2 bad input or disk.")]
+pub struct Arguments {
+    /// Definition to begin with
+    #[arg(value_name = "TEMPLATE", default_value = "paper", value_parser = PossibleValuesParser::new(templates::names()))]
+    pub template: String,
+
+    /// File of the definition; its name becomes that of the sweep [default: TEMPLATE.toml]
+    #[arg(value_name = "FILE")]
+    pub file: Option<PathBuf>,
+}
+
 /// Writes a commented definition.
-pub fn init(arguments: &args::InitArguments) -> anyhow::Result<u8> {
+pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let template = &arguments.template;
     let default = || PathBuf::from(format!("{template}.toml"));
     let file = arguments.file.clone().unwrap_or_else(default);

@@ -1,17 +1,47 @@
 //! `squama merge`.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use clap::Args;
 
 use super::run::{conclude, summary};
+use super::work::Format;
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::print::{counted, print};
+
+/// Arguments of `squama merge`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama merge results/paper/shards/* --out results/paper
+
+Puts the results of shards together; the tables are those of a run without shards. What is in the
+folder --out already stays there, so that merging again adds what has come meanwhile. A folder that is
+merged into itself, squama merge DIR --out DIR, has its tables written again from its journal.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk.")]
+pub struct Arguments {
+    /// Folders of the shards
+    #[arg(value_name = "DIR", required = true)]
+    pub folders: Vec<PathBuf>,
+
+    /// Folder of the whole
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// No summary
+    #[arg(long, short)]
+    pub quiet: bool,
+
+    #[command(flatten)]
+    pub format: Format,
+}
 
 /// Runs of missing designs that are named before the list is cut short.
 const NAMED: usize = 20;
 
 /// Puts the shards of a sweep together.
-pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
+pub fn merge(arguments: &Arguments) -> anyhow::Result<u8> {
     let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
     conclude(&arguments.out, &merged.finished);
     if !arguments.quiet {
@@ -22,7 +52,7 @@ pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
-fn report(arguments: &args::MergeArguments, merged: &run::Merged) -> String {
+fn report(arguments: &Arguments, merged: &run::Merged) -> String {
     let folders = counted(arguments.folders.len() as u64, "folder");
     let added = counted(merged.added, "design");
     let name = merged.sweep.name();

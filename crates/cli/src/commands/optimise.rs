@@ -5,16 +5,18 @@ mod record;
 mod report;
 mod skins;
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use ::report::Figure;
+use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
 use results::{RunFolder, make_folder};
 use sweep::Setting;
 
 use super::source::folder_of;
+use super::work::{Earlier, Format, Threads};
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
@@ -23,8 +25,66 @@ use figures::figures;
 use record::record;
 use report::SearchReport;
 
+/// Arguments of `squama optimise`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama optimise sweeps/goals/strong-and-covered.toml
+  squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
+  squama optimise glove.toml --set goal.seed=1 --fresh
+  squama optimise glove.toml --resume
+
+A goal is a sweep definition with two sections more: [variables] has parameters between two numbers, as
+gap_over_t = { from = 0.1, to = 1 }, or lists of values; [goal] has maximize or minimize (one column gives
+an optimum, two to four a front) and require, bounds that columns must keep. What is not a variable has one
+value. Designs that fail are left out and counted; so are those whose surface has folded, unless sound = false.
+One of the objectives may be fitness, the paper's (Eq. 7): weights = { coverage = 1, compliance = 2 } has its
+criteria, all four alike if it is left out, and rescale = { coverage = [0, 0.9] } the worst and the best value of
+each, those of the sample if it is left out.
+With a [tolerance], as squama tolerance reads it, the goal may be about what is made: maximize or require has
+quantiles, as critical_force_p05 (or _p50, _p95), and yield, the share of skins that meet all requirements of
+columns and whose surface has not folded, unless sound = false, as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. skins = 200 are made of each design, the same deviations
+for all, and five times as many near the best; at the end 1000 others are made of it, and what they say stands
+beside what the search saw.
+samples = 1024 designs fill the space first, points = 30 stand on a front, seed = 0 shifts the samples.
+Writes optimum.csv and optimum.toml, which is the definition of the best design, or front.csv; history.csv
+with every design that was looked at; and evaluations.jsonl, from which --resume goes on. Nothing depends on
+the number of threads.
+Exit code: 0 done, 1 no design meets the requirements, or what is made of the best does not, 2 bad input or disk, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
+pub struct Arguments {
+    /// Goal in TOML
+    #[arg(value_name = "GOAL.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the goal, e.g. goal.seed=1 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Folder of the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub earlier: Earlier,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// No bar
+    #[arg(long, short)]
+    pub quiet: bool,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub format: Format,
+}
+
 /// Finds the best designs of a goal and writes them down.
-pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let settings = arguments.settings.iter().map(|text| Setting::parse(text));
     let settings: Vec<Setting> = settings.collect::<Result<_, _>>()?;
     let goal = DesignGoal::read(&arguments.path, &settings)?;
@@ -60,7 +120,7 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
 }
 
 fn options<'i>(
-    arguments: &args::OptimiseArguments,
+    arguments: &Arguments,
     interrupt: &'i Interrupt,
     display: &'i SearchDisplay,
 ) -> SearchOptions<'i> {

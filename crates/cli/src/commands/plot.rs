@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use clap::{Args, Subcommand};
 use report::{DesignCurves, MapRequest, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
@@ -10,13 +11,104 @@ use skin::puncture::{self, Puncture};
 use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
-use super::figure_file::{Written, check_dpi, joined, write_svg};
+use super::figure_file::{FigureOutput, Written, check_dpi, joined, write_svg};
 use super::results_folder::ResultsFolder;
-use super::selection::{SelectedDesign, select};
-use super::source::{folder_within, verified_folder};
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, Partial, folder_within, verified_folder};
 use super::{DONE, INCOMPLETE, derived};
-use crate::args;
 use crate::print::print;
+
+/// Arguments of `squama plot`.
+#[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  squama plot results/paper
+  squama plot results/paper --png --out figures
+  squama plot curves sweeps/paper.toml --design 0417,0418
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force"
+)]
+pub struct Arguments {
+    /// Plot curves of designs or a map instead of the figures of a sweep
+    #[command(subcommand)]
+    pub what: Option<PlotWhat>,
+
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
+/// The subjects of `squama plot` besides a sweep.
+#[derive(Debug, Subcommand)]
+pub enum PlotWhat {
+    /// Force–displacement, moment–curvature and energies of designs, solved anew
+    Curves(CurvesArguments),
+    /// Any column over any two parameters, with contours
+    Map(MapArguments),
+}
+
+/// Arguments of `squama plot map`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force
+  squama plot map results/paper --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.1")]
+pub struct MapArguments {
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Parameter across, by its column
+    #[arg(long, value_name = "COLUMN")]
+    pub x: String,
+
+    /// Parameter upwards, by its column
+    #[arg(long, value_name = "COLUMN")]
+    pub y: String,
+
+    /// Column that is shown: any with numbers; its scale is logarithmic where its values span decades
+    #[arg(long, value_name = "COLUMN")]
+    pub of: String,
+
+    /// Value that another parameter is held at (may be repeated); of the rest there is a map for each value
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
+/// Arguments of `squama plot curves`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama plot curves sweeps/paper.toml --design 0417,0418
+  squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png
+  squama plot curves results/paper --gap 0.1 --length 1")]
+pub struct CurvesArguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Displacement u/t at which punctures end, instead of the critical tilt
+    #[arg(long, value_name = "U", allow_hyphen_values = true)]
+    pub to: Option<f64>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+}
 
 /// Largest step along a curve, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.004;
@@ -25,16 +117,16 @@ const CURVE_STEP: f64 = 0.004;
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
 /// Draws the figures of a sweep, or the curves of designs.
-pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
+pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
-        (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
-        (Some(args::PlotWhat::Map(arguments)), _) => plot_map(arguments),
+        (Some(PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
+        (Some(PlotWhat::Map(arguments)), _) => plot_map(arguments),
         (None, Some(results)) => plot_results(results, arguments),
         (None, None) => bail!("nothing to plot, expected RESULTS or curves SWEEP.toml"),
     }
 }
 
-fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
+fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
@@ -53,11 +145,11 @@ fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Resu
 }
 
 /// The folder of the figures of a sweep.
-fn figure_folder(results: &ResultsFolder, output: &args::FigureOutput) -> PathBuf {
+fn figure_folder(results: &ResultsFolder, output: &FigureOutput) -> PathBuf {
     output.out.clone().unwrap_or_else(|| results.folder.join("figures"))
 }
 
-fn plot_map(arguments: &args::MapArguments) -> anyhow::Result<u8> {
+fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     let held = |text: &String| {
         let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
@@ -81,7 +173,7 @@ fn plot_map(arguments: &args::MapArguments) -> anyhow::Result<u8> {
     Ok(DONE)
 }
 
-fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
+fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;

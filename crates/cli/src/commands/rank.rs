@@ -5,15 +5,14 @@ mod record;
 mod report;
 
 use anyhow::Context as _;
+use clap::Args;
 use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
 };
-use results::{Results, RunFolder};
 
-use super::source::verified_folder;
+use super::source::{Partial, verified_folder};
 use super::{DONE, INCOMPLETE, derived};
-use crate::args;
 use crate::json;
 use crate::print::print;
 use gap_changes::{gap_changes, gap_changes_record};
@@ -21,9 +20,91 @@ use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
 pub(super) use report::{distance, obstacle};
+use results::{Results, RunFolder};
+use std::path::PathBuf;
+
+/// Arguments of `squama rank`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama rank results/paper
+  squama rank results/paper --weights 4,4,1,1 --top 20
+  squama rank results/paper --require 'coverage >= 0.6' --require 'penetration < 0.3'
+  squama rank results/paper --maximize critical_force --minimize gap_over_t
+  squama rank results/paper --criteria coverage,max:peak_force,min:sink --scale log
+  squama rank sweeps/paper.toml --json
+
+Ranks the designs that meet all requirements and have every criterion: those of the paper (coverage,
+critical force, penetration resistance, flexural compliance), or those of --criteria, or of --maximize
+and --minimize. The fitness of a design is the product of its criteria, each rescaled from 0, the worst,
+to 1, the best, to the power of its weight; with --scale linear or log it is their weighted mean. A
+criterion without weight is ignored, and so is one that is the same for all but for round-off. Equal
+designs stand in the order of their numbers.
+Writes ranking.csv (by the weights), pareto.csv (designs that no other beats in every criterion),
+ranking.toml (what the ranking goes by) and, with four criteria, winners.csv and quaternary.csv (the best
+design for all weights). Where no design meets the requirements: the one that comes nearest, and which
+requirement stands in the way.
+Exit code: 0 done, 1 no design meets the requirements, 2 bad input or disk.")]
+pub struct Arguments {
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// A bound that designs must keep: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    #[arg(long, value_name = "COLUMN OP NUMBER")]
+    pub require: Vec<String>,
+
+    /// A column that is to be large (may be repeated: the Pareto front of all, and its knee)
+    #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
+    pub maximize: Vec<String>,
+
+    /// A column that is to be small (may be repeated)
+    #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
+    pub minimize: Vec<String>,
+
+    /// Criteria instead of those of the paper: max:COLUMN or min:COLUMN, or COLUMN where it is plain what is good
+    #[arg(long, value_name = "CRITERION,…")]
+    pub criteria: Option<String>,
+
+    /// Weights of the criteria in their order, those of --maximize first [default: all the same]
+    ///
+    /// None is negative; they count in proportion, whatever their sum. The order of the paper's criteria is coverage,
+    /// critical force, penetration resistance and flexural compliance.
+    #[arg(long, value_name = "W,…", allow_hyphen_values = true)]
+    pub weights: Option<String>,
+
+    /// How criteria are rescaled: paper, linear or log
+    #[arg(long, value_name = "SCALE", default_value = "paper")]
+    pub scale: String,
+
+    /// Count the force up to the first fold of the substrate's surface instead of the critical force
+    ///
+    /// Beyond a fold two bases have passed each other, and the model cannot answer for the force.
+    #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
+    pub sound: bool,
+
+    /// Designs that are printed
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10)]
+    pub top: usize,
+
+    /// Steps from one corner of the tetrahedron of weights to the next, 1 to 200
+    #[arg(long, value_name = "R", allow_hyphen_values = true, default_value = "20")]
+    pub resolution: String,
+
+    /// Folder of the tables [default: RESULTS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
 
 /// Finds the best designs of a run and writes them down.
-pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
+pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
@@ -36,11 +117,7 @@ pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     }
 }
 
-fn ranked(
-    arguments: &args::RankArguments,
-    results: &Results,
-    ranking: &Ranking<'_>,
-) -> anyhow::Result<u8> {
+fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
@@ -57,7 +134,7 @@ fn ranked(
 }
 
 fn none_meets(
-    arguments: &args::RankArguments,
+    arguments: &Arguments,
     results: &Results,
     preferences: &Preferences,
     unmet: &Unmet,
@@ -75,7 +152,7 @@ fn none_meets(
 }
 
 /// The preferences that the ranking goes by.
-fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
+fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     let require = |text: &String| option::<Requirement>("--require", text);
     let requirements = arguments.require.iter().map(require).collect::<anyhow::Result<_>>()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
@@ -89,7 +166,7 @@ fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
 }
 
 /// The criteria that are asked for, or those of the paper.
-fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
+fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
         columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()

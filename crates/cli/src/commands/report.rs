@@ -4,6 +4,7 @@ mod front;
 
 use std::path::PathBuf;
 
+use clap::Args;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{GapFactors, Page, PageDesign, drawings};
@@ -15,10 +16,35 @@ use sweep::Case;
 use super::draw::substrate;
 use super::figure_file::{Written, write_html};
 use super::results_folder::ResultsFolder;
-use super::source::{require_folder_of, verified_folder};
+use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derived};
-use crate::args;
 use crate::print::print;
+
+/// Arguments of `squama report`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama report results/paper
+  squama report results/paper --out paper.html
+  squama report results/paper --front results/front      # with what squama optimise has found
+
+The page needs no network and no server: open it in a browser.")]
+pub struct Arguments {
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// The page [default: RESULTS/report.html]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+
+    /// Folder of squama optimise, whose designs stand beside those of the grid
+    #[arg(long, value_name = "DIR")]
+    pub front: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
 
 /// Designs that a page holds, about, at most: a browser takes no more.
 const HELD: usize = 25_000;
@@ -33,7 +59,7 @@ const CURVE_STEP: f64 = 0.01;
 const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
-pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
+pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = ResultsFolder::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));

@@ -3,10 +3,31 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
+use clap::Args;
 use sweep::{Axis, Case, DesignNumber, Setting, Sweep};
 
-use super::source::{definition_file, settings};
-use crate::args;
+use super::source::{Definition, definition_file, settings};
+
+/// Numbers of designs, or their values.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = true)]
+pub struct Selection {
+    /// Numbers of designs in the grid of the sweep, e.g. 0417 or 1-12,0417
+    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
+    pub numbers: Vec<String>,
+
+    /// Gap d/t: a value, several as 0.1,0.2, or those of the sweep between two as 0.1..0.3
+    #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
+    pub gap: Option<String>,
+
+    /// Length L/t: as --gap
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub length: Option<String>,
+
+    /// Slant in degrees: as --gap
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub slant: Option<String>,
+}
 
 /// A design that is looked at.
 pub struct SelectedDesign {
@@ -22,8 +43,8 @@ pub struct SelectedDesign {
 
 /// The designs that are selected, at least one.
 pub fn select(
-    definition: &args::Definition,
-    selection: &args::Selection,
+    definition: &Definition,
+    selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let file = definition_file(&definition.path)?;
     let settings = settings(definition)?;
@@ -59,7 +80,7 @@ fn by_numbers(
 fn by_values(
     file: &Path,
     mut settings: Vec<Setting>,
-    selection: &args::Selection,
+    selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let written = Sweep::read(file, &settings)?;
     for (option, key, text) in options(selection) {
@@ -75,7 +96,7 @@ fn by_values(
 }
 
 /// The options that give values, each with the axis whose values they are.
-fn options(selection: &args::Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
+fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
     [
         ("--gap", "gap_over_t", selection.gap.as_ref()),
         ("--length", "length_over_t", selection.length.as_ref()),

@@ -1,9 +1,10 @@
 //! `squama sensitivity`.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::Args;
 use results::{CsvFormat, MEASURE_TABLES, RunFolder, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
@@ -12,21 +13,57 @@ use tolerance::{
     SampleStore, SobolIndices,
 };
 
-use super::source::{folder_within, read};
+use super::source::{Definition, folder_within, read};
 use super::tolerance::{SAMPLES, unless_stopped};
+use super::work::Threads;
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{aligned, counted, print};
 
+/// Arguments of `squama sensitivity`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama sensitivity --global box.toml
+  squama sensitivity --global box.toml --samples 4000 --json
+
+Draws the parameters of [variables], as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
+independently and evenly, everything else as the definition has it, and says which part of the variance of
+each measure every variable has: alone (first-order Sobol' index) and together with others (total index),
+each with its 95 % interval. A sample is solved at as many points as there are variables, and two more;
+one that fails anywhere is left out, and counted.
+Writes sobol.csv, and the samples in samples/, from which the same command goes on after an interruption.
+The derivatives at one design are those of squama design --sensitivity.
+Exit code: 0 done, 2 bad input or disk.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Over the whole box of the variables
+    #[arg(long, required = true)]
+    pub global: bool,
+
+    /// Samples
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub samples: u32,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Folder of the table [default: sensitivity in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
 const TABLE: &str = "sobol.csv";
 
 /// Says which part of the variance of each measure every variable has.
-pub fn sensitivity(
-    arguments: &args::SensitivityArguments,
-    interrupt: &Interrupt,
-) -> anyhow::Result<u8> {
+pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
     let default = || folder_within(&arguments.definition, &sweep, "sensitivity");

@@ -1,15 +1,39 @@
 //! `squama slurm`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
+use clap::Args;
 use results::{make_folder, quoted, shell_word, write_text};
 use sweep::Sweep;
 
 use super::DONE;
-use super::source::{folder_of, read};
-use crate::args;
+use super::source::{Definition, folder_of, read};
 use crate::print::print;
+
+/// Arguments of `squama slurm`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama slurm sweeps/paper.toml --shards 20
+  results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
+
+Writes submit.sh, which submits a job array with one element for each shard and a job that merges them,
+to DIR/slurm, with the complete definition beside it. Shards go to DIR/shards, the whole to DIR. Submitted
+again, shards go on where they ended. The folder may be moved.
+Exit code: 0 done, 2 bad input or disk.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Shards, 1 to 1000: elements of the job array
+    #[arg(long, allow_hyphen_values = true, value_name = "N")]
+    pub shards: u64,
+
+    /// Folder of the results [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
 
 /// The scripts, which are the same for every sweep.
 const SCRIPTS: [(&str, &str); 3] = [
@@ -23,7 +47,7 @@ const SCRIPTS: [(&str, &str); 3] = [
 const LARGEST: u64 = 1000;
 
 /// Writes the scripts that run a sweep as a job array.
-pub fn slurm(arguments: &args::SlurmArguments) -> anyhow::Result<u8> {
+pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments.shards, &sweep)?;
     let results = folder_of(&sweep, arguments.out.as_deref());

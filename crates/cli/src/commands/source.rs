@@ -3,10 +3,39 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::Args;
 use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep};
 
-use crate::args::Definition;
+/// Whether results are used that are not whole.
+#[derive(Debug, Args)]
+pub struct Partial {
+    /// Use the designs that are done, though others are missing; what is made from them says so
+    #[arg(long)]
+    pub partial: bool,
+}
+
+impl Partial {
+    /// The results that will do.
+    pub fn completeness(&self) -> Completeness {
+        if self.partial { Completeness::Partial } else { Completeness::Whole }
+    }
+}
+
+/// A definition and what is put in its place.
+#[derive(Debug, Args)]
+pub struct Definition {
+    /// Sweep definition in TOML, or the folder of an earlier run
+    #[arg(value_name = "SWEEP.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the definition, e.g. puncture.scales=41 (may be repeated)
+    ///
+    /// The key is dotted, the value is TOML; a single word needs no quotes. A parameter under
+    /// `designs` becomes an axis of the grid, e.g. `designs.width_over_t=[1,2]`.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+}
 
 /// The settings that take the place of what a definition says.
 pub fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {

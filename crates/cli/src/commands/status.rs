@@ -1,18 +1,39 @@
 //! `squama status`.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::Args;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
 
 use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
-use crate::args;
 use crate::json;
 use crate::print::{aligned, counted, print, time};
 
+/// Arguments of `squama status`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama status results/paper
+  squama status results/paper --json
+
+The run may be going on meanwhile. Checks every table against what the run states of it, and lists
+what was made from tables that are no longer there.
+Exit code: 0 done, 1 some designs failed or are missing, or a table is not as it was written, 2 bad input.")]
+pub struct Arguments {
+    /// Folder of a run, or the definition of its sweep
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Says how far a run is.
-pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
+pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
     let status = run::RunStatus::of(&results_folder(&arguments.results)?)?;
     if arguments.json {
         json::print(&as_json(&status))?;

@@ -4,10 +4,12 @@ mod figures;
 mod record;
 mod report;
 
+use std::path::PathBuf;
+
 use anyhow::{Context as _, ensure};
+use clap::Args;
 use ranking::Requirement;
 use rayon::prelude::*;
-
 use results::{CsvFormat, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
@@ -15,21 +17,65 @@ use tolerance::{
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
-use super::source::{folder_within, read};
+use super::source::{Definition, folder_within, read};
+use super::work::Threads;
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
+
+/// Arguments of `squama tolerance`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama tolerance armour.toml --design 0417 --require 'critical_force >= 2'
+  squama tolerance results/armour --design 0417 --require 'critical_force_N >= 2' --require 'coverage >= 0.6'
+  squama tolerance sweeps/smoke.toml --set 'tolerance.gap_over_t={ batch_sd = 0.02, scale_sd = 0.01 }'
+  squama tolerance sweeps/paper.toml --samples 0 --set 'tolerance.slant_deg={ batch_within = 2 }'
+
+What is made differs from what is drawn, by the deviations that [tolerance] gives: batch_sd, the standard
+deviation of what all scales of a batch share (normal), or batch_within, at most so much to either side
+(uniform); scale_sd, the standard deviation from scale to scale, of gaps and slants. A key is that of a
+parameter, as gap_over_t, or, with material.thickness_mm, that of a length in mm, as gap_mm.
+The spread of every measure is predicted from its derivatives, with the share of each source, and solved
+for with samples; both are told, and how far the prediction is off. The yield is the share of samples that
+meet a requirement, with its 95 % interval; a sample that fails does not meet it, and is counted apart.
+Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each
+design in samples/, from which the same command goes on after an interruption, or with more samples.
+Exit code: 0 done, 1 a design as drawn stopped early, 2 bad input or disk.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Numbers of designs in the grid of the sweep, e.g. 0417 or 1-12,0417 [default: all]
+    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',')]
+    pub numbers: Vec<String>,
+
+    /// A bound that samples must keep: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    #[arg(long, value_name = "COLUMN OP NUMBER")]
+    pub require: Vec<String>,
+
+    /// Samples of each design; 0 for the linear prediction alone
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
+    pub samples: u32,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Folder of the tables [default: tolerance in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// The folder of the samples in that of the tables.
 pub(super) const SAMPLES: &str = "samples";
 
 /// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
-pub fn tolerance(
-    arguments: &args::ToleranceArguments,
-    interrupt: &Interrupt,
-) -> anyhow::Result<u8> {
+pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
     let requirements = requirements(arguments)?;
@@ -62,7 +108,7 @@ pub fn tolerance(
 /// The outcome of an analysis; `None`, and a word about it, if it was told to stop.
 pub(super) fn unless_stopped<T>(
     analysed: Result<T, NoAnalysis>,
-    definition: &args::Definition,
+    definition: &Definition,
 ) -> anyhow::Result<Option<T>> {
     match analysed {
         Ok(all) => Ok(Some(all)),
@@ -75,7 +121,7 @@ pub(super) fn unless_stopped<T>(
 }
 
 /// Refuses a sweep in which nothing deviates.
-fn check(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<()> {
+fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         !sweep.deviations().is_empty() || sweep.is_imperfect(),
         "{}: has no [tolerance], expected deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }} in it, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
@@ -88,13 +134,13 @@ fn check(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<
     Ok(())
 }
 
-fn requirements(arguments: &args::ToleranceArguments) -> anyhow::Result<Vec<Requirement>> {
+fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
     let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
     arguments.require.iter().map(read).collect()
 }
 
 /// The indices of the designs that are asked for.
-fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
+fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
     if arguments.numbers.is_empty() {
         return Ok((0..grid.len()).collect());

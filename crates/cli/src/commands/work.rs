@@ -1,0 +1,75 @@
+//! How designs are solved and what becomes of earlier results: arguments that several commands share.
+
+use std::thread::available_parallelism;
+
+use clap::Args;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use run::Start;
+
+/// Whether a command goes on with earlier results or throws them away; it refuses to touch them if neither is said.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Earlier {
+    /// Go on with the results that are there, if there are any
+    #[arg(long, conflicts_with = "fresh")]
+    resume: bool,
+
+    /// Throw away the results that are there, if there are any
+    #[arg(long)]
+    fresh: bool,
+}
+
+impl Earlier {
+    /// The start of the journal.
+    pub fn start(self) -> Start {
+        match (self.resume, self.fresh) {
+            (true, _) => Start::Resume,
+            (_, true) => Start::Fresh,
+            _ => Start::New,
+        }
+    }
+}
+
+/// How designs are solved.
+#[derive(Debug, Args)]
+pub struct Work {
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// End the run at the first design that fails
+    #[arg(long)]
+    pub fail_fast: bool,
+
+    /// No progress bar and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// The format of the tables.
+#[derive(Debug, Args)]
+pub struct Format {
+    /// How the tables are written: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,`
+    /// and a byte-order mark) [default: as they were before, or plain]
+    #[arg(long, value_name = "FORMAT")]
+    pub csv: Option<results::CsvFormat>,
+}
+
+/// The number of threads.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Threads {
+    /// Threads [default: all cores]
+    #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    number: Option<u16>,
+}
+
+impl Threads {
+    /// As many as are asked for, or one for each core.
+    pub fn count(self) -> usize {
+        let cores = || available_parallelism().map_or(1, usize::from);
+        self.number.map_or_else(cores, usize::from)
+    }
+
+    /// A pool of so many threads.
+    pub fn pool(self) -> anyhow::Result<ThreadPool> {
+        Ok(ThreadPoolBuilder::new().num_threads(self.count()).build()?)
+    }
+}
