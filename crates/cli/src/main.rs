@@ -6,14 +6,12 @@
 //! | `interrupt` | signals that ask a process to end |
 //! | `progress` | the bar on the terminal |
 //! | `print`, `json` | text for people: aligned tables, closed pipes; the same for programs |
-//! | `templates` | definitions to begin with |
 
 mod commands;
 mod interrupt;
 mod json;
 mod print;
 mod progress;
-mod templates;
 
 use std::io::Write as _;
 use std::process::ExitCode;

@@ -44,7 +44,7 @@ pub struct LinearSpread {
 
 /// A design with its derivatives and deviations.
 pub(crate) struct Gradients<'a> {
-    /// The design as it is drawn, with its scatter from scale to scale and the derivatives with respect to its parameters.
+    /// The nominal design, with its scatter from scale to scale and the derivatives with respect to its parameters.
     pub(crate) design: &'a DesignRow,
     pub(crate) deviations: &'a [Deviation],
     /// Derivatives with respect to the gaps and slants of single scales.

@@ -186,21 +186,36 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// The elasticities of the measures: a line for each measure and parameter, kinks by their names.
+/// Parameters that are listed for each measure, those that move it most.
+const LISTED: usize = 3;
+
+/// The largest elasticities of each measure, and the kinks, which have none; the table has all.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
         return String::new();
     }
-    let line = |derivative: &ParameterDerivative| {
-        let change = match (&derivative.kink, derivative.elasticity()) {
-            (Some(kink), _) => format!("kink: {kink}"),
-            (None, Some(elasticity)) => format!("{elasticity:+.3} %"),
-            (None, None) => "none".to_owned(),
-        };
-        [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
+    let size = |d: &ParameterDerivative| match d.kink {
+        Some(_) => f64::INFINITY,
+        None => d.elasticity().map_or(0.0, f64::abs),
     };
-    let lines: Vec<_> = derivatives.iter().map(line).collect();
-    format!("\nChange for one per cent of a parameter\n{}", aligned(&lines))
+    let mut lines = Vec::new();
+    for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
+        let mut known: Vec<_> =
+            of_measure.iter().filter(|d| d.kink.is_some() || d.elasticity().is_some()).collect();
+        // A kink counts as infinite: it changes more than any slope.
+        known.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));
+    }
+    let title = "Change for one per cent of a parameter, the three largest of each measure";
+    format!("\n{title} (sensitivity.csv has all)\n{}", aligned(&lines))
+}
+
+fn sensitivity_line(derivative: &ParameterDerivative) -> [String; 3] {
+    let change = match (&derivative.kink, derivative.elasticity()) {
+        (Some(kink), _) => format!("kink: {kink}"),
+        (None, elasticity) => format!("{:+.3} %", elasticity.unwrap_or_default()),
+    };
+    [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
 }
 
 fn unit(unit: &str) -> String {

@@ -1,7 +1,5 @@
 //! `squama draw`.
 
-use std::path::Path;
-
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use report::drawings;
@@ -10,10 +8,9 @@ use substrate::RowStiffness;
 use sweep::Case;
 
 use super::DONE;
-use super::figure_file::{FigureOutput, Written, check_dpi, joined, write_html, write_svg};
+use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
-use crate::print::print;
 
 /// Arguments of `squama draw`.
 #[derive(Debug, Args)]
@@ -68,18 +65,16 @@ pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
-    let folder = arguments.output.out.clone().unwrap_or_else(folder);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, folder)?;
     for design in &designs {
-        let drawing = Drawing { design, case: design.case(), arguments, folder: &folder };
+        let drawing = Drawing { design, case: design.case(), arguments };
         if arguments.flexure {
             drawing.flexure(&mut files)?;
         } else {
             drawing.puncture(&mut files)?;
         }
     }
-    print(&files.report(&folder))?;
+    files.print()?;
     Ok(DONE)
 }
 
@@ -106,7 +101,6 @@ struct Drawing<'a> {
     design: &'a SelectedDesign,
     case: Case,
     arguments: &'a Arguments,
-    folder: &'a Path,
 }
 
 impl Drawing<'_> {
@@ -114,7 +108,7 @@ impl Drawing<'_> {
         format!("design-{}-{what}", self.design.label())
     }
 
-    fn puncture(&self, files: &mut Written) -> anyhow::Result<()> {
+    fn puncture(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let case = &self.case;
         let critical = case.puncture.critical_tilt_deg;
         let at: Vec<_> = match self.arguments.at.as_slice() {
@@ -134,7 +128,7 @@ impl Drawing<'_> {
         };
         if self.arguments.animate {
             let file = self.file("puncture-animation");
-            return write_html(self.folder, &file, &drawing.animation()?, files);
+            return files.html(&file, &drawing.animation()?);
         }
         let place = if self.arguments.force.is_empty() {
             places(&self.arguments.at, "u", "critical-tilt")
@@ -142,7 +136,7 @@ impl Drawing<'_> {
             places(&self.arguments.force, "force", "")
         };
         let file = self.file(&format!("puncture-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
+        files.svg(&file, &drawing.svg()?)
     }
 
     /// Displacements at equal steps, up to the critical tilt.
@@ -166,7 +160,7 @@ impl Drawing<'_> {
         at.iter().zip(solved.at).map(reached).collect()
     }
 
-    fn flexure(&self, files: &mut Written) -> anyhow::Result<()> {
+    fn flexure(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let parameters = self.case.flexure;
         let last = parameters.max_end_rotation_deg;
         let at = self.rotations_deg(last);
@@ -188,7 +182,7 @@ impl Drawing<'_> {
         };
         if self.arguments.animate {
             let file = self.file("flexure-animation");
-            return write_html(self.folder, &file, &drawing.animation()?, files);
+            return files.html(&file, &drawing.animation()?);
         }
         let place = places(
             &self.arguments.at,
@@ -196,7 +190,7 @@ impl Drawing<'_> {
             if last > 0.0 { "0-to-180-deg" } else { "0-to-minus-180-deg" },
         );
         let file = self.file(&format!("flexure-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
+        files.svg(&file, &drawing.svg()?)
     }
 
     /// The end rotations to draw a strip at that is bent by `last`, degrees.

@@ -12,9 +12,8 @@ use ::report::Figure;
 use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
 use results::{RunFolder, make_folder};
-use sweep::Setting;
 
-use super::source::folder_of;
+use super::source::{folder_of, settings};
 use super::work::{Earlier, Format, Threads};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
@@ -85,9 +84,7 @@ pub struct Arguments {
 
 /// Finds the best designs of a goal and writes them down.
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let settings = arguments.settings.iter().map(|text| Setting::parse(text));
-    let settings: Vec<Setting> = settings.collect::<Result<_, _>>()?;
-    let goal = DesignGoal::read(&arguments.path, &settings)?;
+    let goal = DesignGoal::read(&arguments.path, &settings(&arguments.settings)?)?;
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
     make_folder(&folder)?;
     interrupt.ask_first();

@@ -11,12 +11,11 @@ use skin::puncture::{self, Puncture};
 use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
-use super::figure_file::{FigureOutput, Written, check_dpi, joined, write_svg};
+use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
-use super::{DONE, INCOMPLETE, derived};
-use crate::print::print;
+use super::{DONE, INCOMPLETE};
 
 /// Arguments of `squama plot`.
 #[derive(Debug, Args)]
@@ -132,21 +131,14 @@ fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
     )?;
-    let folder = figure_folder(&results, &arguments.output);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
     let ranking = results.comparable_ranking()?;
     for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
-        write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
+        files.svg(&figure.name, &figure.svg)?;
     }
-    derived::note(results.verified(), "figures", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    files.note(results.verified())?;
+    files.print()?;
     Ok(DONE)
-}
-
-/// The folder of the figures of a sweep.
-fn figure_folder(results: &ResultsFolder, output: &FigureOutput) -> PathBuf {
-    output.out.clone().unwrap_or_else(|| results.folder.join("figures"))
 }
 
 fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
@@ -164,12 +156,10 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     let request =
         MapRequest { x: arguments.x.clone(), y: arguments.y.clone(), of: arguments.of.clone(), at };
     let figure = map(&results.title(), &results.designs, &request)?;
-    let folder = figure_folder(&results, &arguments.output);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
-    write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
-    derived::note(results.verified(), "figures", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
+    files.svg(&figure.name, &figure.svg)?;
+    files.note(results.verified())?;
+    files.print()?;
     Ok(DONE)
 }
 
@@ -191,9 +181,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         .collect();
     let sweep = &designs[0].sweep;
     let folder = || folder_within(&arguments.definition, sweep, "curves");
-    let folder = arguments.output.out.clone().unwrap_or_else(folder);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, folder)?;
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown) {
@@ -201,9 +189,9 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
-        write_svg(&folder, &file, &figure.svg, &arguments.output, &mut files)?;
+        files.svg(&file, &figure.svg)?;
     }
-    print(&files.report(&folder))?;
+    files.print()?;
     let failed = solved
         .iter()
         .any(|(puncture, flexure)| [puncture.status, flexure.status] != [Status::Complete; 2]);

@@ -12,6 +12,7 @@ use ranking::{
 };
 
 use super::source::{Partial, verified_folder};
+use super::work::whole;
 use super::{DONE, INCOMPLETE, derived};
 use crate::json;
 use crate::print::print;
@@ -84,8 +85,8 @@ pub struct Arguments {
     pub sound: bool,
 
     /// Designs that are printed
-    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10)]
-    pub top: usize,
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<0, { u64::MAX }>)]
+    pub top: u64,
 
     /// Steps from one corner of the tetrahedron of weights to the next, 1 to 200
     #[arg(long, value_name = "R", allow_hyphen_values = true, default_value = "20")]
@@ -123,11 +124,12 @@ fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> an
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     let changes = gap_changes(results, ranking);
     if arguments.json {
-        let mut record = ranking_record(results, ranking, arguments.top);
+        let mut record = ranking_record(results, ranking, arguments.top as usize);
         record["gap_changes"] = gap_changes_record(&changes).into();
         json::print(&record)?;
     } else {
-        let text = RankReport { results, ranking, top: arguments.top, changes: &changes }.text();
+        let text =
+            RankReport { results, ranking, top: arguments.top as usize, changes: &changes }.text();
         print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     }
     Ok(DONE)

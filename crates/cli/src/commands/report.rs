@@ -14,7 +14,7 @@ use skin::{flexure, puncture};
 use sweep::Case;
 
 use super::draw::substrate;
-use super::figure_file::{Written, write_html};
+use super::figure_file::write;
 use super::results_folder::ResultsFolder;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derived};
@@ -67,12 +67,11 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
     let page = Page { front: front.transpose()?, ..page(&results)? };
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    let name =
-        out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
-    let mut files = Written::default();
-    write_html(&folder, &name, &page.html(), &mut files)?;
-    derived::note(results.verified(), "page", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    let name = out.with_extension("html");
+    let name = name.file_name().unwrap_or_default().to_string_lossy();
+    write(&folder, &name, page.html().as_bytes())?;
+    derived::note(results.verified(), "page", &folder, &[&name])?;
+    print(&format!("{}\n", folder.join(&*name).display()))?;
     Ok(DONE)
 }
 

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use run::{Filter, Rerun};
-use sweep::Setting;
 
 use super::run::{conclude, exit_code, options, summary};
-use super::source::results_folder;
+use super::source::{results_folder, settings};
 use super::work::{Format, Work};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
@@ -66,8 +65,7 @@ const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
 pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let settings = arguments.settings.iter().map(|text| Setting::parse(text));
-    let settings = settings.collect::<Result<Vec<_>, _>>()?;
+    let settings = settings(&arguments.settings)?;
     let folder = results_folder(&arguments.results)?;
     let rerun = Rerun::plan(&folder, &filter(arguments), &settings, &PROGRAM)?;
     if rerun.designs().len() == 0 {

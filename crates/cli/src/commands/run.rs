@@ -11,7 +11,7 @@ use run::{Best, Finished, Options};
 use sweep::{RandomSample, Subset, Sweep};
 
 use super::source::{Definition, folder_of, read};
-use super::work::{Earlier, Format, Work};
+use super::work::{Earlier, Format, Work, whole};
 use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print, time};
@@ -62,7 +62,7 @@ pub struct Arguments {
     pub earlier: Earlier,
 
     /// Solve a random subset of this many designs
-    #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS")]
+    #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS", value_parser = whole::<1, { u64::MAX }>)]
     pub sample: Option<u64>,
 
     /// Seed of the random subset: the same seed, the same designs
@@ -71,7 +71,8 @@ pub struct Arguments {
         allow_hyphen_values = true,
         value_name = "SEED",
         requires = "sample",
-        default_value_t = 0
+        default_value_t = 0,
+        value_parser = whole::<0, { u64::MAX }>
     )]
     pub seed: u64,
 
@@ -127,7 +128,7 @@ fn note_variables(sweep: &Sweep) {
     let keys: Vec<_> = sweep.variables().iter().map(|v| v.parameter().key).collect();
     if !keys.is_empty() {
         note(&format!(
-            "[variables] {} stand in the middle of their values; squama optimise and squama sensitivity --global go through them",
+            "[variables] {} stand in the middle of their values; squama optimise and squama sensitivity go through them",
             keys.join(", ")
         ));
     }

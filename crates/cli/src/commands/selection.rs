@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use sweep::{Axis, Case, DesignNumber, Setting, Sweep};
+use sweep::{Axis, Case, DesignNumber, Grid, Setting, Sweep};
 
 use super::source::{Definition, definition_file, settings};
 
@@ -47,7 +47,7 @@ pub fn select(
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let file = definition_file(&definition.path)?;
-    let settings = settings(definition)?;
+    let settings = settings(&definition.settings)?;
     if selection.numbers.is_empty() {
         by_values(&file, settings, selection)
     } else {
@@ -63,18 +63,23 @@ fn by_numbers(
     let sweep = Sweep::read(file, settings)?;
     let grid = sweep.grid();
     let original = Sweep::read(file, &[]).ok().filter(|other| other.grid().len() == grid.len());
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{}: --design {text}", file.display()))
-    };
-    let ranges = numbers.iter().map(range).collect::<anyhow::Result<Vec<_>>>()?;
     let selected = |index| SelectedDesign {
         number: Some(grid.number(index)),
         count: grid.len(),
         original: original.as_ref().map(|original| original.grid().case(index)),
         sweep: sweep.only(index),
     };
-    Ok(ranges.into_iter().flatten().map(selected).collect())
+    Ok(indices(grid, numbers, file)?.into_iter().map(selected).collect())
+}
+
+/// The indices of the designs with these numbers in the grid of `file`.
+pub fn indices(grid: &Grid, numbers: &[String], file: &Path) -> anyhow::Result<Vec<u64>> {
+    let range = |text: &String| {
+        let range = grid.parse_numbers(text.trim());
+        range.with_context(|| format!("{}: --design {text}", file.display()))
+    };
+    let ranges: Vec<_> = numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
+    Ok(ranges.into_iter().flatten().collect())
 }
 
 fn by_values(

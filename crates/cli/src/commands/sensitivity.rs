@@ -15,7 +15,7 @@ use tolerance::{
 
 use super::source::{Definition, folder_within, read};
 use super::tolerance::{SAMPLES, unless_stopped};
-use super::work::Threads;
+use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -25,8 +25,8 @@ use crate::print::{aligned, counted, print};
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  squama sensitivity --global box.toml
-  squama sensitivity --global box.toml --samples 4000 --json
+  squama sensitivity box.toml
+  squama sensitivity box.toml --samples 4000 --json
 
 Draws the parameters of [variables], as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
 independently and evenly, everything else as the definition has it, and says which part of the variance of
@@ -40,13 +40,13 @@ pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Over the whole box of the variables
-    #[arg(long, required = true)]
-    pub global: bool,
+    // Scripts of earlier versions say it.
+    #[arg(long = "global", hide = true)]
+    _global: bool,
 
     /// Samples
-    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
-    pub samples: u32,
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
+    pub samples: u64,
 
     #[command(flatten)]
     pub threads: Threads,

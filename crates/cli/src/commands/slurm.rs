@@ -9,6 +9,7 @@ use sweep::Sweep;
 
 use super::DONE;
 use super::source::{Definition, folder_of, read};
+use super::work::whole;
 use crate::print::print;
 
 /// Arguments of `squama slurm`.
@@ -27,7 +28,7 @@ pub struct Arguments {
     pub definition: Definition,
 
     /// Shards, 1 to 1000: elements of the job array
-    #[arg(long, allow_hyphen_values = true, value_name = "N")]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,
 
     /// Folder of the results [default: results/NAME]

@@ -1,5 +1,6 @@
 //! A definition and the folder of its results: whichever of the two is given, the other is found.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
@@ -38,13 +39,13 @@ pub struct Definition {
 }
 
 /// The settings that take the place of what a definition says.
-pub fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {
-    definition.settings.iter().map(|text| Setting::parse(text)).collect()
+pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
+    texts.iter().map(|text| Setting::parse(text)).collect()
 }
 
 /// The sweep that is defined, with its settings.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
-    let settings = settings(definition)?;
+    let settings = settings(&definition.settings)?;
     Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
 }
 
@@ -68,6 +69,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
 /// The folder of results: `path`, the folder of the record `path`, or that of the sweep that `path` defines.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
+        refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
     if path.ends_with(RunFolder::RUN_INFO) {
@@ -81,6 +83,24 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
         folder.display()
     );
     Ok(folder)
+}
+
+/// Refuses a folder that holds runs but is none, and names them.
+fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
+    let is_run = |folder: &Path| {
+        [RunFolder::RUN_INFO, RunFolder::JOURNAL].iter().any(|file| folder.join(file).is_file())
+    };
+    if is_run(path) {
+        return Ok(());
+    }
+    let folders = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    let runs = folders.filter(|folder| is_run(folder));
+    let mut names: Vec<_> =
+        runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    let folder = path.display();
+    ensure!(names.is_empty(), "{folder} holds no run; the runs in it are {}", names.join(", "));
+    Ok(())
 }
 
 /// The results in the folder that `path` stands for, once they are checked.

@@ -17,8 +17,9 @@ use tolerance::{
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
+use super::selection::indices;
 use super::source::{Definition, folder_within, read};
-use super::work::Threads;
+use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -56,8 +57,8 @@ pub struct Arguments {
     pub require: Vec<String>,
 
     /// Samples of each design; 0 for the linear prediction alone
-    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = clap::value_parser!(u32).range(0..=1_000_000))]
-    pub samples: u32,
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<0, 1_000_000>)]
+    pub samples: u64,
 
     #[command(flatten)]
     pub threads: Threads,
@@ -79,7 +80,10 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
     let requirements = requirements(arguments)?;
-    let designs = designs(arguments, &sweep)?;
+    let designs = match arguments.numbers.as_slice() {
+        [] => (0..sweep.grid().len()).collect(),
+        numbers => indices(sweep.grid(), numbers, &arguments.definition.path)?,
+    };
     let default = || folder_within(&arguments.definition, &sweep, "tolerance");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
     let store = SampleStore::new(&folder.file(SAMPLES));
@@ -101,7 +105,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
         let text = report::report(&sweep, &requirements, &all);
         print(&format!("{text}\n{}: {}\n", place.display(), files.join(" ")))?;
     }
-    let failed = all.iter().any(|design| design.drawn.result.failed());
+    let failed = all.iter().any(|design| design.nominal.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
@@ -139,21 +143,6 @@ fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
     arguments.require.iter().map(read).collect()
 }
 
-/// The indices of the designs that are asked for.
-fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
-    let grid = sweep.grid();
-    if arguments.numbers.is_empty() {
-        return Ok((0..grid.len()).collect());
-    }
-    let path = arguments.definition.path.display();
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{path}: --design {text}"))
-    };
-    let ranges: anyhow::Result<Vec<_>> = arguments.numbers.iter().map(range).collect();
-    Ok(ranges?.into_iter().flatten().collect())
-}
-
 /// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.
 fn analysed(
     analysis: &Analysis<'_>,
@@ -175,7 +164,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     folder.make()?;
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
-        let number = design.drawn.number;
+        let number = design.nominal.number;
         let row = move |measure: &tolerance::MeasureTolerance| DesignMeasureTolerance {
             design: number,
             measure: measure.clone(),
@@ -189,7 +178,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     write_rows(folder, "tolerance_sources.csv", format, SOURCE_COLUMNS, sources)?;
     files.push("tolerance_sources.csv".to_owned());
     let yields = all.iter().flat_map(|design| {
-        let number = design.drawn.number;
+        let number = design.nominal.number;
         design.yields.iter().map(move |of| DesignYield { design: number, of: of.clone() })
     });
     if all.iter().any(|design| !design.yields.is_empty()) {
@@ -205,7 +194,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
 fn sources(design: &DesignTolerance) -> impl Iterator<Item = DesignSource> {
     let of = |measure: &tolerance::MeasureTolerance| {
         let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
-        let (design, measure) = (design.drawn.number, measure.name.clone());
+        let (design, measure) = (design.nominal.number, measure.name.clone());
         let row = move |source| DesignSource { design, measure: measure.clone(), source };
         sources.map(row).collect::<Vec<_>>()
     };

@@ -57,19 +57,28 @@ pub struct Format {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
     /// Threads [default: all cores]
-    #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    number: Option<u16>,
+    #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
+    number: Option<u64>,
 }
 
 impl Threads {
     /// As many as are asked for, or one for each core.
     pub fn count(self) -> usize {
         let cores = || available_parallelism().map_or(1, usize::from);
-        self.number.map_or_else(cores, usize::from)
+        self.number.map_or_else(cores, |number| number as usize)
     }
 
     /// A pool of so many threads.
     pub fn pool(self) -> anyhow::Result<ThreadPool> {
         Ok(ThreadPoolBuilder::new().num_threads(self.count()).build()?)
     }
+}
+
+/// Reads a whole number from `LOW` to `HIGH`. The parsers of clap speak of digits and types where it is none.
+pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));
+    number.ok_or_else(|| match HIGH {
+        u64::MAX => format!("expected a whole number of at least {LOW}"),
+        _ => format!("expected a whole number from {LOW} to {HIGH}"),
+    })
 }

@@ -19,7 +19,7 @@ pub fn write(
     requirements: &[Requirement],
     design: &DesignTolerance,
 ) -> anyhow::Result<Vec<String>> {
-    let name = format!("{} design {}", sweep.name(), design.drawn.number);
+    let name = format!("{} design {}", sweep.name(), design.nominal.number);
     let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
     let shares: Vec<Shares> = shown.filter_map(shares).collect();
     folder.write_text(SOURCES, &share_bars(&name, &shares))?;

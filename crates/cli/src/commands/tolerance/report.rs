@@ -35,7 +35,7 @@ pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignToleranc
 }
 
 fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) -> String {
-    let (number, count) = (design.drawn.number, sweep.grid().len());
+    let (number, count) = (design.nominal.number, sweep.grid().len());
     let samples = counted(design.samples.len() as u64, "sample");
     let mut text = format!("{}: design {number} of {count}, {samples}\n", sweep.name());
     let is_shown = |measure: &&MeasureTolerance| is_shown(&measure.name, requirements);
@@ -135,7 +135,7 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
             format!("{} {value} ± {}", m.name, spread.map_or("unknown".to_owned(), short))
         };
         let measures: Vec<_> = shown.map(measure).collect();
-        vec![design.drawn.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
+        vec![design.nominal.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
     };
     let rows: Vec<_> = designs.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));
