@@ -48,7 +48,7 @@ const DIFFERENT: u8 = 1;
 /// Version and revision of the source.
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVISION"), ")");
 
-/// Design flexible armour: solve every design of a sweep over skins of hard scales.
+/// Design flexible armour: solve, rank and optimise skins of hard scales.
 #[derive(Debug, Parser)]
 #[command(
     name = "squama",
@@ -56,15 +56,15 @@ const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVI
     arg_required_else_help = true,
     after_help = "\
 Examples:
-  squama init smoke                         a commented definition, in smoke.toml
-  squama check smoke.toml                   what would run
-  squama run smoke.toml                     a handful of designs, in results/smoke/
-  squama design smoke.toml --design 0007    one design, with its whole path
-  squama status results/smoke               how far a run is
+  squama init smoke                         write a commented definition, smoke.toml
+  squama check smoke.toml                   show what would run
+  squama run smoke.toml                     solve a handful of designs, into results/smoke/
+  squama rank results/smoke                 show the best of them
+  squama design smoke.toml --design 0007    solve one design, with its whole path
 
-A folder of results does where a definition is asked for, and the other way round.
+Commands accept a definition or a results folder.
 
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk."
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error."
 )]
 pub struct Arguments {
     /// The command.
@@ -75,46 +75,46 @@ pub struct Arguments {
 /// The command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
-    /// Write a commented definition to begin with
+    /// Write a commented definition to start from
     Init(init::Arguments),
     /// Solve every design of a sweep and write the tables
     Run(run::Arguments),
     /// Solve some designs of a run again, with other settings
     Rerun(rerun::Arguments),
-    /// Say how far a run is, what failed and why
+    /// Show how far a run is, which designs failed, and why
     Status(status::Arguments),
-    /// Put the shards of a sweep together
+    /// Combine the shards of a sweep in one results folder
     Merge(merge::Arguments),
-    /// Write the scripts that run a sweep on a cluster with Slurm
+    /// Write the scripts that run a sweep on a Slurm cluster
     Slurm(slurm::Arguments),
     /// Solve one design, print its measures and write its path
     Design(design::Arguments),
-    /// Say how far what is made may differ from what is drawn, and how much of it meets what is required
+    /// Predict the effect of manufacturing tolerances, and the yield
     Tolerance(tolerance::Arguments),
-    /// Say which parameters the measures depend on most, over a box of them
+    /// Find the parameters that the measures depend on most, over whole ranges
     Sensitivity(sensitivity::Arguments),
-    /// Find the best designs of a run: by weights, for all weights, and without any
+    /// Rank designs by weighted criteria, and list the Pareto front
     Rank(rank::Arguments),
-    /// Find the best designs between the grid points, as a goal asks for them
+    /// Search between the grid points for the optimum of a goal, or its Pareto front
     #[command(visible_alias = "optimize")]
     Optimise(optimise::Arguments),
-    /// Say where two runs differ, and by how much
+    /// Show where two runs differ, and by how much
     Compare(compare::Arguments),
     /// Draw designs to scale: at rest, punctured, bent
     Draw(draw::Arguments),
-    /// Plot the figures of a sweep, or the curves of designs
+    /// Plot the figures of a sweep, a map, or the curves of designs
     Plot(plot::Arguments),
-    /// Write one page that shows a sweep
+    /// Write one HTML page with the figures and designs of a sweep
     Report(report::Arguments),
     /// Write the tables of a run as one workbook for Excel and other spreadsheets
     Export(export::Arguments),
-    /// Validate a sweep definition and say what would run
+    /// Check a definition and show what would run
     Check(check::Arguments),
-    /// Print the springs that stand for the substrate under a row of scales
+    /// Print the stiffness of the springs that represent the substrate
     Calibrate(calibrate::Arguments),
-    /// Show what squama reproduces: benchmarks, the claims of the paper, sensitivity
+    /// Compare squama with benchmarks and with the claims of the paper
     Validate(validate::Arguments),
-    /// Print completions for a shell
+    /// Print shell completions
     Completions(completions::Arguments),
     /// Write manual pages
     Man(man::Arguments),

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     let interrupt = match Interrupt::listen() {
         Ok(interrupt) => interrupt,
         Err(error) => {
-            return refuse(&anyhow::Error::new(error).context("signals cannot be listened to"));
+            return refuse(&anyhow::Error::new(error).context("cannot listen to signals"));
         }
     };
     command.run(&interrupt).map_or_else(|error| refuse(&error), ExitCode::from)

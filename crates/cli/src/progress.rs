@@ -22,7 +22,7 @@ const PARTS: u64 = 10_000;
 
 /// Said when the first signal has come.
 const ENDING: &str =
-    "ending once the designs in hand are done; a second signal ends at once, --resume goes on";
+    "ending after the designs in progress; a second signal ends at once, and --resume continues";
 
 /// Work that can be looked at while it is done.
 trait Watched: Send + Sync + 'static {

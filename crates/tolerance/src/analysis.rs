@@ -151,9 +151,8 @@ impl<'a> Analysis<'a> {
         store: &SampleStore,
     ) -> Result<Vec<SolvedSample>, NoAnalysis> {
         // A sample for which no deviations are found is one that fails, with no values.
-        let solve = |sample: u64| {
-            self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()])
-        };
+        let solve =
+            |sample: u64| self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()]);
         let number = nominal.row.number.to_string();
         let identity = identity(self.program, &self.sweep.only(nominal.index));
         store.samples((&number, &identity), columns, self.samples, self.stop, solve)

@@ -62,7 +62,7 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     let several = "--gap and --length: several values, expected one of each";
     ensure!(sweep.grid().len() == 1, several);
     let case = sweep.grid().case(0);
-    case.footprint().context("lengths too far apart, expected comparable ones")
+    case.footprint().context("the lengths differ too much for the boundary elements")
 }
 
 fn report(footprint: &Footprint, springs: &Springs) -> String {

@@ -124,7 +124,7 @@ fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
     let judged = counted(estimate.solved, "design");
     let threads = counted(threads as u64, "thread");
     vec![
-        row("time", &format!("{duration} on {threads}, judged by {judged}")),
+        row("time", &format!("{duration} on {threads}, estimated from {judged}")),
         row("size", &format!("about {} of journal and tables", bytes(estimate.bytes))),
     ]
 }

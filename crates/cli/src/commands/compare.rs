@@ -20,27 +20,27 @@ Examples:
   squama compare results/paper results/paper-as-written
   squama compare results/reference/paper results/paper --tolerance 1e-9 --exit-code
 
-Designs are the same if their parameters are, whatever their numbers. With --out, writes
-compare.csv (column by column) and differences.csv (cell by cell).
-Exit code: 0 done, 1 the runs differ (with --exit-code), 2 bad input or disk.")]
+Designs are matched by their parameters, not by their numbers. --out writes compare.csv (column by
+column) and differences.csv (cell by cell).
+Exit code: 0 done, 1 the runs differ (with --exit-code), 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub first: PathBuf,
 
-    /// Folder of another run, or its definition
+    /// Results folder of another run, or its definition
     #[arg(value_name = "OTHER")]
     pub second: PathBuf,
 
-    /// Numbers are the same if they differ by at most this, relative to the larger; 0 takes every bit
+    /// Largest relative difference of two numbers that count as equal; 0 compares every bit
     #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "1e-12")]
     pub tolerance: String,
 
-    /// Exit with 1 if the runs differ
+    /// Exit with code 1 if the runs differ
     #[arg(long)]
     pub exit_code: bool,
 
-    /// Folder of the tables of what differs
+    /// Write tables of the differences to this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -108,7 +108,7 @@ fn unmatched(designs: &[&str], folder: &str) -> String {
     if designs.len() > LISTED {
         listed.push_str(" …");
     }
-    format!("  {} in {folder} alone: {listed}\n", counted(designs.len() as u64, "design"))
+    format!("  {} only in {folder}: {listed}\n", counted(designs.len() as u64, "design"))
 }
 
 fn columns(comparison: &Comparison<'_>) -> String {
@@ -140,7 +140,7 @@ const HEADER: [&str; 9] = [
     "column",
     "compared",
     "differ",
-    "one alone",
+    "in one only",
     "largest relative",
     "at design",
     "first",

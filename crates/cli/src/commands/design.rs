@@ -33,8 +33,8 @@ Solves the design exactly as the sweep does. A design given by its lengths need 
 grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
 Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
 steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
-With --sensitivity, sensitivity.csv as well, and what one per cent of each parameter does to the measures.
-Exit code: 0 done, 1 the design stopped early, 2 bad input or disk.")]
+--sensitivity also writes sensitivity.csv, and prints how one per cent of a parameter changes the measures.
+Exit code: 0 done, 1 the design failed, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -46,11 +46,11 @@ pub struct Arguments {
     #[arg(long)]
     pub json: bool,
 
-    /// Differentiate every measure with respect to every continuous parameter: sensitivity.csv
+    /// Differentiate every measure with respect to every continuous parameter
     #[arg(long)]
     pub sensitivity: bool,
 
-    /// Folder of the files [default: designs/NUMBER in the results of the sweep]
+    /// Folder for the files [default: designs/NUMBER in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -81,7 +81,7 @@ fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     let mut designs = select(&arguments.definition, &arguments.selection)?;
     ensure!(
         designs.len() == 1,
-        "{}: {} designs are asked for, expected one: {}",
+        "{}: {} designs are selected, expected one: {}",
         arguments.definition.path.display(),
         designs.len(),
         advice(&designs)
@@ -142,7 +142,7 @@ impl SolvedChoice {
         match self.design.number {
             Some(number) => format!("{name}: design {number} of {}", self.design.count),
             None => {
-                format!("{name}: a design beside the grid, {}", self.design.values(" = ", ", "))
+                format!("{name}: a design off the grid, {}", self.design.values(" = ", ", "))
             }
         }
     }

@@ -23,9 +23,9 @@ Examples:
   squama draw sweeps/paper.toml --design 0417 --animate
   squama draw results/paper --gap 0.1 --length 1 --slant 15..60
 
-Shows the row at rest and at the critical tilt, or at the displacements u/t of --at; each is solved
-for. Contacts are red, forces between scales are arrows, the bars are the reactions of the
-substrate. With --flexure, the strip where its ends have turned by the angles of --at (degrees).")]
+Draws the row at rest and at the critical tilt, or at the displacements u/t of --at. Contacts are red,
+arrows are forces between scales, bars are reactions of the substrate. With --flexure, draws the strip
+with its ends rotated by the angles of --at, in degrees.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -41,11 +41,11 @@ pub struct Arguments {
     #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["at", "flexure", "animate"])]
     pub force: Vec<f64>,
 
-    /// The strip in bending instead of the puncture
+    /// Draw the strip in bending instead of the puncture
     #[arg(long)]
     pub flexure: bool,
 
-    /// One page that plays the path instead of drawings
+    /// Write one page that plays the path as an animation
     #[arg(long)]
     pub animate: bool,
 
@@ -211,7 +211,7 @@ impl Drawing<'_> {
 /// The substrate under a row.
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     let footprint = case.footprint();
-    let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
+    let footprint = footprint.context("the lengths differ too much for the boundary elements")?;
     Ok(RowStiffness::of(&footprint, case.coupling)?)
 }
 

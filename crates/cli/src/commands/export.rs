@@ -14,15 +14,15 @@ use crate::print::{aligned, counted, print, shortfall};
 Examples:
   squama export results/paper --xlsx paper.xlsx
 
-A sheet for each table of the folder, and one that explains the columns. The same tables make the
-same bytes. A sheet takes 1,048,575 rows.
-Exit code: 0 done, 2 bad input or disk.")]
+The workbook has a sheet for each table of the folder, and one that explains the columns. The same
+tables always give the same bytes. A sheet holds at most 1,048,575 rows.
+Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// The workbook
+    /// Workbook to write
     #[arg(long, value_name = "FILE")]
     pub xlsx: PathBuf,
 

@@ -16,19 +16,19 @@ use crate::print::print;
 /// Where figures go, and as what.
 #[derive(Debug, Args)]
 pub struct FigureOutput {
-    /// An image beside each figure, if squama is built with --features png
+    /// Also write each figure as a PNG image, if squama is built with --features png
     #[arg(long)]
     pub png: bool,
 
-    /// Dots per inch of images, of which a figure has 96 px
+    /// Resolution of images in dots per inch; 96 gives the size of the figure in pixels
     #[arg(long, value_name = "DPI", default_value = "192", allow_hyphen_values = true)]
     pub dpi: f64,
 
-    /// Leave the title of each figure out, for a caption of your own
+    /// Omit the titles, for captions of your own
     #[arg(long)]
     pub no_title: bool,
 
-    /// Folder of the figures [default: a folder in the results of the sweep]
+    /// Folder for the figures [default: a folder in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
@@ -124,7 +124,7 @@ fn image(svg: &str, dpi: f64) -> anyhow::Result<Vec<u8>> {
 #[cfg(not(feature = "png"))]
 fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     anyhow::bail!(
-        "--png: this squama was built without images, expected one that is built with them: \
+        "--png: this squama was built without images; build it with them: \
          cargo run --release --features png -- followed by the same arguments"
     )
 }

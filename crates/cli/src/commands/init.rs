@@ -27,18 +27,18 @@ const TEMPLATES: [(&str, &str); 7] = [
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  squama init                       the sweep of the paper, in paper.toml
+  squama init                       write the sweep of the paper to paper.toml
   squama init mine.toml             the same, as a sweep of the name mine
   squama init smoke mine.toml       a dozen designs instead
 
-Every key that may be set is explained in the definition of the paper. A file that exists is left alone.
-Exit code: 0 done, 2 bad input or disk.")]
+The template paper explains every key. An existing file is never overwritten.
+Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Definition to begin with
+    /// Template to start from; a FILE alone is made from the template paper
     #[arg(value_name = "TEMPLATE", default_value = "paper", value_parser = TemplateOrFile)]
     pub template: String,
 
-    /// File of the definition; its name becomes that of the sweep [default: TEMPLATE.toml]
+    /// File to write; the sweep is named after it [default: TEMPLATE.toml]
     #[arg(value_name = "FILE")]
     pub file: Option<PathBuf>,
 }
@@ -49,7 +49,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let shown = file.display().to_string();
     ensure!(
         file.symlink_metadata().is_err(),
-        "{shown}: is there already, expected the name of a new file, e.g. squama init {template} mine.toml"
+        "{shown}: exists already; give the name of a new file, e.g. squama init {template} mine.toml"
     );
     require_folder_of("FILE", &file)?;
     let name = file.file_stem().context("expected the name of a new file")?.to_string_lossy();

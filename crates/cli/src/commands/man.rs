@@ -15,9 +15,9 @@ Examples:
   squama man ~/.local/share/man/man1
 
 Writes squama.1 and a page for each command, e.g. squama-run.1.
-Exit code: 0 done, 2 bad input or disk.")]
+Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Folder of the pages
+    /// Folder for the pages
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
 }

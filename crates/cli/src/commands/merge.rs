@@ -16,20 +16,20 @@ use crate::print::{counted, print};
 Examples:
   squama merge results/paper/shards/* --out results/paper
 
-Puts the results of shards together; the tables are those of a run without shards. What is in the
-folder --out already stays there, so that merging again adds what has come meanwhile. A folder that is
-merged into itself, squama merge DIR --out DIR, has its tables written again from its journal.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk.")]
+Combines the results of shards; the tables are the same as those of a run without shards. Designs that
+are already in --out stay there, so merging again adds the new ones. Merging a folder into itself
+(squama merge DIR --out DIR) writes its tables again from its journal.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error.")]
 pub struct Arguments {
     /// Folders of the shards
     #[arg(value_name = "DIR", required = true)]
     pub folders: Vec<PathBuf>,
 
-    /// Folder of the whole
+    /// Results folder of the combined sweep
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
 
-    /// No summary
+    /// Print no summary
     #[arg(long, short)]
     pub quiet: bool,
 

@@ -33,24 +33,26 @@ Examples:
   squama optimise glove.toml --set goal.seed=1 --fresh
   squama optimise glove.toml --resume
 
-A goal is a sweep definition with two sections more: [variables] has parameters between two numbers, as
-gap_over_t = { from = 0.1, to = 1 }, or lists of values; [goal] has maximize or minimize (one column gives
-an optimum, two to four a front) and require, bounds that columns must keep. What is not a variable has one
-value. Designs that fail are left out and counted; so are those whose surface has folded, unless sound = false.
-One of the objectives may be fitness, the paper's (Eq. 7): weights = { coverage = 1, compliance = 2 } has its
-criteria, all four alike if it is left out, and rescale = { coverage = [0, 0.9] } the worst and the best value of
-each, those of the sample if it is left out.
-With a [tolerance], as squama tolerance reads it, the goal may be about what is made: maximize or require has
-quantiles, as critical_force_p05 (or _p50, _p95), and yield, the share of skins that meet all requirements of
-columns and whose surface has not folded, unless sound = false, as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. skins = 200 are made of each design, the same deviations
-for all, and five times as many near the best; at the end 1000 others are made of it, and what they say stands
-beside what the search saw.
-samples = 1024 designs fill the space first, points = 30 stand on a front, seed = 0 shifts the samples.
-Writes optimum.csv and optimum.toml, which is the definition of the best design, or front.csv; history.csv
-with every design that was looked at; and evaluations.jsonl, from which --resume goes on. Nothing depends on
-the number of threads.
-Exit code: 0 done, 1 no design meets the requirements, or what is made of the best does not, 2 bad input or disk, 130, 143 or 129 ended by
-SIGINT, SIGTERM or SIGHUP.")]
+A goal is a definition with two more sections. [variables] lists the parameters to search over: ranges, such
+as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
+the optimum, two to four give a Pareto front) and require, a list of constraints on columns. Every other
+parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
+sound = false, and counts both.
+One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
+[default: the paper's four, with equal weights]; rescale = { coverage = [0, 0.9] } gives the worst and the best
+value of a criterion [default: those of the sample].
+With a [tolerance] section (see squama tolerance), the goal may also name statistics over samples: quantiles, such
+as critical_force_p05 (or _p50, _p95), and yield, the share of samples that meet all constraints on columns and do
+not fold (unless sound = false), as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. The search solves
+skins = 200 samples of each design, with the same deviations for all, and five times as many near the best.
+Finally it solves 1000 new samples of the best, and shows their statistics beside those that the search saw.
+The search first solves samples = 1024 designs that fill the space; a front has points = 30 designs; seed = 0
+selects the random numbers.
+Writes optimum.csv and optimum.toml, the definition of the best design, or front.csv; history.csv with every
+design of the search; and evaluations.jsonl, from which --resume continues. The results do not depend on the
+number of threads.
+Exit code: 0 done, 1 no design meets the constraints, or the new samples of the best do not, 2 bad input or
+a disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {
     /// Goal in TOML
     #[arg(value_name = "GOAL.toml")]
@@ -60,7 +62,7 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
 
-    /// Folder of the results [default: results/NAME]
+    /// Results folder [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -70,7 +72,7 @@ pub struct Arguments {
     #[command(flatten)]
     pub threads: Threads,
 
-    /// No bar
+    /// Show no progress bar
     #[arg(long, short)]
     pub quiet: bool,
 
@@ -94,7 +96,10 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
     drop(display);
     let Some(found) = found else {
-        note(&format!("{}: what is solved so far is kept, --resume goes on", folder.display()));
+        note(&format!(
+            "{}: the designs solved so far are kept; --resume continues from them",
+            folder.display()
+        ));
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let written = RunFolder::new(&folder);

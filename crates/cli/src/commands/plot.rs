@@ -33,7 +33,7 @@ pub struct Arguments {
     #[command(subcommand)]
     pub what: Option<PlotWhat>,
 
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: Option<PathBuf>,
 
@@ -47,9 +47,9 @@ pub struct Arguments {
 /// The subjects of `squama plot` besides a sweep.
 #[derive(Debug, Subcommand)]
 pub enum PlotWhat {
-    /// Force–displacement, moment–curvature and energies of designs, solved anew
+    /// Plot force–displacement and moment–curvature curves, and the energies of designs
     Curves(CurvesArguments),
-    /// Any column over any two parameters, with contours
+    /// Plot any column over any two parameters, with contours
     Map(MapArguments),
 }
 
@@ -60,23 +60,23 @@ Examples:
   squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force
   squama plot map results/paper --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.1")]
 pub struct MapArguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// Parameter across, by its column
+    /// Column of the parameter on the horizontal axis
     #[arg(long, value_name = "COLUMN")]
     pub x: String,
 
-    /// Parameter upwards, by its column
+    /// Column of the parameter on the vertical axis
     #[arg(long, value_name = "COLUMN")]
     pub y: String,
 
-    /// Column that is shown: any with numbers; its scale is logarithmic where its values span decades
+    /// Column to plot, of numbers; the colours are logarithmic if its values span decades
     #[arg(long, value_name = "COLUMN")]
     pub of: String,
 
-    /// Value that another parameter is held at (may be repeated); of the rest there is a map for each value
+    /// Fix another parameter (may be repeated); the others get a map for each of their values
     #[arg(long, value_name = "COLUMN=VALUE")]
     pub at: Vec<String>,
 
@@ -101,7 +101,7 @@ pub struct CurvesArguments {
     #[command(flatten)]
     pub selection: Selection,
 
-    /// Displacement u/t at which punctures end, instead of the critical tilt
+    /// Follow punctures to this displacement u/t instead of the critical tilt
     #[arg(long, value_name = "U", allow_hyphen_values = true)]
     pub to: Option<f64>,
 
@@ -219,7 +219,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
 
 /// The number of a design, for a legend, which tells its geometry too; with the values in which it differs from the others besides.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
-    let number = design.number.map_or("beside the grid".to_owned(), |number| number.to_string());
+    let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();
     let differing = PARAMETERS.iter().filter(|parameter| {
         let is_told = ["gap_over_t", "length_over_t", "slant_deg"].contains(&parameter.key);

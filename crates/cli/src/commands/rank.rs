@@ -35,64 +35,63 @@ Examples:
   squama rank results/paper --criteria coverage,max:peak_force,min:sink --scale log
   squama rank sweeps/paper.toml --json
 
-Ranks the designs that meet all requirements and have every criterion: those of the paper (coverage,
-critical force, penetration resistance, flexural compliance), or those of --criteria, or of --maximize
-and --minimize. The fitness of a design is the product of its criteria, each rescaled from 0, the worst,
-to 1, the best, to the power of its weight; with --scale linear or log it is their weighted mean. A
-criterion without weight is ignored, and so is one that is the same for all but for round-off. Equal
-designs stand in the order of their numbers.
-Writes ranking.csv (by the weights), pareto.csv (designs that no other beats in every criterion),
-ranking.toml (what the ranking goes by) and, with four criteria, winners.csv and quaternary.csv (the best
-design for all weights). Where no design meets the requirements: the one that comes nearest, and which
-requirement stands in the way.
-Exit code: 0 done, 1 no design meets the requirements, 2 bad input or disk.")]
+Ranks the designs that meet all requirements and have a value for every criterion. The criteria are those of
+the paper (coverage, critical force, penetration resistance, flexural compliance), those of --criteria, or
+those of --maximize and --minimize. The fitness of a design is the product of its criteria, each rescaled from
+0 (the worst) to 1 (the best) and raised to the power of its weight; with --scale linear or log it is their
+weighted mean. A criterion is ignored if its weight is 0, or if all designs have the same value but for
+round-off. Designs of equal fitness are listed in the order of their numbers.
+Writes ranking.csv (designs by fitness), pareto.csv (the Pareto front), ranking.toml (requirements, criteria
+and weights) and, with four criteria, winners.csv and quaternary.csv (the best design for all weights). If no
+design meets the requirements, shows the nearest design and the requirement that stands in the way.
+Exit code: 0 done, 1 no design meets the requirements, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// A bound that designs must keep: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    /// Requirement: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
     #[arg(long, value_name = "COLUMN OP NUMBER")]
     pub require: Vec<String>,
 
-    /// A column that is to be large (may be repeated: the Pareto front of all, and its knee)
+    /// Column to maximize (several give the Pareto front and its knee)
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
     pub maximize: Vec<String>,
 
-    /// A column that is to be small (may be repeated)
+    /// Column to minimize (may be repeated)
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
     pub minimize: Vec<String>,
 
-    /// Criteria instead of those of the paper: max:COLUMN or min:COLUMN, or COLUMN where it is plain what is good
+    /// Criteria instead of the paper's: max:COLUMN, min:COLUMN, or COLUMN alone, if it has a default direction
     #[arg(long, value_name = "CRITERION,…")]
     pub criteria: Option<String>,
 
-    /// Weights of the criteria in their order, those of --maximize first [default: all the same]
+    /// Weights of the criteria, in their order, --maximize before --minimize [default: equal]
     ///
-    /// None is negative; they count in proportion, whatever their sum. The order of the paper's criteria is coverage,
-    /// critical force, penetration resistance and flexural compliance.
+    /// Weights are non-negative, and normalised to a sum of 1. The order of the paper's criteria is coverage, critical
+    /// force, penetration resistance, flexural compliance.
     #[arg(long, value_name = "W,…", allow_hyphen_values = true)]
     pub weights: Option<String>,
 
-    /// How criteria are rescaled: paper, linear or log
+    /// Scale of the criteria: paper, linear or log
     #[arg(long, value_name = "SCALE", default_value = "paper")]
     pub scale: String,
 
-    /// Count the force up to the first fold of the substrate's surface instead of the critical force
+    /// Rank by the largest force before the surface folds instead of the critical force
     ///
-    /// Beyond a fold two bases have passed each other, and the model cannot answer for the force.
+    /// Beyond a fold two bases have passed each other, and the model is no longer valid.
     #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
     pub sound: bool,
 
-    /// Designs that are printed
+    /// Number of designs to print
     #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<0, { u64::MAX }>)]
     pub top: u64,
 
-    /// Steps from one corner of the tetrahedron of weights to the next, 1 to 200
+    /// Number of steps along an edge of the tetrahedron of weights, 1 to 200
     #[arg(long, value_name = "R", allow_hyphen_values = true, default_value = "20")]
     pub resolution: String,
 
-    /// Folder of the tables [default: RESULTS]
+    /// Folder for the tables [default: RESULTS]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 

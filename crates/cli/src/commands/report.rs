@@ -26,19 +26,19 @@ use crate::print::print;
 Examples:
   squama report results/paper
   squama report results/paper --out paper.html
-  squama report results/paper --front results/front      # with what squama optimise has found
+  squama report results/paper --front results/front      # and the designs that squama optimise found
 
-The page needs no network and no server: open it in a browser.")]
+Open the page in a browser; it needs no network and no server.")]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// The page [default: RESULTS/report.html]
+    /// Page to write [default: RESULTS/report.html]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 
-    /// Folder of squama optimise, whose designs stand beside those of the grid
+    /// Results folder of squama optimise, whose designs are shown beside those of the grid
     #[arg(long, value_name = "DIR")]
     pub front: Option<PathBuf>,
 

@@ -22,26 +22,26 @@ Examples:
   squama rerun results/paper --design 0417,0533 --set puncture.scales=801
   squama rerun results/paper --where slant_deg=75 --where 'puncture_status=row limit'
 
-Replaces the rows of these designs in every table. Their column `settings` then says what was set;
-it is empty where the settings are the sweep's own. reruns.csv says which values have changed.
-Without --set designs are solved with the sweep's own settings.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130, 143 or 129 ended by
+Replaces the rows of these designs in every table. The column `settings` then shows what --set changed;
+without --set the designs are solved with the sweep's own settings, and it is empty. reruns.csv lists
+the values that changed.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
 SIGINT, SIGTERM or SIGHUP.")]
 #[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// Designs that lack a value
+    /// Select the designs that lack a value
     #[arg(long, group = "which")]
     pub failed: bool,
 
-    /// Designs with these numbers, e.g. 0417 or 1-12,0417
+    /// Select designs by their numbers, e.g. 0417 or 1-12,0417
     #[arg(long = "design", value_name = "NUMBERS", group = "which", value_delimiter = ',')]
     pub numbers: Option<Vec<String>>,
 
-    /// Designs with this value in a column of designs.csv (may be repeated: all must hold)
+    /// Select designs by a value in designs.csv (may be repeated: all must hold)
     #[arg(long = "where", value_name = "COLUMN=VALUE", group = "which")]
     pub conditions: Vec<run::ColumnFilter>,
 
@@ -49,7 +49,7 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
 
-    /// Say what would be solved, and solve nothing
+    /// Show what would be solved, and solve nothing
     #[arg(long)]
     pub dry_run: bool,
 
@@ -69,7 +69,7 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
     let folder = results_folder(&arguments.results)?;
     let rerun = Rerun::plan(&folder, &filter(arguments), &settings, &PROGRAM)?;
     if rerun.designs().len() == 0 {
-        print(&format!("{}: no design is as asked, nothing is solved again\n", folder.display()))?;
+        print(&format!("{}: no design matches, so nothing is solved again\n", folder.display()))?;
         return Ok(DONE);
     }
     if arguments.dry_run {

@@ -43,18 +43,18 @@ Examples:
   squama run sweeps/paper.toml --sample 100 --seed 7 --out results/sample
   squama run sweeps/paper.toml --shard 3/8
 
-Writes designs.csv, a table for each measure, failures.csv and run.toml, from a journal to which
-every design is added as it is done. The tables do not depend on the number of threads, nor on
-how often the run was ended and resumed. Last comes contents.toml, which says what was written: every
-command that reads the folder checks it. The first SIGINT, SIGTERM or SIGHUP ends the run once the
-designs in hand are done, a second one at once, if it comes a second later.
-Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or disk, 130, 143 or 129 ended by
+Writes designs.csv, a table for each measure, failures.csv and run.toml. A journal records every design as
+soon as it is solved, so that --resume can continue an interrupted run. The tables do not depend on the
+number of threads or on interruptions. contents.toml is written last and lists the tables with their
+checksums, which every command that reads the folder verifies. The first SIGINT, SIGTERM or SIGHUP ends the
+run after the designs in progress; a second one, at least a second later, ends it at once.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
 SIGINT, SIGTERM or SIGHUP.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Folder of the results, which is made with those above it [default: results/NAME, or results/NAME/shards/i-of-N]
+    /// Results folder; missing parent folders are created [default: results/NAME, or results/NAME/shards/i-of-N]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -65,7 +65,7 @@ pub struct Arguments {
     #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS", value_parser = whole::<1, { u64::MAX }>)]
     pub sample: Option<u64>,
 
-    /// Seed of the random subset: the same seed, the same designs
+    /// Seed of the random subset; the same seed gives the same designs
     #[arg(
         long,
         allow_hyphen_values = true,
@@ -76,14 +76,14 @@ pub struct Arguments {
     )]
     pub seed: u64,
 
-    /// Solve one shard: of N, the i-th, that is every N-th design from the i-th on
+    /// Solve one shard: every N-th design, starting with the i-th
     #[arg(long, value_name = "i/N")]
     pub shard: Option<sweep::Shard>,
 
-    /// Solve this share of the designs again by another way, and say how far the two are apart
+    /// Solve this share of the designs again by a second method, and show the differences
     ///
-    /// Once more with steps a tenth as large, and strips as a chain of all gaps, e.g. 0.1. A relative difference above
-    /// 1e-6, or a status that is another, makes the exit code 1.
+    /// The second method takes steps a tenth as large, and solves a strip as a chain of all its gaps. A relative difference
+    /// above 1e-6, or a different status, gives exit code 1.
     #[arg(long, value_name = "SHARE")]
     pub audit: Option<Share>,
 
@@ -128,7 +128,7 @@ fn note_variables(sweep: &Sweep) {
     let keys: Vec<_> = sweep.variables().iter().map(|v| v.parameter().key).collect();
     if !keys.is_empty() {
         note(&format!(
-            "[variables] {} stand in the middle of their values; squama optimise and squama sensitivity go through them",
+            "the [variables] {} keep the middle of their values; squama optimise and squama sensitivity vary them",
             keys.join(", ")
         ));
     }
@@ -143,7 +143,7 @@ pub(super) fn conclude(folder: &Path, finished: &Finished) {
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
     for made in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(
-            "{} is made from earlier tables; {} makes it again",
+            "{} was made from earlier tables; {} makes it again",
             made.product, made.command
         ));
     }
@@ -194,7 +194,7 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
     let mut rows = Vec::new();
     if finished.missing > 0 {
         let missing = counted(finished.missing, "design");
-        rows.push(["missing".to_owned(), format!("{missing}, --resume goes on")]);
+        rows.push(["missing".to_owned(), format!("{missing}; --resume solves them")]);
     }
     rows.extend(status_rows(finished));
     rows.extend(folded_row(finished));
@@ -223,8 +223,7 @@ fn folded_row(finished: &Finished) -> Option<[String; 2]> {
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     let row = |Best { what, leader, apart }: Best| {
         if let Some(parameter) = apart {
-            let text =
-                format!("not told: designs of different {parameter} cannot be compared by it");
+            let text = format!("not comparable between designs of different {parameter}");
             return [what.to_owned(), text];
         }
         let ties = match leader.ties {

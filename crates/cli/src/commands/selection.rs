@@ -12,19 +12,19 @@ use super::source::{Definition, definition_file, settings};
 #[derive(Debug, Args)]
 #[group(required = true, multiple = true)]
 pub struct Selection {
-    /// Numbers of designs in the grid of the sweep, e.g. 0417 or 1-12,0417
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
     pub numbers: Vec<String>,
 
-    /// Gap d/t: a value, several as 0.1,0.2, or those of the sweep between two as 0.1..0.3
+    /// Gap d/t: one value, several (0.1,0.2), or all values of the sweep in a range (0.1..0.3)
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
     pub gap: Option<String>,
 
-    /// Length L/t: as --gap
+    /// Length L/t, in the same forms as --gap
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub length: Option<String>,
 
-    /// Slant in degrees: as --gap
+    /// Slant in degrees, in the same forms as --gap
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub slant: Option<String>,
 }
@@ -122,7 +122,11 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let within = axis.iter().filter(|value| value.number().is_some_and(|n| bounds.contains(&n)));
     let values: Vec<_> = within.map(|value| value.to_toml()).collect();
     let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
-    ensure!(!values.is_empty(), "the sweep has no such value, expected some of {}", all.join(" "));
+    ensure!(
+        !values.is_empty(),
+        "the sweep has no value in this range, expected some of {}",
+        all.join(" ")
+    );
     Ok(format!("[{}]", values.join(", ")))
 }
 

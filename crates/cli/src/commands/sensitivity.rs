@@ -28,14 +28,14 @@ Examples:
   squama sensitivity box.toml
   squama sensitivity box.toml --samples 4000 --json
 
-Draws the parameters of [variables], as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
-independently and evenly, everything else as the definition has it, and says which part of the variance of
-each measure every variable has: alone (first-order Sobol' index) and together with others (total index),
-each with its 95 % interval. A sample is solved at as many points as there are variables, and two more;
-one that fails anywhere is left out, and counted.
-Writes sobol.csv, and the samples in samples/, from which the same command goes on after an interruption.
-The derivatives at one design are those of squama design --sensitivity.
-Exit code: 0 done, 2 bad input or disk.")]
+Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
+independently and uniformly; all other parameters keep their values. Shows the share of the variance of each
+measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
+with 95 % intervals. A sample solves two designs more than there are variables. A sample in which any of them
+fails is left out, and counted.
+Writes sobol.csv, and samples/, from which the same command continues after an interruption.
+For derivatives at one design, use squama design --sensitivity.
+Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -44,14 +44,14 @@ pub struct Arguments {
     #[arg(long = "global", hide = true)]
     _global: bool,
 
-    /// Samples
+    /// Number of samples
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
     pub samples: u64,
 
     #[command(flatten)]
     pub threads: Threads,
 
-    /// Folder of the table [default: sensitivity in the results of the sweep]
+    /// Folder for the table [default: sensitivity in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -93,13 +93,13 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     ensure!(
         !sweep.variables().is_empty(),
-        "{path}: has no [variables], expected some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
+        "{path}: has no [variables]; add some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
     );
     let several = sweep.grid().axes().iter().filter(|axis| axis.len() > 1);
     let several: Vec<_> = several.map(|axis| axis.parameter().key).collect();
     ensure!(
         several.is_empty(),
-        "{path}: {} designs besides the variables, expected one: give one value, or [variables], for {}",
+        "{path}: {} designs besides the variables; give one value, or [variables], for {}",
         sweep.grid().len(),
         several.join(" ")
     );

@@ -19,19 +19,19 @@ Examples:
   squama slurm sweeps/paper.toml --shards 20
   results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
 
-Writes submit.sh, which submits a job array with one element for each shard and a job that merges them,
-to DIR/slurm, with the complete definition beside it. Shards go to DIR/shards, the whole to DIR. Submitted
-again, shards go on where they ended. The folder may be moved.
-Exit code: 0 done, 2 bad input or disk.")]
+Writes submit.sh and the complete definition to DIR/slurm. submit.sh submits a job array with one element for
+each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. If they
+are submitted again, shards continue where they ended. The folder may be moved.
+Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Shards, 1 to 1000: elements of the job array
+    /// Number of shards, 1 to 1000: the elements of the job array
     #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
     pub shards: u64,
 
-    /// Folder of the results [default: results/NAME]
+    /// Results folder [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

@@ -11,7 +11,7 @@ use sweep::{InvalidSetting, Setting, Sweep};
 /// Whether results are used that are not whole.
 #[derive(Debug, Args)]
 pub struct Partial {
-    /// Use the designs that are done, though others are missing; what is made from them says so
+    /// Use an incomplete run; outputs state how many designs they are made from
     #[arg(long)]
     pub partial: bool,
 }
@@ -26,7 +26,7 @@ impl Partial {
 /// A definition and what is put in its place.
 #[derive(Debug, Args)]
 pub struct Definition {
-    /// Sweep definition in TOML, or the folder of an earlier run
+    /// Definition of a sweep in TOML, or a results folder
     #[arg(value_name = "SWEEP.toml")]
     pub path: PathBuf,
 
@@ -58,7 +58,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let record = path.join(RunFolder::RUN_INFO);
     ensure!(
         record.is_file(),
-        "{}: holds no {}, expected a sweep definition in TOML or the folder of a run",
+        "{}: holds no {}, expected a definition in TOML or a results folder",
         path.display(),
         RunFolder::RUN_INFO
     );
@@ -78,7 +78,7 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = folder_of(&Sweep::read(path, &[])?, None);
     ensure!(
         folder.is_dir(),
-        "{}: there are no results in {}, expected those of squama run {0}, or the folder of a run",
+        "{}: there are no results in {}; squama run {0} writes them",
         path.display(),
         folder.display()
     );
@@ -126,7 +126,7 @@ pub fn require_folder_of(option: &str, file: &Path) -> anyhow::Result<()> {
     let folder = folder.unwrap_or(Path::new("."));
     ensure!(
         folder.is_dir(),
-        "{option} {}: there is no folder {}, expected one that exists",
+        "{option} {}: there is no folder {}",
         file.display(),
         folder.display()
     );

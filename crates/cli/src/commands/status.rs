@@ -19,11 +19,11 @@ Examples:
   squama status results/paper
   squama status results/paper --json
 
-The run may be going on meanwhile. Checks every table against what the run states of it, and lists
-what was made from tables that are no longer there.
-Exit code: 0 done, 1 some designs failed or are missing, or a table is not as it was written, 2 bad input.")]
+Works while the run is going on. Verifies the checksum of every table, and lists the rankings, figures and
+pages that were made from tables which have changed since.
+Exit code: 0 done, 1 some designs failed or are missing, or a table was changed, 2 bad input.")]
 pub struct Arguments {
-    /// Folder of a run, or the definition of its sweep
+    /// Results folder of a run, or its definition
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
@@ -68,7 +68,7 @@ fn report(status: &run::RunStatus) -> String {
 /// The faults of the files of the run.
 fn problems(status: &run::RunStatus) -> String {
     let rows = status.problems.iter().map(|problem| [problem.clone()]);
-    titled("what is wrong", &rows.collect::<Vec<_>>())
+    titled("problems", &rows.collect::<Vec<_>>())
 }
 
 /// Products of tables that are no longer there, and the commands that make them again.

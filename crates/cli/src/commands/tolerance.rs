@@ -34,36 +34,36 @@ Examples:
   squama tolerance sweeps/smoke.toml --set 'tolerance.gap_over_t={ batch_sd = 0.02, scale_sd = 0.01 }'
   squama tolerance sweeps/paper.toml --samples 0 --set 'tolerance.slant_deg={ batch_within = 2 }'
 
-What is made differs from what is drawn, by the deviations that [tolerance] gives: batch_sd, the standard
-deviation of what all scales of a batch share (normal), or batch_within, at most so much to either side
-(uniform); scale_sd, the standard deviation from scale to scale, of gaps and slants. A key is that of a
-parameter, as gap_over_t, or, with material.thickness_mm, that of a length in mm, as gap_mm.
-The spread of every measure is predicted from its derivatives, with the share of each source, and solved
-for with samples; both are told, and how far the prediction is off. The yield is the share of samples that
-meet a requirement, with its 95 % interval; a sample that fails does not meet it, and is counted apart.
-Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each
-design in samples/, from which the same command goes on after an interruption, or with more samples.
-Exit code: 0 done, 1 a design as drawn stopped early, 2 bad input or disk.")]
+Parts differ from the nominal design by the deviations in [tolerance]. batch_sd is the standard deviation of a
+normal deviation that all scales of a batch share, batch_within the largest value of a uniform one, and scale_sd
+the standard deviation from scale to scale, of gaps and slants. A key is that of a parameter, such as
+gap_over_t, or, with material.thickness_mm, that of a length in mm, such as gap_mm.
+Predicts the spread of every measure from its derivatives, with the share of each source, and solves samples to
+check the prediction. The yield is the share of samples that meet a requirement, with its 95 % interval; a sample
+that fails does not meet it, and is counted separately.
+Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each design
+to samples/, from which the same command continues after an interruption, or adds more samples.
+Exit code: 0 done, 1 a nominal design failed, 2 bad input or a disk error.")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Numbers of designs in the grid of the sweep, e.g. 0417 or 1-12,0417 [default: all]
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417 [default: all]
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',')]
     pub numbers: Vec<String>,
 
-    /// A bound that samples must keep: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    /// Requirement on samples: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
     #[arg(long, value_name = "COLUMN OP NUMBER")]
     pub require: Vec<String>,
 
-    /// Samples of each design; 0 for the linear prediction alone
+    /// Number of samples of each design; 0 gives the linear prediction alone
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<0, 1_000_000>)]
     pub samples: u64,
 
     #[command(flatten)]
     pub threads: Threads,
 
-    /// Folder of the tables [default: tolerance in the results of the sweep]
+    /// Folder for the tables [default: tolerance in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
@@ -117,7 +117,7 @@ pub(super) fn unless_stopped<T>(
     match analysed {
         Ok(all) => Ok(Some(all)),
         Err(stopped @ NoAnalysis::Stopped { .. }) => {
-            note(&format!("{stopped}, which are kept: the same command goes on"));
+            note(&format!("{stopped}, which are kept; the same command continues from them"));
             Ok(None)
         }
         Err(error) => Err(error).with_context(|| definition.path.display().to_string()),
@@ -128,7 +128,7 @@ pub(super) fn unless_stopped<T>(
 fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         !sweep.deviations().is_empty() || sweep.is_imperfect(),
-        "{}: has no [tolerance], expected deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }} in it, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
+        "{}: has no [tolerance]; add deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }}, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
         arguments.definition.path.display()
     );
     ensure!(

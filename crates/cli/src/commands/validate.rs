@@ -21,21 +21,20 @@ Examples:
   squama validate --search sweeps/open-questions.toml sweeps/gaps.toml
 
 Solves problems with known answers, both sweeps of the paper, sweeps over what the paper leaves open, and
-searches between the grid points; prints the tables and writes them down. Takes half a minute on two
-cores, half of it for the searches. With --search, checks the claims on every setting of sweeps over
-open choices instead, and prints what each reproduces.
-Exit code: 0 done, 1 a benchmark is outside of its band, 2 disk. What becomes of the claims does not
-change it.")]
+searches between the grid points; prints the tables and writes them to a page. Takes half a minute on two
+cores, half of it for the searches. With --search, checks the claims for every setting of sweeps over
+what the paper leaves open, and prints which claims each setting reproduces.
+Exit code: 0 done, 1 a benchmark is outside its band, 2 a disk error. Claims do not affect the exit code.")]
 pub struct Arguments {
-    /// The page
+    /// Page to write
     #[arg(long, value_name = "FILE", default_value = "docs/validation.md")]
     pub out: PathBuf,
 
-    /// Leave out the searches between the grid points
+    /// Skip the searches between the grid points
     #[arg(long)]
     pub quick: bool,
 
-    /// Sweeps of the paper's designs with further axes: which settings come closest to the claims
+    /// Sweeps over what the paper leaves open: show which settings reproduce most claims
     #[arg(long, value_name = "SWEEP.toml", num_args = 1.., conflicts_with_all = ["out", "quick"])]
     pub search: Vec<PathBuf>,
 }
@@ -61,7 +60,7 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
     print(&page)?;
     let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.holds()).collect();
     for benchmark in &outside {
-        print(&format!("outside of its band: {}\n", benchmark.row()))?;
+        print(&format!("outside its band: {}\n", benchmark.row()))?;
     }
     Ok(if outside.is_empty() { DONE } else { INCOMPLETE })
 }

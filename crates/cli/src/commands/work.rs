@@ -9,11 +9,11 @@ use run::Start;
 /// Whether a command goes on with earlier results or throws them away; it refuses to touch them if neither is said.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Earlier {
-    /// Go on with the results that are there, if there are any
+    /// Continue from earlier results in the folder, if it has any
     #[arg(long, conflicts_with = "fresh")]
     resume: bool,
 
-    /// Throw away the results that are there, if there are any
+    /// Discard earlier results in the folder, if it has any
     #[arg(long)]
     fresh: bool,
 }
@@ -39,7 +39,7 @@ pub struct Work {
     #[arg(long)]
     pub fail_fast: bool,
 
-    /// No progress bar and no summary
+    /// Show no progress bar and no summary
     #[arg(long, short)]
     pub quiet: bool,
 }
@@ -47,8 +47,8 @@ pub struct Work {
 /// The format of the tables.
 #[derive(Debug, Args)]
 pub struct Format {
-    /// How the tables are written: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,`
-    /// and a byte-order mark) [default: as they were before, or plain]
+    /// Format of the tables: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,` and a
+    /// byte-order mark) [default: the folder's present format, else plain]
     #[arg(long, value_name = "FORMAT")]
     pub csv: Option<results::CsvFormat>,
 }
@@ -56,7 +56,7 @@ pub struct Format {
 /// The number of threads.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Threads {
-    /// Threads [default: all cores]
+    /// Number of threads [default: all cores]
     #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
     number: Option<u64>,
 }

@@ -19,7 +19,7 @@ fn the_optimum_is_a_design_like_any_other() {
       areal_mass_kg_m2  0.53590
       coverage          0.50000
 
-    It cannot be better because of
+    It is limited by
       coverage >= 0.5                0.01 more coverage adds 0.00497 kg/m^2 of areal_mass_kg_m2
       slant_deg at its upper end 60  1 more slant_deg would gain 0.01 kg/m^2 of areal_mass_kg_m2
 
@@ -146,11 +146,11 @@ fn the_fitness_tells_its_criteria_and_their_ends() {
       coverage          0.42265
       areal_mass_kg_m2  0.50000
 
-    It cannot be better because of
+    It is limited by
       gap_over_t at its upper end 1  0.01 more gap_over_t would gain 0.00409 of fitness
       slant_deg at its upper end 60  1 more slant_deg would gain 0.0115 of fitness
 
-    Fitness between the worst and the best: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
+    The criteria were rescaled between their worst and best values: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
 
     results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
     ");

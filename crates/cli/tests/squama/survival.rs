@@ -183,7 +183,7 @@ mod signals {
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
         run.send(SIGINT);
-        let word = "ending once the designs in hand are done; a second signal ends at once, --resume goes on\n";
+        let word = "ending after the designs in progress; a second signal ends at once, and --resume continues\n";
         run.until_said(word);
         // What comes within a second is the same request; a later one ends it.
         assert_eq!(run.end_by(SIGINT).code(), Some(130));

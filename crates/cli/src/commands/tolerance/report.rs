@@ -17,13 +17,13 @@ const LISTED: usize = 10;
 
 const HEADER: [&str; 8] = [
     "measure",
-    "drawn",
+    "nominal",
     "predicted ±",
-    "solved ±",
-    "prediction is off by",
+    "sampled ±",
+    "prediction off by",
     "5 %",
     "95 %",
-    "it comes from",
+    "sources",
 ];
 
 /// The report on a design, or a list of several.
@@ -43,7 +43,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
     let _ = write!(text, "{}", aligned(&rows));
     if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
-        text.push_str("  (!) by more than twice the statistical error: the measure is not linear over these deviations, trust the samples\n");
+        text.push_str("  (!) off by more than twice the statistical error: the measure is not linear over these deviations; trust the samples\n");
     }
     if !design.yields.is_empty() {
         let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
@@ -60,7 +60,7 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     let count = design.samples.iter().filter(folds).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
-        "  (!) {samples}: two bases pass each other; --require 'gap_stretch_min >= 0' leaves out those that end so\n"
+        "  (!) {samples}: the surface folds; --require 'gap_stretch_min >= 0' counts those that end so as failed requirements\n"
     );
     (count > 0).then_some(line)
 }
