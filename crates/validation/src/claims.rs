@@ -41,6 +41,8 @@ pub struct Claim {
     pub about: String,
     /// The statement of the paper.
     pub claim: String,
+    /// The reason for what comes out, where it is known.
+    pub reason: String,
 }
 
 /// A claim with its statements, each checked against the two studies.
@@ -52,8 +54,6 @@ pub struct CheckedClaim {
     pub statements: Vec<CheckedStatement>,
     /// The verdicts on the claim, with a base of `L`, and of `2L`.
     pub verdicts: [Verdict; 2],
-    /// The reason for what comes out, where it is known.
-    pub reason: &'static str,
 }
 
 /// A single statement of a claim, checked against the two studies.
@@ -69,79 +69,43 @@ pub struct CheckedStatement {
     pub found: [Finding; 2],
 }
 
-/// The statements of each claim, and the reason for what comes out, where it is known.
-const STATEMENTS: [(&str, &[Statement], &str); 30] = [
-    ("C01", &coverage::UNSLANTED, "by the definition of coverage"),
-    ("C02", &coverage::BEST, "decides for the base L: of a base 2L the steepest slant covers best"),
-    ("C03", &puncture::FIRST_CONTACT_UNSLANTED, "decides for the base L"),
-    ("C04", &puncture::FIRST_CONTACT_AT_45, "between the two bases, nearer to L"),
-    ("C05", &puncture::STEEP_SCALES_TOUCH_FIRST, "the lever arm of the load grows with the slant"),
-    (
-        "C06",
-        &puncture::INITIAL_STIFFNESS_BY_SLANT,
-        "the lever arm of the load grows with the slant",
-    ),
-    ("C07", &puncture::STIFFNESS_BY_SLANT, "more scales share the load"),
-    ("C08", &puncture::UNSLANTED_CONTACT, "the corner slides down the neighbour's side"),
-    (
-        "C09",
-        &puncture::BY_LENGTH,
-        "to bring its corner as deep as a long one does, a short scale turns further, and the edge of its base goes deeper",
-    ),
-    (
-        "C10",
-        &puncture::BY_GAP,
-        "neighbours couple through the substrate, so the gap cannot be without effect; a row that touches late shows only the soft beginning of contact",
-    ),
-    ("C11", &critical_force::BY_GAP, ""),
-    ("C12", &critical_force::LARGEST_IN_FIGURES, ""),
-    (
-        "C13",
-        &critical_force::LARGEST_VALUE,
-        "grows with the width: b = 3.15 t gives 64 with the base L, see docs/open-questions.md",
-    ),
-    ("C14", &critical_force::FORCE_AND_STIFFNESS, "the paper does not say which stiffness"),
-    ("C15", &critical_force::LARGEST_STIFFNESS_IN_FIGURES, "as C14"),
-    (
-        "C16",
-        &critical_force::STRONGEST_PARAMETER,
-        "with the two smallest lengths, which the figure leaves out, the length matters most",
-    ),
-    ("C17", &domino::UNSLANTED, "the paper does not say which design; this is that of Fig. 6a"),
-    ("C18", &domino::DOMINO, "as C17"),
-    ("C19", &flexure::AXIAL_ENERGY, "the membrane is pulled against the contacts"),
-    (
-        "C20",
-        &flexure::SOFTENING,
-        "contacts slide, and their lever arm grows; far beyond contact without slant, too",
-    ),
-    (
-        "C21",
-        &flexure::LOSS_OF_COMPLIANCE,
-        "contact is nearly rigid, so the thin membrane alone decides; the reduction grows with the slant and as the gap shrinks",
-    ),
-    (
-        "C22",
-        &flexure::COMPLIANT_AT_SMALL_SLANTS,
-        "which designs touch depends on the gaps of the strip: with 41 to 44 in every design as printed, see docs/open-questions.md",
-    ),
-    ("C23", &flexure::COMPLIANT_AT_LARGE_SLANTS, "as C22"),
-    ("C24", &flexure::BY_LENGTH, "before contact the compliance is d/(2a + d)"),
-    ("C25", &optimum::LEAST_PENETRATION, "a scale that touches no neighbour tilts before it sinks"),
-    ("C26", &flexure::MOST_COMPLIANT, "without contact the slant is without effect"),
-    ("C27", &critical_force::LARGEST_OF_ALL, ""),
-    (
-        "C28",
-        &optimum::BALANCED,
-        "no setting that was tried gives the printed optimum, see docs/open-questions.md",
-    ),
-    ("C29", &optimum::SHARE_OF_PRINTED, "as C28"),
-    ("C30", &puncture::TWO_BLOCKS, ""),
+/// The statements of each claim.
+const STATEMENTS: [(&str, &[Statement]); 30] = [
+    ("C01", &coverage::UNSLANTED),
+    ("C02", &coverage::BEST),
+    ("C03", &puncture::FIRST_CONTACT_UNSLANTED),
+    ("C04", &puncture::FIRST_CONTACT_AT_45),
+    ("C05", &puncture::STEEP_SCALES_TOUCH_FIRST),
+    ("C06", &puncture::INITIAL_STIFFNESS_BY_SLANT),
+    ("C07", &puncture::STIFFNESS_BY_SLANT),
+    ("C08", &puncture::UNSLANTED_CONTACT),
+    ("C09", &puncture::BY_LENGTH),
+    ("C10", &puncture::BY_GAP),
+    ("C11", &critical_force::BY_GAP),
+    ("C12", &critical_force::LARGEST_IN_FIGURES),
+    ("C13", &critical_force::LARGEST_VALUE),
+    ("C14", &critical_force::FORCE_AND_STIFFNESS),
+    ("C15", &critical_force::LARGEST_STIFFNESS_IN_FIGURES),
+    ("C16", &critical_force::STRONGEST_PARAMETER),
+    ("C17", &domino::UNSLANTED),
+    ("C18", &domino::DOMINO),
+    ("C19", &flexure::AXIAL_ENERGY),
+    ("C20", &flexure::SOFTENING),
+    ("C21", &flexure::LOSS_OF_COMPLIANCE),
+    ("C22", &flexure::COMPLIANT_AT_SMALL_SLANTS),
+    ("C23", &flexure::COMPLIANT_AT_LARGE_SLANTS),
+    ("C24", &flexure::BY_LENGTH),
+    ("C25", &optimum::LEAST_PENETRATION),
+    ("C26", &flexure::MOST_COMPLIANT),
+    ("C27", &critical_force::LARGEST_OF_ALL),
+    ("C28", &optimum::BALANCED),
+    ("C29", &optimum::SHARE_OF_PRINTED),
+    ("C30", &puncture::TWO_BLOCKS),
 ];
 
 /// Returns the numbers of the claims.
 pub(crate) fn ids() -> impl Iterator<Item = &'static str> {
-    STATEMENTS.iter().map(|(id, ..)| *id)
+    STATEMENTS.iter().map(|(id, _)| *id)
 }
 
 /// Returns the claims as the paper has them.
@@ -155,7 +119,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
 /// Returns the claims that a study reproduces, and those that it reproduces in part.
 pub(crate) fn score(study: &Study) -> [Vec<&'static str>; 2] {
     let evidence = gather::gather(study);
-    let graded = STATEMENTS.map(|(id, statements, _)| (id, verdict(statements, &evidence)));
+    let graded = STATEMENTS.map(|(id, statements)| (id, verdict(statements, &evidence)));
     [Verdict::Reproduced, Verdict::InPart].map(|wanted| {
         graded.iter().filter(|(_, verdict)| *verdict == wanted).map(|(id, _)| *id).collect()
     })
@@ -176,8 +140,8 @@ fn judge(evidence: &[Evidence; 2]) -> Result<Vec<CheckedClaim>, ValidationError>
 }
 
 fn judge_claim(claim: Claim, evidence: &[Evidence; 2]) -> Result<CheckedClaim, ValidationError> {
-    let known = STATEMENTS.iter().find(|(id, ..)| *id == claim.id);
-    let (_, statements, reason) =
+    let known = STATEMENTS.iter().find(|(id, _)| *id == claim.id);
+    let (_, statements) =
         known.ok_or_else(|| ValidationError::UncheckedClaim(claim.id.clone()))?;
     let verdicts = [0, 1].map(|base| verdict(statements, &evidence[base]));
     let checked = |statement: &Statement| CheckedStatement {
@@ -187,7 +151,7 @@ fn judge_claim(claim: Claim, evidence: &[Evidence; 2]) -> Result<CheckedClaim, V
         found: [0, 1].map(|base| statement.find(&evidence[base])),
     };
     let statements = statements.iter().map(checked).collect();
-    Ok(CheckedClaim { claim, statements, verdicts, reason })
+    Ok(CheckedClaim { claim, statements, verdicts })
 }
 
 /// Writes a number with four significant digits.

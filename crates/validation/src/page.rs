@@ -159,8 +159,7 @@ impl Benchmark {
 impl CheckedClaim {
     /// Returns the rows of the table in Markdown: one for the claim, and one for each statement if there are several.
     pub(crate) fn rows(&self) -> String {
-        let Claim { id, place, claim, .. } = &self.claim;
-        let reason = self.reason;
+        let Claim { id, place, claim, reason, .. } = &self.claim;
         if let [only] = self.statements.as_slice() {
             return format!("| {id} | {place} | {claim} | {} | {reason} |\n", only.cells());
         }

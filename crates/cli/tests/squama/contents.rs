@@ -81,12 +81,12 @@ fn a_changed_digit_is_noticed_and_mended() {
     change(&place, "r/designs.csv", "0.1,0.2,0,0,", "0.1,0.2,0,1,");
     for reader in READERS {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r/designs.csv: is not as it was written"), "{message}");
+        assert!(message.starts_with("error: r/designs.csv: was changed after squama wrote it"), "{message}");
     }
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8(status).expect("text");
     assert!(
-        status.contains("what is wrong\n  r/designs.csv: is not as it was written"),
+        status.contains("problems\n  r/designs.csv: was changed after squama wrote it"),
         "{status}"
     );
     place.squama("merge -q r --out r").assert().code(0);
@@ -94,7 +94,7 @@ fn a_changed_digit_is_noticed_and_mended() {
     place.prints("status r");
     // A table that one command alone reads.
     change(&place, "r/penetration.csv", "0001", "0002");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: is not as it was written, expected no change; squama merge r --out r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: was changed after squama wrote it; squama merge r --out r writes it again");
     // One that is gone is no table that was never there.
     std::fs::remove_file(place.path("r/penetration.csv")).expect("a table");
     let message = place.refused("export r --xlsx x.xlsx");
@@ -107,7 +107,7 @@ fn a_changed_digit_is_noticed_and_mended() {
     change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");
     for reader in ["design r/run.toml --design 1", "draw r/run.toml --design 1", "run r/run.toml"] {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r/run.toml: is not as its run wrote it"), "{message}");
+        assert!(message.starts_with("error: r/run.toml: was edited"), "{message}");
     }
 }
 
@@ -124,7 +124,7 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
         fs::write(place.path("r").join(table), text).expect("writable");
     }
     let message = place.refused("rank r");
-    assert!(message.starts_with("error: r: the journal goes on beyond the tables"), "{message}");
+    assert!(message.starts_with("error: r: the journal has more designs than the tables"), "{message}");
     place.prints("rank r --partial");
     fs::write(place.path("r/critical_force.csv"), after).expect("writable");
     let message = place.refused("export r --xlsx x.xlsx --partial");

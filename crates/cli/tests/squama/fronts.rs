@@ -47,7 +47,7 @@ fn a_single_best_design_stands_beside_what_is_required() {
 #[test]
 fn a_folder_without_a_front_for_the_grid_is_refused() {
     let place = grid();
-    insta::assert_snapshot!(place.refused("report grid --front grid"), @"error: --front grid: there is neither front.csv nor optimum.csv, expected a folder in which squama optimise has found designs");
+    insta::assert_snapshot!(place.refused("report grid --front grid"), @"error: --front grid: holds neither front.csv nor optimum.csv, expected a results folder of squama optimise");
     let physical =
         GOAL.replace("[goal]", "[material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n[goal]");
     std::fs::write(place.path("goal.toml"), physical + "minimize = 'areal_mass_kg_m2'\n")

@@ -42,7 +42,7 @@ fn a_run_says_that_it_does_not_go_through_variables() {
     let (definition, _) = GOAL.split_once("[goal]").expect("a goal");
     let assert = Place::with(definition).squama("run x.toml --quiet").assert().code(0);
     let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    assert!(told.contains("gap_over_t, slant_deg stand in the middle of their values"), "{told}");
+    assert!(told.contains("gap_over_t, slant_deg keep the middle of their values"), "{told}");
 }
 
 #[test]

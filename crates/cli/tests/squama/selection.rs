@@ -15,13 +15,13 @@ fn a_folder_does_for_a_definition() {
     assert!(place.list("r/curves").contains("force-displacement-curves-of-0006.svg"));
     assert!(place.prints("check r").contains("designs       8\n"));
     std::fs::create_dir(place.path("empty")).expect("a folder");
-    insta::assert_snapshot!(place.refused("design empty --design 1"), @"error: empty: holds no run.toml, expected a sweep definition in TOML or the folder of a run");
+    insta::assert_snapshot!(place.refused("design empty --design 1"), @"error: empty: holds no run.toml, expected a definition in TOML or a results folder");
 }
 
 #[test]
 fn a_definition_does_for_a_folder() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few, expected those of squama run x.toml, or the folder of a run");
+    insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few; squama run x.toml writes them");
     place.squama("run x.toml -q").assert().code(0);
     for command in ["rank", "plot", "report", "status", "rerun --failed --dry-run"] {
         let by_definition = place.prints(&format!("{command} x.toml"));
@@ -41,7 +41,7 @@ fn designs_are_selected_by_ranges() {
     assert_eq!(place.list("d"), [2, 3, 4, 8].map(file).join(" "));
     insta::assert_snapshot!(place.refused("draw x.toml --design 4-2"), @"error: x.toml: --design 4-2: there is no design 4-2, expected a number from 1 to 8");
     insta::assert_snapshot!(place.refused("draw x.toml --design 7-9"), @"error: x.toml: --design 7-9: there is no design 9, expected a number from 1 to 8");
-    insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are asked for, expected one: give a value with --slant …");
+    insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are selected, expected one: give a value with --slant …");
     place.squama("run x.toml -q").assert().code(0);
     let text = place.prints("rerun x.toml --design 2-4,8 --dry-run");
     assert!(text.contains("4 designs") && text.contains("0002 0003 0004 0008"), "{text}");
