@@ -11,25 +11,25 @@ pub enum OptimisationError {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// The folder holds the results of an earlier search.
-    #[error("{}: there are results, expected --resume to go on, --fresh to throw them away, or another folder", folder.display())]
+    #[error("{}: already holds results; use --resume to continue from them, --fresh to discard them, or another folder", folder.display())]
     Exists {
         /// The folder.
         folder: PathBuf,
     },
     /// The folder is that of a run.
-    #[error("{}: holds the results of a run, expected another folder", folder.display())]
+    #[error("{}: holds the results of a run; choose another folder", folder.display())]
     HoldsRun {
         /// The folder.
         folder: PathBuf,
     },
     /// Another process writes the journal.
-    #[error("{}: another search is writing here, expected another folder", folder.display())]
+    #[error("{}: another search is writing there; choose another folder", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
     },
     /// The journal is of something else.
-    #[error("{}: {difference}, expected no difference, or --fresh to throw the results away", path.display())]
+    #[error("{}: {difference}; use --fresh to discard the results, or another --out", path.display())]
     Different {
         /// The journal.
         path: PathBuf,
@@ -45,7 +45,7 @@ pub enum OptimisationError {
         reason: String,
     },
     /// No design has a value in a column of the goal.
-    #[error("{column}: none of the {designs} designs has a number there, expected another column")]
+    #[error("{column}: none of the {designs} designs has a number in this column")]
     NoValue {
         /// The column.
         column: String,

@@ -141,8 +141,7 @@ fn judge(evidence: &[Evidence; 2]) -> Result<Vec<CheckedClaim>, ValidationError>
 
 fn judge_claim(claim: Claim, evidence: &[Evidence; 2]) -> Result<CheckedClaim, ValidationError> {
     let known = STATEMENTS.iter().find(|(id, _)| *id == claim.id);
-    let (_, statements) =
-        known.ok_or_else(|| ValidationError::UncheckedClaim(claim.id.clone()))?;
+    let (_, statements) = known.ok_or_else(|| ValidationError::UncheckedClaim(claim.id.clone()))?;
     let verdicts = [0, 1].map(|base| verdict(statements, &evidence[base]));
     let checked = |statement: &Statement| CheckedStatement {
         says: statement.says,

@@ -1,7 +1,5 @@
 //! The verdicts on the most compliant designs, for strips with the same number of gaps in every design.
 
-use std::fmt::Write as _;
-
 use sweep::Sweep;
 
 use crate::study::Study;
@@ -43,19 +41,8 @@ impl GapCount {
         Ok(study.settings().into_iter().map(count).collect())
     }
 
-    /// The section of the page, in Markdown.
-    pub(crate) fn section(counts: &[Self]) -> String {
-        let mut text = format!(
-            "## Strips with the same number of gaps\n\n\
-             The paper gives its strip a length of 100 t, on which the most compliant designs are not those that it prints. With the same \
-             number of gaps in every design instead (`flexure.gaps`), 41 to 44 of them, the designs of the claims come out, with either base. \
-             It contradicts the printed length, and no length does it (open-questions.md); the default stays 100 t.\n\n\
-             | Strip | {} |\n|---|---|---|---|\n",
-            CLAIMS.join(" | ")
-        );
-        for Self { setting, verdicts } in counts {
-            let _ = writeln!(text, "| {setting} | {} |", verdicts.join(" | "));
-        }
-        text
+    /// Returns the row of the table in Markdown.
+    pub(crate) fn row(&self) -> String {
+        format!("| {} | {} |", self.setting, self.verdicts.join(" | "))
     }
 }

@@ -81,7 +81,10 @@ fn a_changed_digit_is_noticed_and_mended() {
     change(&place, "r/designs.csv", "0.1,0.2,0,0,", "0.1,0.2,0,1,");
     for reader in READERS {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r/designs.csv: was changed after squama wrote it"), "{message}");
+        assert!(
+            message.starts_with("error: r/designs.csv: was changed after squama wrote it"),
+            "{message}"
+        );
     }
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8(status).expect("text");
@@ -124,7 +127,10 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
         fs::write(place.path("r").join(table), text).expect("writable");
     }
     let message = place.refused("rank r");
-    assert!(message.starts_with("error: r: the journal has more designs than the tables"), "{message}");
+    assert!(
+        message.starts_with("error: r: the journal has more designs than the tables"),
+        "{message}"
+    );
     place.prints("rank r --partial");
     fs::write(place.path("r/critical_force.csv"), after).expect("writable");
     let message = place.refused("export r --xlsx x.xlsx --partial");
@@ -134,7 +140,7 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
     );
     place.squama("merge -q r --out r").assert().code(1);
     // The ranking is of the tables before.
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: is made from other tables, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was made from other tables; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
     assert!(place.read("r/designs.csv").contains("solver.max_points=3"));
@@ -146,7 +152,7 @@ fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
     place.squama("run x.toml -q --out r").assert().code(0);
     place.prints("rank r");
     change(&place, "r/pareto.csv", "0006", "0007");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: was changed after squama wrote it; squama rank r writes it again");
     fs::remove_file(place.path("r/derived/ranking.toml")).expect("a record");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: its ranking did not come to its end, expected a ranking of the tables beside it; squama rank r writes it again");
     place.prints("rank r");

@@ -208,7 +208,7 @@ fn require(
     {
         format!("is by squama {}, this is squama {}", found.program, wanted.program)
     } else if found.goal_sha256 != wanted.goal_sha256 {
-        "is of another goal".to_owned()
+        "belongs to a search for another goal".to_owned()
     } else {
         return Ok(());
     };

@@ -9,19 +9,19 @@ use results::OutputError;
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// There are results already.
-    #[error("{}: holds results already, expected --resume to go on with them or --fresh to throw them away", folder.display())]
+    #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", folder.display())]
     Exists {
         /// The folder.
         folder: PathBuf,
     },
     /// There are the results of a search.
-    #[error("{}: holds the results of a search, expected another folder with --out DIR", folder.display())]
+    #[error("{}: holds the results of a search; choose another folder with --out DIR", folder.display())]
     HoldsSearch {
         /// The folder.
         folder: PathBuf,
     },
     /// There are tables that no journal stands behind.
-    #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
+    #[error("{}: holds {file} without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results", folder.display())]
     NoJournal {
         /// The folder.
         folder: PathBuf,
@@ -35,7 +35,7 @@ pub enum JournalError {
         folder: PathBuf,
     },
     /// Another process writes it.
-    #[error("{}: another squama is writing there, expected one at a time", folder.display())]
+    #[error("{}: another squama is writing there; wait until it ends", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
