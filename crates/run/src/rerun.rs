@@ -37,7 +37,7 @@ pub enum InvalidRerun {
     Definition(#[from] sweep::InvalidDefinition),
     /// A setting that would make another design of it.
     #[error(
-        "{0}: an axis of the grid cannot be set, because designs keep their numbers; set another key, e.g. solver.max_step=0.01"
+        "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
     )]
     Axis(String),
     /// Settings that would give the tables other columns.

@@ -2,6 +2,7 @@
 
 use sweep::Sweep;
 
+use crate::page::marked;
 use crate::study::Study;
 use crate::{ValidationError, claims};
 
@@ -18,7 +19,7 @@ pub struct GapCount {
     /// The setting, as `key = value`.
     pub setting: String,
     /// Whether each claim is reproduced, or in part.
-    pub verdicts: [&'static str; CLAIMS.len()],
+    pub verdicts: [String; CLAIMS.len()],
 }
 
 impl GapCount {
@@ -29,16 +30,12 @@ impl GapCount {
     pub fn all() -> Result<Vec<Self>, ValidationError> {
         let study = Study::run(Sweep::parse(STRIPS, "gaps", &[])?)?;
         let count = |(setting, study): (String, Study)| {
-            let [reproduced, in_part] = claims::score(&study);
-            let verdicts =
-                CLAIMS.map(|id| match (reproduced.contains(&id), in_part.contains(&id)) {
-                    (true, _) => "**reproduced**",
-                    (_, true) => "in part",
-                    _ => "not reproduced",
-                });
-            Self { setting, verdicts }
+            let score = claims::score(&study)?;
+            let verdict = |id: &str| score.iter().find(|(known, _)| known == id).map(|(_, v)| *v);
+            let verdicts = CLAIMS.map(|id| verdict(id).map_or_else(String::new, marked));
+            Ok(Self { setting, verdicts })
         };
-        Ok(study.settings().into_iter().map(count).collect())
+        study.settings().into_iter().map(count).collect()
     }
 
     /// Returns the row of the table in Markdown.

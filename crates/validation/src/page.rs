@@ -11,7 +11,7 @@ use crate::{
 const PAGE: &str = include_str!("page.md");
 
 /// The heading of the only part that may be left out, the last.
-const BETWEEN: &str = "## Between the grid points";
+const BETWEEN: &str = "\n## Between the grid points";
 
 impl Validation {
     /// Returns the page: all tables in Markdown.
@@ -120,7 +120,8 @@ impl CheckedStatement {
     }
 }
 
-fn marked(verdict: Verdict) -> String {
+/// A verdict, bold if the claim is reproduced.
+pub(crate) fn marked(verdict: Verdict) -> String {
     match verdict {
         Verdict::Reproduced => format!("**{verdict}**"),
         _ => verdict.to_string(),

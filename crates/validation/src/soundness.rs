@@ -72,7 +72,7 @@ impl Soundness {
 fn statements(claim: &CheckedClaim, other: &CheckedClaim) -> Vec<[String; 5]> {
     let cell = |finding: &Finding| format!("{}: {}", finding.verdict, finding.ours);
     let row = |(ours, theirs): (&crate::CheckedStatement, &crate::CheckedStatement)| {
-        let says = if ours.says.is_empty() { claim.claim.claim.as_str() } else { ours.says };
+        let says = if ours.says.is_empty() { &claim.claim.claim } else { &ours.says };
         let [paper, as_written] = &ours.found;
         let [other_paper, other_as_written] = &theirs.found;
         [

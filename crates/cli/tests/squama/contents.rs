@@ -35,7 +35,10 @@ fn a_run_that_is_not_whole_is_used_only_if_that_is_asked_for() {
     let place = incomplete();
     for reader in READERS {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r: holds 3 of 8 designs, expected all"), "{message}");
+        assert!(
+            message.starts_with("error: r: holds 3 of 8 designs; squama run --resume"),
+            "{message}"
+        );
     }
     assert_eq!(place.list("."), "r shard x.toml", "nothing is written");
     for reader in READERS {
@@ -70,7 +73,7 @@ fn a_run_without_a_statement_is_refused() {
         place.prints(reader);
     }
     change(&place, "r/contents.toml", "done = 8", "done = 7");
-    insta::assert_snapshot!(place.refused("rank r"), @"error: r/contents.toml: is not as it was written (its checksum does not match), expected no change; squama merge r --out r writes it again");
+    insta::assert_snapshot!(place.refused("rank r"), @"error: r/contents.toml: was changed after squama wrote it (its checksum does not match); squama merge r --out r writes it again");
 }
 
 #[test]
@@ -135,7 +138,7 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
     fs::write(place.path("r/critical_force.csv"), after).expect("writable");
     let message = place.refused("export r --xlsx x.xlsx --partial");
     assert!(
-        message.starts_with("error: r/critical_force.csv: is not as it was written"),
+        message.starts_with("error: r/critical_force.csv: was changed after squama wrote it"),
         "{message}"
     );
     place.squama("merge -q r --out r").assert().code(1);
@@ -154,7 +157,7 @@ fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
     change(&place, "r/pareto.csv", "0006", "0007");
     insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: was changed after squama wrote it; squama rank r writes it again");
     fs::remove_file(place.path("r/derived/ranking.toml")).expect("a record");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: its ranking did not come to its end, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: its ranking did not come to its end; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
 }
@@ -190,7 +193,7 @@ fn lines_that_a_journal_has_lost_are_noticed() {
     let end = journal.trim_end().rfind('\n').expect("lines") + 1;
     fs::write(place.path("r/journal.jsonl"), &journal[..end]).expect("writable");
     let message = place.refused("rank r");
-    assert!(message.contains("is not the journal that the tables beside it"), "{message}");
+    assert!(message.contains("is not the journal from which the tables beside it"), "{message}");
     insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines are missing that it had when its tables were written; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing");
     let run = place.squama("run x.toml -q --resume --out r").assert().code(0);
     let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");

@@ -53,5 +53,5 @@ fn a_folder_without_a_front_for_the_grid_is_refused() {
     std::fs::write(place.path("goal.toml"), physical + "minimize = 'areal_mass_kg_m2'\n")
         .expect("writable");
     place.squama("optimise goal.toml --out found").assert().code(0);
-    insta::assert_snapshot!(place.refused("report grid --front found"), @"error: --front found: its objective areal_mass_kg_m2 is no column of the designs in grid, expected a sweep with the same measures and [material]");
+    insta::assert_snapshot!(place.refused("report grid --front found"), @"error: --front found: its objective areal_mass_kg_m2 is not a column of the designs in grid, expected a sweep with the same measures and [material]");
 }

@@ -54,7 +54,7 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
     let journal = place.read("three/evaluations.jsonl");
     std::fs::write(place.path("three/evaluations.jsonl"), &journal[..journal.len() / 2])
         .expect("writable");
-    assert!(place.refused("optimise x.toml --out three").contains("--resume to go on"));
+    assert!(place.refused("optimise x.toml --out three").contains("--resume to continue"));
     place.squama("optimise x.toml --threads 2 --out three --resume").assert().code(0);
     for file in ["front.csv", "history.csv", "goal.toml", "front.svg", "history.svg"] {
         assert_eq!(
@@ -64,7 +64,7 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
         );
     }
     let different = place.refused("optimise x.toml --set goal.seed=1 --out three --resume");
-    assert!(different.contains("of another goal"), "{different}");
+    assert!(different.contains("for another goal"), "{different}");
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub enum InvalidFolder {
         problem: String,
     },
     /// The journal is not the one that the tables were written from.
-    #[error("{}: is not the journal from which the tables beside it were written ({problem}); {} writes the tables again from it", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
+    #[error("{}: is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
     Journal {
         /// The folder.
         folder: PathBuf,

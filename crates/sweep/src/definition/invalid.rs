@@ -108,7 +108,7 @@ pub enum Problem {
         other: String,
     },
     /// Steps that no path can follow.
-    #[error("{value} is larger than {other}, the largest value possible")]
+    #[error("{value} must be at most {other}")]
     StepOrder {
         /// The smallest step.
         value: String,
