@@ -10,6 +10,8 @@ use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
 };
+use results::columns::SOUND_FORCE;
+use results::{Results, RunFolder};
 
 use super::source::{Partial, verified_folder};
 use super::work::whole;
@@ -21,7 +23,6 @@ use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
 pub(super) use report::{distance, obstacle};
-use results::{Results, RunFolder};
 use std::path::PathBuf;
 
 /// Arguments of `squama rank`.
@@ -187,7 +188,7 @@ fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
 /// The criteria of the paper with the force that the model can answer for.
 fn sound_criteria() -> Vec<Criterion> {
     let sound = |criterion: &Criterion| match criterion.column.as_ref() {
-        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        "critical_force" => Criterion::new(SOUND_FORCE, Goal::Maximize),
         _ => criterion.clone(),
     };
     CRITERIA.iter().map(sound).collect()

@@ -1,5 +1,7 @@
 //! Stiffness against critical force (Fig. 8).
 
+use results::columns::{MAX_STIFFNESS, SECANT_STIFFNESS};
+
 use super::names::axis_label;
 use super::{Quantity, sheet, thinned};
 use crate::axis::ChartAxis;
@@ -11,8 +13,8 @@ const HEIGHT: f64 = 520.0;
 
 /// The stiffnesses that a puncture has, and what each is.
 const STIFFNESSES: [(&str, &str); 2] = [
-    ("max_stiffness", "largest slope of the path"),
-    ("secant_stiffness", "secant at the critical tilt"),
+    (MAX_STIFFNESS, "largest slope of the path"),
+    (SECANT_STIFFNESS, "secant at the critical tilt"),
 ];
 
 pub(crate) fn figure(name: &str, designs: &Designs) -> String {

@@ -1,5 +1,6 @@
 //! The data of a page, as its scripts read them.
 
+use results::columns::{FOLD_FORCE, GAP_STRETCH_MIN, Goal, Shown, plain_goal, shown};
 use results::shell_word;
 use results::yardsticks;
 use serde_json::{Value, json};
@@ -18,14 +19,18 @@ pub(super) fn of(page: &Page) -> Value {
     let measured_by = |name: &str| -> Vec<_> {
         yardsticks(name).into_iter().filter(|parameter| varied.contains(parameter)).collect()
     };
-    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "measuredBy": measured_by(name)});
+    let column = |(name, (unit, meaning)): (&String, &(String, String))| json!({"name": name, "unit": unit, "meaning": meaning, "goal": plain_goal(name).map(Goal::key), "measuredBy": measured_by(name)});
     let fact = |(name, value): &Fact| json!({"name": name, "value": value});
     let shared = |[key, value, meaning]: &[String; 3]| json!({"key": key, "value": value, "meaning": meaning});
+    let last = [shown(Shown::Then), shown(Shown::Last)].concat();
     json!({
         "name": visible(&page.name),
         "folder": shell_word(&page.folder),
         "opening": page.opening,
         "axes": page.axes,
+        "fold": FOLD_FORCE,
+        "tightest": GAP_STRETCH_MIN,
+        "shown": {"first": shown(Shown::First), "last": last},
         "numeric": headers.iter().filter(|header| page.designs.has(header)).collect::<Vec<_>>(),
         "columns": columns.map(column).collect::<Vec<_>>(),
         "values": headers.iter().map(|header| cells(&page.designs, header)).collect::<Vec<_>>(),

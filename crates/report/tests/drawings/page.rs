@@ -76,6 +76,35 @@ fn figures_are_named_and_the_same_every_time() {
     assert_eq!(all, figures("x", &designs, Some(&ranking)));
 }
 
+/// The page ranks by a column in the direction in which `squama rank` does, for every column that a table may have.
+#[test]
+fn the_page_knows_which_values_are_good_as_rankings_do() {
+    let material = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n\
+                    material.scale_density_kg_m3 = 1200\nimperfection.gap_cv = 0.1";
+    let sweep =
+        sweep::Sweep::parse(&format!("name = 'x'\n{material}"), "x.toml", &[]).expect("a sweep");
+    let columns = results::columns::design_columns(&sweep);
+    let headers: Vec<_> = columns.iter().map(|column| column.name.to_string()).collect();
+    let blank = ",".repeat(headers.len() - 1);
+    let designs = Designs::of(&results(&format!("{}\n0001{blank}\n", headers.join(","))));
+    let html = page(designs).html();
+    let mut told = 0;
+    for name in &headers {
+        let plain = name.parse::<ranking::Criterion>().ok().map(|criterion| criterion.goal.key());
+        let entry =
+            html.split_once(&format!("\"name\":\"{name}\"")).map_or("", |(before, _)| before);
+        let goal =
+            entry.rsplit_once("\"goal\":").map(|(_, rest)| rest.split(',').next().unwrap_or(""));
+        assert_eq!(
+            goal,
+            Some(plain.map_or("null".to_owned(), |key| format!("\"{key}\"")).as_str()),
+            "{name}"
+        );
+        told += usize::from(plain.is_some());
+    }
+    assert!(told > 12, "{told} columns have a direction");
+}
+
 #[test]
 fn what_was_not_measured_has_no_figure() {
     let table =

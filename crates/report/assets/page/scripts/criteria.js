@@ -55,7 +55,7 @@
     squama.at("paper-criteria").hidden = isPaper() && state.scale === "paper";
   };
   adder.addEventListener("change", () => {
-    if (adder.value !== "") setCriteria([...state.criteria, { column: adder.value, goal: ranking.plainGoal(adder.value) }]);
+    if (adder.value !== "") setCriteria([...state.criteria, { column: adder.value, goal: ranking.plainGoal(squama, adder.value) }]);
   });
   squama.at("paper-criteria").addEventListener("click", () => {
     const { criteria, scale } = squama.initial();
@@ -79,7 +79,7 @@
     ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
     ...squama.comparable.now().map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
     // The surface folds over where a gap between two bases has closed.
-    ...(state.sound ? [`--require ${quoted("gap_stretch_min > 0")}`] : []),
+    ...(state.sound ? [`--require ${quoted(`${squama.tightest} > 0`)}`] : []),
     ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
     `--weights ${squama.weights().join(",")}`,
     ...(state.scale === "paper" ? [] : [`--scale ${state.scale}`]),

@@ -17,6 +17,9 @@ squama.place = new Map(squama.names.map((name, place) => [name, place]));
 /** Whether there is a column. */
 squama.has = (name) => squama.place.has(name);
 
+/** Which values of a column are good, "max" or "min"; null where that is not plain. */
+squama.goal = (name) => squama.columns[squama.place.get(name)]?.goal ?? null;
+
 /** Cells of a column, from the top: numbers, texts, or null. */
 squama.cells = (name) => squama.values[squama.place.get(name)] ?? [];
 
@@ -66,8 +69,8 @@ squama.different = (() => {
 squama.varied = squama.axes.filter((name) => squama.different(name).length > 1);
 
 /** Whether the surface of the substrate folds before the puncture of a design ends. */
-squama.folded = (row) => squama.cell(row, "fold_force") !== null;
-squama.foldedRows = squama.has("fold_force") ? squama.rows.filter(squama.folded) : [];
+squama.folded = (row) => squama.cell(row, squama.fold) !== null;
+squama.foldedRows = squama.has(squama.fold) ? squama.rows.filter(squama.folded) : [];
 
 /** A number to four digits. */
 squama.short = (value) => {
