@@ -54,6 +54,7 @@ fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> 
     match requirement.relation {
         Relation::AtLeast | Relation::Above => Some(normal.sf(requirement.limit)),
         Relation::AtMost | Relation::Below => Some(normal.cdf(requirement.limit)),
+        // A value with a spread meets an equality with probability 0, which tells nothing.
         Relation::Equal => None,
     }
 }

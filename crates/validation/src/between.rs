@@ -140,6 +140,7 @@ fn pair_of(best: &BestDesign) -> Option<[f64; 2]> {
 
 /// Whether one is at least as good as the other in both, but for round-off.
 fn at_least(one: &[f64; 2], other: &[f64; 2]) -> bool {
+    // Equal designs of the grid and of a search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
 }
 

@@ -84,6 +84,7 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
 fn statements() -> Result<Vec<(Claim, Vec<Statement>)>, ValidationError> {
     let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
     let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
+    // C18a and C18b belong to C18: numbers have two digits, so no number begins another.
     let of = |claim: &Claim| all.iter().filter(|s| s.id.starts_with(&claim.id)).cloned().collect();
     let with = |claim: Claim| {
         let statements = of(&claim);

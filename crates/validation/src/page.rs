@@ -29,6 +29,7 @@ impl Validation {
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),
+            // The names in braces of a part that is left out would stay.
             None => page.truncate(PAGE.find(BETWEEN).unwrap_or(PAGE.len())),
         }
         for (name, text) in parts {

@@ -56,6 +56,7 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     let setting = |(option, key, value): (&str, &str, &String)| {
         Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
     };
+    // A sweep of one design: its keys know their bounds, and how to refuse what is beyond.
     let settings: Vec<_> = options.into_iter().map(setting).collect::<Result<_, _>>()?;
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;

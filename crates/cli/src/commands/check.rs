@@ -111,6 +111,7 @@ fn row(what: &str, value: &str) -> [String; 2] {
 
 /// Time and room of a large sweep.
 fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
+    // A few designs are solved for the estimate, which takes longer than a small sweep does.
     if sweep.grid().len() < LARGE {
         return Vec::new();
     }

@@ -142,6 +142,7 @@ impl Drawing<'_> {
     /// Displacements at equal steps, up to the critical tilt.
     fn frames(&self) -> anyhow::Result<Vec<puncture::At>> {
         let critical = puncture::At::Tilt(self.case.puncture.critical_tilt_deg);
+        // Solved twice, because only the end of the path tells how far apart the frames are.
         let end = self.puncture_states(&[critical])?;
         let last = end.first().map_or(0.0, |state| state.displacement);
         let frame = |k| puncture::At::Displacement(last * f64::from(k) / f64::from(FRAMES));
@@ -201,6 +202,7 @@ impl Drawing<'_> {
             }
             [] => {
                 let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
+                // Adding zero turns −0 into 0, which the name of the file would show.
                 reached.map(|size| size * last.signum() + 0.0).collect()
             }
             at => at.to_vec(),

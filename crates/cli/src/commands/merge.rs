@@ -65,6 +65,7 @@ fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();
     }
+    // The ranges count from 1, the grid from 0.
     let number = |number: u64| merged.sweep.grid().number(number - 1);
     let name = |range: &RangeInclusive<u64>| match (*range.start(), *range.end()) {
         (first, last) if first == last => number(first).to_string(),

@@ -94,6 +94,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let display = SearchDisplay::new(arguments.quiet, interrupt);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
+    // The bar goes before anything is printed.
     drop(display);
     let Some(found) = found else {
         note(&format!(

@@ -209,6 +209,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture::snapshots(&case.design, &substrate, &common, &case.puncture, &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
+        // One point beyond, so that the line reaches the end.
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));

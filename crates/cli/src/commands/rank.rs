@@ -110,6 +110,7 @@ pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = Results::read_from(&verified)?;
+    // Refused before anything is ranked: values that were measured in different ways have no order.
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),

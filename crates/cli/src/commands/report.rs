@@ -122,6 +122,7 @@ fn opening(preferences: &Preferences) -> String {
 fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
+    // In turns, so that no group of designs takes all the room.
     while rows.len() < SOLVED && !groups.is_empty() {
         groups.retain_mut(|group| {
             group.next().is_some_and(|row| {
@@ -136,6 +137,7 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
     let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
     let mut room = ROOM;
     for design in &mut all {
+        // The best come first: where the room ends, the others keep their curves.
         room = room.saturating_sub(design.svg.len());
         if room == 0 {
             design.svg.clear();

@@ -111,6 +111,7 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     let threads = options.threads;
     let finished = finished?;
+    // Whoever ends a run does not wait for its audit.
     let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
     let audited = audited.map(|share| run::Audit::of(&folder, share.0, &options)).transpose()?;
     drop(display);
@@ -141,6 +142,7 @@ pub(super) fn conclude(folder: &Path, finished: &Finished) {
     for text in &finished.notes {
         note(text);
     }
+    // Partial, because an interrupted run leaves products out of date, too.
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
     for made in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(

@@ -62,6 +62,7 @@ fn by_numbers(
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let sweep = Sweep::read(file, settings)?;
     let grid = sweep.grid();
+    // Settings that change the number of designs leave no design to compare with.
     let original = Sweep::read(file, &[]).ok().filter(|other| other.grid().len() == grid.len());
     let selected = |index| SelectedDesign {
         number: Some(grid.number(index)),
@@ -91,6 +92,7 @@ fn by_values(
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         let option = format!("{option} {text}");
+        // A range selects among the values as they are written, because the option takes the place of their axis.
         let values = values(text, written.grid().axis(key)).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
@@ -112,6 +114,7 @@ fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&Strin
 /// The values that `text` gives, in TOML: one, several with commas between, or with `..` those of `axis` from one to another.
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
+        // What is TOML already, such as { from = 0.1, to = 1 }, is left as it is.
         let is_list = text.contains(',') && !text.trim_start().starts_with(['[', '{']);
         return Ok(if is_list { format!("[{text}]") } else { text.to_owned() });
     };

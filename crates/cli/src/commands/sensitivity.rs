@@ -120,6 +120,7 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
+    // People see the leading measures; the table has all.
     let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
     for measure in found.measures.iter().filter(is_shown) {
         let failed = match measure.failed {

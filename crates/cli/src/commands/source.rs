@@ -52,6 +52,7 @@ pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
 /// The file of the definition, which is as it was written if a run has written it: `path`, or the record of the run in the folder `path`.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
+        // A run.toml that was edited is no longer the record of its run.
         verify_record(path)?;
         return Ok(path.to_owned());
     }
@@ -69,6 +70,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
 /// The folder of results: `path`, the folder of the record `path`, or that of the sweep that `path` defines.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
+        // A folder that does not exist is refused where its files are opened, by the name of what is missing.
         refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
@@ -87,6 +89,7 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
 
 /// Refuses a folder that holds runs but is none, and names them.
 fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
+    // A run that has only begun has a journal, but no record yet.
     let is_run = |folder: &Path| {
         [RunFolder::RUN_INFO, RunFolder::JOURNAL].iter().any(|file| folder.join(file).is_file())
     };

@@ -151,11 +151,13 @@ fn analysed(
 ) -> Result<Vec<DesignTolerance>, NoAnalysis> {
     let analyse = |&index: &u64| {
         let mut design = analysis.design(index, store)?;
+        // Only the figures of a single design need the samples, which would fill the memory.
         if designs.len() > 1 {
             design.samples = Vec::new();
         }
         Ok(design)
     };
+    // Designs and their samples share the threads, so that the last design leaves none idle.
     designs.par_iter().map(analyse).collect()
 }
 
@@ -185,6 +187,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
     } else {
+        // An earlier table would pass for one of this analysis.
         folder.remove("yield.csv");
     }
     folder.sync();

@@ -67,6 +67,7 @@ impl Statement {
     /// If nothing is measured for the statement, or its limits cannot be read.
     pub(crate) fn find(&self, evidence: &Evidence) -> Result<Finding, ValidationError> {
         let unchecked = || ValidationError::UncheckedClaim(self.id.clone());
+        // A statement without a measurement, or with limits that cannot be read, is a mistake in the table.
         let found = match measurement(&self.id).ok_or_else(unchecked)? {
             Measurement::Number(measure) => {
                 let limits = Limits::read(&self.limits).ok_or_else(unchecked)?;

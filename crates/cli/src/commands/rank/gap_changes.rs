@@ -87,6 +87,7 @@ fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
+        // Half of the last digit that is shown.
         _ if (ratio - 1.0).abs() < 5e-4 => "as is".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
@@ -99,6 +100,7 @@ fn words(value: f64, changed: Option<f64>) -> String {
 fn cliffs(change: &GapChange) -> Vec<String> {
     let sentence = |measure: &MeasureChange, side: &str, changed: Option<f64>| {
         let ratio = changed? / measure.value;
+        // A measure that is zero, or changes its sign, has no factor.
         let is_cliff = ratio.is_finite() && ratio > 0.0 && ratio.max(ratio.recip()) >= CLIFF;
         let (design, column) = (&change.design, &measure.column);
         let moved = moved(ratio);
