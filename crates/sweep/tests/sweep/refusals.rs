@@ -141,7 +141,7 @@ fn all_errors_are_told_at_once() {
     x.toml:8: contact.c2: 0 is out of range, expected a number above 0 and at most 10
     x.toml:10: puncture.scales: "many" is not accepted, expected a whole number from 1 to 1000000 or "auto"
     --set solver.max_step=0: solver.max_step: 0 is out of range, expected a fraction above 0 and at most 1
-    x.toml:7: contact.c1: 2 contradicts designs.c1 at x.toml:5, expected one of the two
+    x.toml:7: contact.c1: 2 conflicts with designs.c1 at x.toml:5; keep one of the two
     x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
     "#);
     let text = "name = x\n[designs]\nslant_deg 30\ngap_over_t = 0.1";
@@ -209,7 +209,7 @@ fn long_lists_and_many_keys_are_read_or_refused_at_once() {
     assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
     let twice = text.replace("\n]", ",\n0.25\n]");
     let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
-    assert!(error.contains("0.25 stands in the list twice"), "{error}");
+    assert!(error.contains("0.25 is in the list twice"), "{error}");
     let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
     let keys = keys.join("\n");
     let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();
