@@ -96,6 +96,8 @@ pub fn write_html(
     page: &str,
     files: &mut Written,
 ) -> anyhow::Result<()> {
+    // A page of some megabytes that a kill has left half-written goes with the next one.
+    results::make_folder(folder)?;
     write(folder, format!("{name}.html"), page.as_bytes(), files)
 }
 

@@ -141,6 +141,7 @@ fn what_a_kill_has_left_is_removed_by_the_next_command() {
         "design x.toml --design 1 --out out",
         "export r --xlsx out/x.xlsx",
         "plot r --out out",
+        "report r --out out/page.html",
         "optimise my/goal.toml --out out",
     ] {
         fs::create_dir_all(place.path("out")).expect("a folder");
