@@ -52,6 +52,13 @@ fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
     let printed = place.prints("rank a --weights 0,1,0,0");
     let (_, others) = printed.split_once("folds over under the best design").expect("a fold");
     assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
+    // Wherever it is named, it is marked.
+    let named = printed.lines().filter(|line| line.contains("0001"));
+    assert!(
+        named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
+        "{printed}"
+    );
+    assert!(!printed.contains("0002⚠") && printed.contains("⚠ the surface"), "{printed}");
     let sound = place.prints("rank a --weights 0,1,0,0 --sound");
     assert!(!sound.contains("folds over"), "{sound}");
     let table = place.read("a/ranking.csv");

@@ -1,10 +1,13 @@
 //! The first sheet of a workbook: what the run is, how it ended, which designs are best.
 
+use std::collections::HashSet;
+
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
+use results::columns::measure_of;
 use results::round_off::Leader;
 use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
-use sweep::{PARAMETERS, Sweep};
+use sweep::{Measure, PARAMETERS, Sweep};
 
 use super::ExportError;
 use super::explanation::Explanation;
@@ -14,6 +17,9 @@ use crate::facts::facts;
 const NAME: &str = "summary";
 /// The designs of the ranking that are listed.
 const LISTED: usize = 10;
+/// What is said of a design under which the surface of the substrate folds over.
+const FOLDS: &str = "the surface folds over: do not trust the critical force";
+const DOUBT: &str = " ⚠ surface folds";
 /// Widths of its columns, in characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 
@@ -23,6 +29,9 @@ pub(super) struct BestValues {
     columns: Vec<(&'static Criterion, usize)>,
     best: [Option<Leader<String>>; 4],
     designs: u64,
+    /// Place of the force at which the surface folds over, and the designs under which it does.
+    fold: Option<usize>,
+    folded: HashSet<String>,
 }
 
 impl BestValues {
@@ -31,13 +40,23 @@ impl BestValues {
         let place = |criterion: &'static Criterion| {
             Some((criterion, header.iter().position(|name| name == criterion.column)?))
         };
-        Self { columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+        let fold = header.iter().position(|name| name == "fold_force");
+        Self { fold, columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+    }
+
+    /// What stands behind a design that is named best by a measure, if the fold touches that measure.
+    fn doubt(&self, design: &str, measure: &str) -> &'static str {
+        let is_touched = measure_of(measure) == Some(Measure::Puncture);
+        if is_touched && self.folded.contains(design) { DOUBT } else { "" }
     }
 
     /// Sees a row.
     pub fn add(&mut self, format: CsvFormat, row: &csv::StringRecord) {
         self.designs += 1;
         let design = row.get(0).unwrap_or_default();
+        if self.fold.and_then(|place| row.get(place)).is_some_and(|cell| !cell.is_empty()) {
+            self.folded.insert(design.to_owned());
+        }
         for ((criterion, place), best) in self.columns.iter().zip(&mut self.best) {
             let value = row.get(*place).and_then(|cell| format.number(cell));
             let is_better = if criterion.goal == Goal::Maximize { f64::gt } else { f64::lt };
@@ -93,7 +112,7 @@ pub(super) fn summary(
     sheet.title(definition.as_ref())?;
     sheet.run(&facts.record, folder.shortfall(), best)?;
     sheet.best(best, definition.as_ref())?;
-    sheet.ranking(facts)?;
+    sheet.ranking(facts, best)?;
     if let Some(sweep) = &definition {
         sheet.definition(sweep)?;
     }
@@ -175,7 +194,7 @@ impl Sheet {
             let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
             self.add(&[
                 &name,
-                &format!("{}{ties}", leader.first),
+                &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, &criterion.column)),
                 &sweep::number::text(value),
                 unit,
             ])?;
@@ -184,7 +203,7 @@ impl Sheet {
     }
 
     /// What the ranking of the run goes by, and its first designs.
-    fn ranking(&mut self, facts: &SummaryFacts) -> Result<(), XlsxError> {
+    fn ranking(&mut self, facts: &SummaryFacts, best: &BestValues) -> Result<(), XlsxError> {
         let Some(preferences) = &facts.preferences else { return Ok(()) };
         self.part(&["Ranking: requirements"])?;
         if preferences.requirements.is_empty() {
@@ -200,7 +219,8 @@ impl Sheet {
         self.add(&["scale", preferences.scale.name()])?;
         self.part(&["Ranking: best designs", "design", "fitness"])?;
         for [rank, design, fitness] in &facts.leading {
-            self.add(&[rank, design, fitness])?;
+            let doubt = if best.folded.contains(design) { FOLDS } else { "" };
+            self.add(&[rank, design, fitness, doubt])?;
         }
         Ok(())
     }
