@@ -270,3 +270,14 @@ fn deviations() {
         "tolerance.gap_over_t = { batch_sd = 1 }\nmaterial.thickness_mm = 1\ntolerance.gap_mm = { batch_sd = 1 }",
     ]));
 }
+
+#[test]
+fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
+    let text = format!("name = 'x'\n[designs]\ngap_over_t = [{}]", "1,".repeat(1_300_000));
+    let error = Sweep::parse(&text, "x.toml", &[]).expect_err("too many").to_string();
+    assert!(
+        error.starts_with("x.toml:3: ") && error.contains("more than 1200000 values"),
+        "{error}"
+    );
+    assert_eq!(error.lines().count(), 1);
+}
