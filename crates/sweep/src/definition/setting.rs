@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::suggestion::VARIABLES;
 use crate::parameter::Parameter;
+use crate::parameter::key;
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
@@ -117,11 +118,24 @@ impl Setting {
                 drop_from_file(table, section, parameter.key);
             }
         }
-        if let Some(other) = parameter.alternative() {
+        let is_guided = says(table, "puncture", key::NEEDLE, "guided");
+        let is_needle =
+            parameter.key == key::NEEDLE_FRICTION || parameter.key == key::CRITICAL_TILT;
+        // Under a guided needle tilt and friction are two things.
+        if let Some(other) = parameter.alternative().filter(|_| !(is_guided && is_needle)) {
             drop_from_file(table, "designs", other.key);
             drop_from_file(table, other.section, other.key);
         }
     }
+}
+
+/// Whether a definition gives a key of a section this text.
+fn says(table: &KeyValues, section: &str, key: &str, text: &str) -> bool {
+    table.iter().filter(|entry| entry.key == section).any(|entry| {
+        let Value::Table(entries) = &entry.value else { return false };
+        let is_text = |value: &Value| matches!(value, Value::Text(found) if found == text);
+        entries.iter().any(|entry| entry.key == key && is_text(&entry.value))
+    })
 }
 
 /// Removes what the file says about a key of a section.
