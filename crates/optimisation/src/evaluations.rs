@@ -29,6 +29,8 @@ pub(crate) enum Halt {
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
+    /// A climb does not move any more.
+    Stalled,
 }
 
 /// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.

@@ -71,6 +71,7 @@ mod slopes;
 mod space;
 mod statistic;
 mod tables;
+mod tooth;
 mod words;
 mod worth;
 

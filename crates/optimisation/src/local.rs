@@ -30,17 +30,15 @@ const ROUNDS: usize = 4;
 struct Fineness {
     /// A relative gain below which a round has come to its end.
     gain: f64,
-    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
-    looks: u64,
     /// The smallest step without derivatives, a share of the intervals.
     step: f64,
 }
 
 impl Fineness {
     /// Among nominal designs.
-    const NOMINAL: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
+    const NOMINAL: Self = Self { gain: 1e-8, step: 1e-7 };
     /// Among sampled designs, whose number of samples leaves quantiles and yields uncertain by per cents.
-    const SAMPLED: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
+    const SAMPLED: Self = Self { gain: 1e-3, step: 1e-4 };
 }
 
 /// The parts that all searches share: the space, its evaluations, the judge.
@@ -54,6 +52,10 @@ pub(crate) struct Search<'a> {
 /// How much a local search may take.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
+    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
+    pub looks: u64,
+    /// Pieces of coverage that a climb goes through.
+    pub pieces: usize,
     /// Rounds.
     pub rounds: usize,
     /// First step along ridges and without derivatives, a share of the intervals.
@@ -65,16 +67,26 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
+    /// A few steps along derivatives, which tell regions that are worth more.
+    pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
     /// Along derivatives alone.
-    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
+    pub const CLIMB: Self =
+        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
     /// To the end.
-    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8 };
+    pub const WHOLE: Self =
+        Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
     /// From a design that is nearly the best.
-    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
+    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4, ..Self::CLIMB };
 
     /// As much as it may take where each design costs as many solutions as it has samples.
     fn on_samples(self) -> Self {
-        Self { rounds: self.rounds.min(2), ridge: self.ridge / 2, polish: self.polish / 2, ..self }
+        Self {
+            looks: self.looks.min(8),
+            rounds: self.rounds.min(2),
+            ridge: self.ridge / 2,
+            polish: self.polish / 2,
+            ..self
+        }
     }
 }
 
@@ -151,7 +163,7 @@ impl Search<'_> {
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
-        walk.climb()?;
+        walk.climb(effort)?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
             walk.follow(reach, effort.ridge * variables)?;
@@ -159,7 +171,7 @@ impl Search<'_> {
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
-            walk.climb()?;
+            walk.climb(effort)?;
             reach *= 0.3;
         }
         Ok(walk.log.take())

@@ -24,7 +24,8 @@ pub(crate) struct Bounds {
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
         column: "gap_stretch_min".to_owned(),
-        relation: Relation::AtLeast,
+        // Strict: where a gap has just closed, the surface has folded.
+        relation: Relation::Above,
         limit: 0.0,
     })
 }

@@ -8,6 +8,7 @@ use ranking::CriterionEnds;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
+use sweep::Measure;
 
 use crate::answer::{Answer, Plan, answer};
 use crate::candidate::{Candidate, SearchStage};
@@ -22,6 +23,7 @@ use crate::margin::has_folded;
 use crate::meter::{SearchMeter, SearchPart};
 use crate::sampled::search::Searches;
 use crate::space::SpacePoint;
+use crate::tooth::points_on_peaks;
 use crate::worth::Judgement;
 
 /// How a search is carried out.
@@ -86,7 +88,8 @@ pub fn optimise(
             check_columns(&found)?;
             Ok(Some(found))
         }
-        Err(Halt::Interrupted) => Ok(None),
+        // A climb that stalls is no reason to end a search.
+        Err(Halt::Interrupted | Halt::Stalled) => Ok(None),
         Err(Halt::Output(error)) => Err(error.into()),
     }
 }
@@ -103,6 +106,12 @@ fn find(
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
         judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
+    let on_peaks = if nominal.judge.is_about(Measure::Coverage) {
+        points_on_peaks(&goal.space, nominal.judge, goal.seed)
+    } else {
+        Vec::new()
+    };
+    let points = [points, on_peaks].concat();
     let look = |point| Ok(nominal.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_samples() {
