@@ -106,7 +106,9 @@ impl<'a> Evaluations<'a> {
         match line {
             JournalLine::Solved(line) => {
                 let SolvedLine { differentiated, skin: sample, shares, chosen, result } = *line;
-                let point = PointKey::of(&SpacePoint { shares, chosen });
+                let point = SpacePoint { shares, chosen };
+                let point =
+                    if sample.is_none() { self.point_key(&point) } else { PointKey::of(&point) };
                 let key = EvaluationKey { differentiated, sample, point };
                 lock(&self.known).insert(key, Arc::new(result));
             }
@@ -115,6 +117,24 @@ impl<'a> Evaluations<'a> {
                 lock(&self.sampled).insert(key, Arc::new(Samples(values)));
             }
         }
+    }
+
+    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    pub fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.space.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.space.intervals().iter().enumerate();
+        let scaling = intervals.filter(|(_, interval)| !is_measured(interval.parameter.section));
+        scaling.map(|(j, _)| j).collect()
+    }
+
+    /// The key of a design: designs that one of those intervals alone tells apart have one result.
+    fn point_key(&self, point: &SpacePoint) -> PointKey {
+        let mut point = point.clone();
+        for j in self.scaling_intervals() {
+            point.shares[j] = 0.0;
+        }
+        PointKey::of(&point)
     }
 
     /// The row of the design at `point`, as number `index` of a table.
@@ -167,7 +187,8 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
+        let point_key = if sample.is_none() { self.point_key(point) } else { PointKey::of(point) };
+        let key = EvaluationKey { differentiated, sample, point: point_key };
         if let Some(known) = lock(&self.known).get(&key) {
             return Ok(Arc::clone(known));
         }

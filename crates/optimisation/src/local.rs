@@ -25,6 +25,15 @@ use samples::SampledPoint;
 /// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
 
+/// Round-off of a share.
+const ROUND_OFF: f64 = 1e-13;
+
+/// Steps of a scaling in each of its rounds.
+const STEPS: u32 = 8;
+
+/// Rounds of a scaling.
+const SCALINGS: usize = 15;
+
 /// How fine a local search becomes before it ends.
 #[derive(Clone, Copy, Debug)]
 struct Fineness {
@@ -131,6 +140,34 @@ impl Search<'_> {
         Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
+    /// The best design for a target among those that differ from `start` in intervals that only scale it, one after the other.
+    pub fn scaled(
+        &self,
+        target: &Target,
+        start: &Candidate,
+        scaling: &[usize],
+    ) -> Result<Candidate, Halt> {
+        let mut best = start.clone();
+        for &j in scaling {
+            let (mut from, mut to) = (0.0, 1.0);
+            // Each round leaves two of the steps round the best: fifteen rounds come to round-off of the shares.
+            for _ in 0..SCALINGS {
+                let step = (to - from) / f64::from(STEPS);
+                for k in 0..=STEPS {
+                    let mut point = best.point.clone();
+                    point.shares[j] = (from + step * f64::from(k)).min(1.0);
+                    let looked = self.look(SearchStage::Gradient, &point, false)?.0;
+                    if self.merit(&looked, target).compare(self.merit(&best, target)).is_gt() {
+                        best = looked;
+                    }
+                }
+                (from, to) = (best.point.shares[j] - step, best.point.shares[j] + step);
+                (from, to) = (from.max(0.0), to.min(1.0));
+            }
+        }
+        Ok(best)
+    }
+
     fn fineness(&self) -> Fineness {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
@@ -152,6 +189,7 @@ impl Search<'_> {
         start: &Candidate,
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
+        self.meter.start();
         let walk = LocalSearch {
             search: self,
             target,
@@ -209,7 +247,13 @@ impl LocalSearch<'_> {
         differentiated: bool,
     ) -> Result<(Candidate, LookedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
-        let shares = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
+        // An end that is missed by round-off is meant: tables show 60, not 59.99999999999999.
+        let ended = |share: &f64| match *share {
+            share if share < ROUND_OFF => 0.0,
+            share if share > 1.0 - ROUND_OFF => 1.0,
+            share => share,
+        };
+        let shares = shares.iter().map(ended).collect();
         let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;
         self.note(&looked.0);
         Ok(looked)

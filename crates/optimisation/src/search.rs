@@ -11,6 +11,7 @@ use run::{Program, Start};
 use sweep::Measure;
 
 use crate::answer::{Answer, Plan, answer};
+use crate::best::{Region, region};
 use crate::candidate::{Candidate, SearchStage};
 use crate::column::ends_over;
 use crate::error::OptimisationError;
@@ -48,6 +49,10 @@ pub struct Found {
     pub answer: Answer,
     /// How many designs could not be counted on.
     pub left_out: LeftOutDesigns,
+    /// The number of local searches.
+    pub starts: usize,
+    /// The number of regions that designs were looked at in: of choices, peaks of coverage, strips whose scales touch or do not.
+    pub regions: usize,
     /// The number of evaluations, with derivatives and without.
     pub evaluations: usize,
     /// The ends between which the criteria of the fitness were rescaled.
@@ -121,7 +126,15 @@ fn find(
         answer(&search, &mut history, Plan { points: goal.points, ..Plan::NOMINAL })?
     };
     let left_out = LeftOutDesigns::of(&search, &history);
-    Ok(Found { history, answer, left_out, evaluations: evaluations.count(), rescaled })
+    let mut regions: Vec<Region> = Vec::new();
+    for candidate in &history {
+        let region = region(&search, candidate);
+        if !regions.contains(&region) {
+            regions.push(region);
+        }
+    }
+    let (starts, evaluations) = (meter.starts(), evaluations.count());
+    Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
 }
 
 /// The rows of the points that fill the space.

@@ -115,13 +115,17 @@ impl Tooth {
     }
 }
 
+/// The part `d/p` of the pitch that the gap takes; `None` of a row that cannot be.
+pub(crate) fn open_share(case: &Case) -> Option<f64> {
+    Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
+}
+
 /// Continues the compliance of strips that do not touch, `d/p`, beyond where they do.
 pub(crate) fn continue_compliance(row: &mut DesignRow) {
-    let compliance = |case: &Case| Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch);
     if let Some(flexure) = &mut row.result.flexure {
-        flexure.measures.compliance = compliance(&row.case);
+        flexure.measures.compliance = open_share(&row.case);
     }
-    differentiate(row, "compliance", compliance);
+    differentiate(row, "compliance", open_share);
 }
 
 /// Puts a smooth function of the case in the place of a measure with derivatives.
@@ -176,11 +180,11 @@ fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<
 /// How far a design on a peak falls short of what is known of its requirements without solving it: coverage, parameters, masses, and
 /// that no compliance is above `d/p`.
 fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
-    let Some(Lengths { gap, pitch, .. }) = Lengths::of(case) else { return f64::INFINITY };
-    let result = DesignResult { coverage: Some(1.0 - gap / pitch), ..DesignResult::default() };
+    let Some(open) = open_share(case) else { return f64::INFINITY };
+    let result = DesignResult { coverage: Some(1.0 - open), ..DesignResult::default() };
     let margin = |(requirement, value): (&Requirement, Option<f64>)| {
         let is_compliance = COMPLIANCES.contains(&requirement.column.as_str());
-        let bound = || (is_compliance && requirement.direction() > 0.0).then_some(gap / pitch);
+        let bound = || (is_compliance && requirement.direction() > 0.0).then_some(open);
         value.or_else(bound).map_or(0.0, |value| requirement.margin(value).min(0.0))
     };
     -judge.known(case, number, result).into_iter().map(margin).sum::<f64>()
