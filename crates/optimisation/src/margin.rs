@@ -2,6 +2,7 @@
 
 use ranking::{Relation, Requirement, tightest};
 use results::DesignRow;
+use results::columns::GAP_STRETCH_MIN;
 use sweep::{Measure, Parameter, Sweep};
 
 use crate::column::NumberColumn;
@@ -23,7 +24,7 @@ pub(crate) struct Bounds {
 /// The requirement that the surface of the substrate has not folded, if `sweep` tells: no gap has closed at the critical tilt.
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
-        column: "gap_stretch_min".to_owned(),
+        column: GAP_STRETCH_MIN.to_owned(),
         // Strict: where a gap has just closed, the surface has folded.
         relation: Relation::Above,
         limit: 0.0,

@@ -147,7 +147,7 @@ fn cells(
     columns: impl Iterator<Item = (String, &'static str, &'static str)>,
 ) -> Vec<Column<Cells>> {
     let column = |(index, (name, unit, meaning)): (usize, (String, _, _))| {
-        Column::indexed(name, unit, meaning, index, |row: &Cells, index| row[index].clone())
+        Column::made(name.into(), unit, meaning, move |row: &Cells| row[index].clone())
     };
     columns.enumerate().map(column).collect()
 }

@@ -5,7 +5,9 @@
 //! ∂f/∂q = f Σ (w_c/s_c) ∂s_c/∂q                                                                      (O4)
 //! ```
 
-use crate::criterion::{Criterion, Goal};
+use results::columns::Goal;
+
+use crate::criterion::Criterion;
 use crate::scale::Scale;
 use crate::weights::Weights;
 

@@ -58,7 +58,7 @@ pub use compare::{
     ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
     comparison_columns, difference_columns, rank_correlation, write_comparison,
 };
-pub use criterion::{CRITERIA, Criterion, Goal, InvalidCriterion};
+pub use criterion::{CRITERIA, Criterion, InvalidCriterion};
 pub use fitness::{CriterionEnds, FitnessGoal, RescaledCriterion};
 pub use front::{dominates, pareto_front};
 pub use incomparable::{Incomparable, check_comparable, comparable_groups};
@@ -68,6 +68,7 @@ pub use ranking::{
     winner_columns, write_ranking, write_unmet,
 };
 pub use requirement::{InvalidRequirement, Relation, Requirement};
+pub use results::columns::Goal;
 pub use scale::{Scale, UnknownScale};
 pub use tetrahedral_grid::{InvalidResolution, Steps, TetrahedralGrid};
 pub use unmet::{Unmet, UnmetRequirement};

@@ -6,6 +6,7 @@ mod contender;
 use std::path::Path;
 
 use rayon::prelude::*;
+use results::columns::FOLD_FORCE;
 use results::round_off::ROUND_OFF;
 use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
 
@@ -198,7 +199,7 @@ impl<'r> Ranking<'r> {
     /// The best of the designs under which the surface of the substrate does not fold over, if it does under the best of all; by
     /// the weights of the preferences. `None` also where the table does not tell.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
-        let fold = self.results.column("fold_force").ok()?;
+        let fold = self.results.column(FOLD_FORCE).ok()?;
         let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
         let best = self.winner(self.preferences.weights);
         let others = || self.by_fitness(self.preferences.weights).into_iter().find(is_open);

@@ -88,4 +88,4 @@ pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
-pub use yardstick::{YARDSTICKS, Yardstick, incomparable_by, yardsticks};
+pub use yardstick::{incomparable_by, yardsticks};

@@ -110,7 +110,7 @@ impl SampleStore {
             Cell::Count(sample.number as i64)
         });
         let others = columns.iter().enumerate().map(|(index, name)| {
-            Column::indexed(name.clone(), "", "", index, |sample: &SolvedSample, index| {
+            Column::made(name.clone().into(), "", "", move |sample: &SolvedSample| {
                 sample.values[index].into()
             })
         });

@@ -9,6 +9,7 @@ use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
 };
+use results::columns::SOUND_FORCE;
 use results::{Results, RunFolder};
 
 use super::source::verified_folder;
@@ -109,7 +110,7 @@ fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
 /// The criteria of the paper with the force that the model can answer for.
 fn sound_criteria() -> Vec<Criterion> {
     let sound = |criterion: &Criterion| match criterion.column.as_ref() {
-        "critical_force" => Criterion::new("sound_force", Goal::Maximize),
+        "critical_force" => Criterion::new(SOUND_FORCE, Goal::Maximize),
         _ => criterion.clone(),
     };
     CRITERIA.iter().map(sound).collect()

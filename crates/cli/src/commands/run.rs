@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use results::columns::{FOLD_FORCE, SOUND_FORCE};
 use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options};
 use sweep::{RandomSample, Subset, Sweep};
@@ -137,7 +138,7 @@ fn status_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
 fn folded_row(finished: &Finished) -> Option<[String; 2]> {
     let folded = finished.summary.folded;
     let designs = counted(folded, "design");
-    let what = format!("{designs}: two bases pass each other, see fold_force and sound_force");
+    let what = format!("{designs}: two bases pass each other, see {FOLD_FORCE} and {SOUND_FORCE}");
     (folded > 0).then(|| ["folded over".to_owned(), what])
 }
 

@@ -8,8 +8,8 @@ use results::columns::{design_columns, measure_of};
 use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
-    Axis, InvalidDefinition, Problem, Setting, Sweep, Variable, VariableValues, entries, nearest,
-    read_entries,
+    Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
+    nearest, read_entries,
 };
 
 use super::bounds::out_of_bounds;
@@ -121,7 +121,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     };
     let is_vague = |variable: &&Variable| {
         let parameter = variable.parameter();
-        let describes = parameter.is_continuous() || parameter.section == "material";
+        let describes = parameter.has(Role::Continuous) || parameter.has(Role::Made);
         matches!(variable.values(), VariableValues::Between(..)) && !describes
     };
     let vague = sweep.variables().iter().filter(is_vague).map(|variable| {

@@ -5,6 +5,7 @@ use skin::puncture::{Fold, Instability, Puncture, PuncturePoint, ScaleState, Sna
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
+use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
 
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
@@ -38,13 +39,13 @@ pub static PATH: &[Column<StabilityPoint>] = &[
         |(_, i)| i.tilt.into(),
     ),
     Column::new(
-        "gap_stretch_min",
+        GAP_STRETCH_MIN,
         "-",
         "width of the tightest gap between bases over that at rest",
         |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
     ),
     Column::new(
-        "gap_stretch_max",
+        GAP_STRETCH_MAX,
         "-",
         "width of the widest gap between bases over that at rest",
         |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),

@@ -6,7 +6,7 @@ use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
 use skin::{Derivative, Neighbours, Variation};
 use substrate::{OneSided, RowStiffness, StiffnessSlopes};
-use sweep::{Case, Measure, PARAMETERS, Parameter};
+use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
 pub(super) const STEP: f64 = 2e-6;
@@ -16,7 +16,7 @@ const MESH: &str = "the mesh of the substrate is graded by another length";
 
 /// The continuous parameters that a measure of `case` depends on.
 fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
-    let belongs = |p: &&Parameter| p.is_continuous() && of.sections().contains(&p.section);
+    let belongs = |p: &&Parameter| p.has(Role::Continuous) && of.sections().contains(&p.section);
     PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 

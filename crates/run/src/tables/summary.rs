@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use results::columns::SOUND_FORCE;
 use results::round_off::Leader;
 use results::{DesignResult, DesignRow, Outcome, incomparable_by};
 use sweep::{DesignNumber, Measure, Sweep};
@@ -72,7 +73,7 @@ static CONTESTS: [Contest; 5] = [
     },
     Contest {
         what: SOUND,
-        column: "sound_force",
+        column: SOUND_FORCE,
         is_better: f64::gt,
         value: |r| r.puncture?.measures.sound_force,
     },

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use ranking::Requirement;
 use results::MEASURE_TABLES;
-use results::columns::measure_name;
+use results::columns::{FOLD_FORCE, GAP_STRETCH_MIN, measure_name};
 use sweep::Sweep;
 use tolerance::{
     DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,
@@ -55,12 +55,12 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
 
 /// The line about samples whose surface folds on the way, which a yield leaves out only if that is required.
 fn folded(design: &DesignTolerance) -> Option<String> {
-    let place = design.columns.iter().position(|column| column == "fold_force")?;
+    let place = design.columns.iter().position(|column| column == FOLD_FORCE)?;
     let folds = |sample: &&SolvedSample| sample.values.get(place).is_some_and(Option::is_some);
     let count = design.samples.iter().filter(folds).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
-        "  (!) {samples}: two bases pass each other; --require 'gap_stretch_min >= 0' leaves out those that end so\n"
+        "  (!) {samples}: two bases pass each other; --require '{GAP_STRETCH_MIN} >= 0' leaves out those that end so\n"
     );
     (count > 0).then_some(line)
 }

@@ -9,9 +9,6 @@ squama.ranking = (() => {
   const PAPER = ["max:coverage", "max:critical_force", "min:penetration", "max:compliance"];
   const MOST_CRITERIA = 8;
 
-  // Columns of which small values are good, by the beginnings of their names.
-  const SMALL_IS_GOOD = ["areal_mass", "bend_radius", "flexural_rigidity", "gap_stretch", "initial_flexural_rigidity", "membrane_strain_max", "penetration", "sink"];
-
   /** Whether two numbers are the same but for round-off. */
   const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
 
@@ -49,7 +46,7 @@ squama.ranking = (() => {
   };
 
   /** The goal that a column has unless something else is said. */
-  const plainGoal = (column) => (SMALL_IS_GOOD.some((beginning) => column.startsWith(beginning)) ? "min" : "max");
+  const plainGoal = (table, column) => table.goal(column) ?? "max";
 
   /** What a value is worth, larger being better (R1); NaN if an inverse or a logarithm does not exist. */
   const worth = (scale, goal, value) => {

@@ -67,7 +67,7 @@
   const first = ["coverage", "critical_force_N", "critical_force", ...squama.numeric].filter((name) => squama.numeric.includes(name) && name !== "design");
   adder.addEventListener("click", () => {
     const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
-    const sign = ranking.plainGoal(column) === "min" ? "<=" : ">=";
+    const sign = ranking.plainGoal(squama, column) === "min" ? "<=" : ">=";
     // The middle of what there is.
     const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value)).sort();
     squama.require([...state.requirements, { column, sign, limit: Number((numbers[Math.floor(numbers.length / 2)] ?? 0).toPrecision(2)) }]);

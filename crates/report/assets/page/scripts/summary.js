@@ -30,7 +30,7 @@
     return groups.flatMap((rows) => bestOf(rows, `${name}${words(rows[0])}`, column, goal));
   };
 
-  const folds = () => (squama.has("fold_force") ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
+  const folds = () => (squama.has(squama.fold) ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
   const physical = () => [["critical_force_N", "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], ["areal_mass_kg_m2", "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 

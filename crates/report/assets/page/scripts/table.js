@@ -5,9 +5,7 @@
   const { state, filters } = squama;
   const HEIGHT = 27;
   const AROUND = 12;
-  const FIRST = ["coverage", "critical_force", "sound_force", "penetration", "compliance"];
-  const LAST = ["peak_force", "max_stiffness", "contacts", "fold_force", "gap_stretch_min", "gap_stretch_max", "flexure_contact", "contact_curvature", "membrane_strain_max", "puncture_status", "flexure_status"];
-  const atFirst = [...new Set(["design", ...squama.axes, ...FIRST, ...squama.names.filter(squama.physical), ...squama.names.filter((name) => name.endsWith("_p05")), ...LAST])].filter(squama.has);
+  const atFirst = [...new Set(["design", ...squama.axes, ...squama.shown.first, ...squama.names.filter(squama.physical), ...squama.names.filter((name) => name.endsWith("_p05")), ...squama.shown.last])].filter(squama.has);
 
   const table = squama.at("table"), scroll = table.parentElement;
   const body = squama.element("tbody"), head = squama.element("thead"), above = squama.element("tbody", { "aria-hidden": "true" }), below = squama.element("tbody", { "aria-hidden": "true" });
