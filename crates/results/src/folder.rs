@@ -114,6 +114,7 @@ pub static FILES: [FileEntry; 39] = [
     stated("history.csv", Maker::Search, Role::Record),
     stated("optimum.csv", Maker::Search, Role::Record),
     stated("optimum.toml", Maker::Search, Role::Record),
+    stated("nearest.toml", Maker::Search, Role::Record),
     stated("front.csv", Maker::Search, Role::Record),
     plain("tolerance.csv", Maker::Tolerance, Role::Record),
     plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),

@@ -77,9 +77,17 @@ impl SearchReport<'_> {
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(text, "\nIt is limited by\n{}", aligned(&rows));
+            let _ = write!(text, "\nNo better one was found{}. It is limited by\n{}", self.looked(), aligned(&rows));
         }
         text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
+    }
+
+    /// Where the search looked: from so many starts, in so many regions.
+    fn looked(&self) -> String {
+        let Found { starts, regions, .. } = self.found;
+        let [starts, regions] = [(*starts, "start"), (*regions, "region")]
+            .map(|(count, name)| counted(count as u64, name));
+        format!(" from {starts} in {regions} of the space")
     }
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
