@@ -77,7 +77,12 @@ impl SearchReport<'_> {
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(text, "\nNo better one was found{}. It is limited by\n{}", self.looked(), aligned(&rows));
+            let _ = write!(
+                text,
+                "\nNo better one was found{}. It is limited by\n{}",
+                self.looked(),
+                aligned(&rows)
+            );
         }
         text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
     }
