@@ -29,6 +29,8 @@ pub(crate) enum Halt {
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
+    /// A climb does not move any more.
+    Stalled,
 }
 
 /// Solves points of a space, each once: what an earlier session has solved is read from its journal.
@@ -63,6 +65,24 @@ impl<'a> Evaluations<'a> {
             journal: Mutex::new(journal),
             stop,
         })
+    }
+
+    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    pub fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.space.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.space.intervals().iter().enumerate();
+        let scaling = intervals.filter(|(_, interval)| !is_measured(interval.parameter.section));
+        scaling.map(|(j, _)| j).collect()
+    }
+
+    /// The point under which the result of a design is kept: designs that one of those intervals alone tells apart have one result.
+    fn without_scaling(&self, point: &SpacePoint) -> SpacePoint {
+        let mut point = point.clone();
+        for j in self.scaling_intervals() {
+            point.shares[j] = 0.0;
+        }
+        point
     }
 
     /// The row of the design at `point`, as number `index` of a table.
@@ -115,6 +135,7 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
+        let point = if sample.is_none() { &self.without_scaling(point) } else { point };
         let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));

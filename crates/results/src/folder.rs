@@ -90,7 +90,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 39] = [
+pub static FILES: [FileEntry; 40] = [
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -114,6 +114,7 @@ pub static FILES: [FileEntry; 39] = [
     stated("history.csv", Maker::Search, Role::Record),
     stated("optimum.csv", Maker::Search, Role::Record),
     stated("optimum.toml", Maker::Search, Role::Record),
+    stated("nearest.toml", Maker::Search, Role::Record),
     stated("front.csv", Maker::Search, Role::Record),
     plain("tolerance.csv", Maker::Tolerance, Role::Record),
     plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),

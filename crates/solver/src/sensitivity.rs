@@ -72,7 +72,7 @@ impl<M: Clone> Linearisation<M> {
         place: AnchoredPoint<M>,
     ) -> Result<Self, NewtonFailure> {
         let section = section(system, &place.direction);
-        let condition = Condition { row: section.clone(), value: 0.0 };
+        let condition = Condition::new(section.clone(), 0.0);
         let mut newton = Newton::new(system);
         let direction = newton.tangent(system, &place.state, &condition)?;
         let near = near(system, &place);

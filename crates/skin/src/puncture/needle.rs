@@ -154,7 +154,7 @@ impl Chain {
         }
         rest.mode.needle.touches = touch(Rub::Stick { at });
         let control = self.controls[0];
-        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 0.0 };
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         let push = needle.push(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[push], rates[push + 1]];

@@ -54,7 +54,7 @@ impl Setting {
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
         let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
         if path.iter().any(String::is_empty) {
-            return Err(refuse(format!("`{}` is no key", key.trim())));
+            return Err(refuse(format!("`{}` is not a key", key.trim())));
         }
         if path.len() > DEEPEST {
             return Err(refuse(format!(
@@ -63,7 +63,7 @@ impl Setting {
             )));
         }
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
-            refuse(format!("`{}` is no TOML value ({message})", value.trim()))
+            refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
         Ok(Self { path, value, place })
     }
@@ -156,9 +156,9 @@ mod tests {
     fn settings_that_are_none_say_why() {
         let message = |text| Setting::parse(text).expect_err("invalid").to_string();
         insta::assert_snapshot!(message("scales"), @"--set scales: there is no `=`, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("=3"), @"--set =3: `` is no key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is no TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is no TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("=3"), @"--set =3: `` is not a key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is not a TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is not a TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
     }
 
     #[test]
