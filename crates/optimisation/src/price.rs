@@ -8,7 +8,7 @@
 //! ```
 
 use nalgebra::{DMatrix, DVector};
-use sweep::Parameter;
+use sweep::{Measure, Parameter};
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
@@ -94,7 +94,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
         }
     }
     let case = search.space.case(&best.point);
-    let touches = search.judge.bends() && bending_room(&case).abs() < NEAR;
+    let touches = search.judge.is_about(Measure::Flexure) && bending_room(&case).abs() < NEAR;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }

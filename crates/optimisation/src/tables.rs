@@ -2,8 +2,11 @@
 
 use results::columns::{Cell, design_columns};
 use results::{
-    Column, CsvFormat, DesignRow, OutputError, RunFolder, finite, write_rows, write_text,
+    Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
+    write_text,
 };
+
+use sweep::Case;
 
 use crate::answer::Answer;
 use crate::best::BestDesign;
@@ -21,6 +24,8 @@ use crate::worth::Judgement;
 pub const OPTIMUM: &str = "optimum.csv";
 /// The definition of the best design, which every command reads.
 pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
+/// The definition of the design that comes nearest where none meets all requirements.
+pub const NEAREST_DEFINITION: &str = "nearest.toml";
 /// The table of the designs that none beats.
 pub const FRONT: &str = "front.csv";
 /// The table of every design that was looked at.
@@ -148,7 +153,8 @@ fn cells(
     columns.enumerate().map(column).collect()
 }
 
-/// Writes what was found into `folder`: the goal, the history, and the optimum or the front; returns the names of the files.
+/// Writes what was found into `folder`: the goal, the history, the optimum or the front, and `figures`, each with its name; returns
+/// the names of the files.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
@@ -156,28 +162,48 @@ pub fn write_found(
     folder: &RunFolder,
     goal: &DesignGoal,
     found: &Found,
+    figures: &[(String, String)],
     format: CsvFormat,
-) -> Result<Vec<&'static str>, OutputError> {
+) -> Result<Vec<String>, OutputError> {
     let mut files = vec![GOAL, HISTORY];
-    for file in [OPTIMUM, OPTIMUM_DEFINITION, FRONT] {
-        folder.remove(file);
-    }
+    let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
     write_rows(folder, HISTORY, format, &history_columns(goal), history(goal, found))?;
     match &found.answer {
         Answer::Optimum(best) => {
             write_best(folder, OPTIMUM, goal, std::slice::from_ref(best.as_ref()), format)?;
-            let definition = goal.space.sweep().at(&best.row.case).to_toml();
-            write_text(folder.path(), OPTIMUM_DEFINITION, &definition)?;
+            write_definition(folder, OPTIMUM_DEFINITION, goal, &best.row.case)?;
             files.extend([OPTIMUM, OPTIMUM_DEFINITION]);
         }
         Answer::Front(front) => {
             write_best(folder, FRONT, goal, &front.designs, format)?;
             files.push(FRONT);
         }
-        Answer::Infeasible(_) => {}
+        Answer::Infeasible(nearest) => {
+            if let Some(nearest) = nearest.and_then(|index| found.history.get(index)) {
+                let case = goal.space.case(&nearest.point);
+                write_definition(folder, NEAREST_DEFINITION, goal, &case)?;
+                files.push(NEAREST_DEFINITION);
+            }
+        }
     }
+    let mut files: Vec<String> = files.into_iter().map(str::to_owned).collect();
+    for (name, svg) in figures {
+        claim.add(name)?;
+        folder.write_text(name, svg)?;
+        files.push(name.clone());
+    }
+    claim.state()?;
     Ok(files)
+}
+
+fn write_definition(
+    folder: &RunFolder,
+    file: &str,
+    goal: &DesignGoal,
+    case: &Case,
+) -> Result<(), OutputError> {
+    write_text(folder.path(), file, &goal.space.sweep().at(case).to_toml()).map(|_| ())
 }
 
 fn write_best(

@@ -1,7 +1,6 @@
 //! The first sheet of a workbook: what the run is, how it ended, which designs are best.
 
 use std::collections::HashSet;
-use std::fs::File;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
 use results::columns::measure_of;
@@ -10,6 +9,7 @@ use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
 use sweep::{Measure, PARAMETERS, Sweep};
 
+use super::ExportError;
 use super::explanation::Explanation;
 use crate::facts::facts;
 
@@ -74,8 +74,32 @@ struct Sheet {
     bold: Format,
 }
 
+/// What the summary tells besides the best values, once it is checked.
+pub(super) struct SummaryFacts {
+    /// The record of the run, empty where there is none.
+    record: String,
+    preferences: Option<Preferences>,
+    /// Rank, number and fitness of the first designs of the ranking.
+    leading: Vec<[String; 3]>,
+}
+
+impl SummaryFacts {
+    /// The facts in `folder`.
+    pub fn read(folder: &VerifiedFolder) -> Result<Self, ExportError> {
+        let has_record = folder.holds(RunFolder::RUN_INFO);
+        let record = has_record.then(|| folder.text(RunFolder::RUN_INFO)).transpose()?;
+        let preferences = Preferences::read(folder)?;
+        let leading = if preferences.is_some() { leading(folder)? } else { Vec::new() };
+        Ok(Self { record: record.unwrap_or_default(), preferences, leading })
+    }
+}
+
 /// The summary of the run in `folder`.
-pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
+pub(super) fn summary(
+    folder: &VerifiedFolder,
+    best: &BestValues,
+    facts: &SummaryFacts,
+) -> Result<Worksheet, XlsxError> {
     let mut page = Worksheet::new();
     page.set_name(NAME)?;
     page.set_landscape();
@@ -84,12 +108,11 @@ pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Work
         page.set_column_width(place, width)?;
     }
     let mut sheet = Sheet { page, row: 0, bold: Format::new().set_bold() };
-    let record = folder.text(RunFolder::RUN_INFO).unwrap_or_default();
-    let definition = Sweep::parse(&record, RunFolder::RUN_INFO, &[]).ok();
+    let definition = Sweep::parse(&facts.record, RunFolder::RUN_INFO, &[]).ok();
     sheet.title(definition.as_ref())?;
-    sheet.run(&record, folder.shortfall(), best)?;
+    sheet.run(&facts.record, folder.shortfall(), best)?;
     sheet.best(best, definition.as_ref())?;
-    sheet.ranking(folder, best)?;
+    sheet.ranking(facts, best)?;
     if let Some(sweep) = &definition {
         sheet.definition(sweep)?;
     }
@@ -180,8 +203,8 @@ impl Sheet {
     }
 
     /// What the ranking of the run goes by, and its first designs.
-    fn ranking(&mut self, folder: &VerifiedFolder, best: &BestValues) -> Result<(), XlsxError> {
-        let Ok(Some(preferences)) = Preferences::read(folder.path()) else { return Ok(()) };
+    fn ranking(&mut self, facts: &SummaryFacts, best: &BestValues) -> Result<(), XlsxError> {
+        let Some(preferences) = &facts.preferences else { return Ok(()) };
         self.part(&["Ranking: requirements"])?;
         if preferences.requirements.is_empty() {
             self.add(&["none"])?;
@@ -195,9 +218,9 @@ impl Sheet {
         }
         self.add(&["scale", preferences.scale.name()])?;
         self.part(&["Ranking: best designs", "design", "fitness"])?;
-        for [rank, design, fitness] in leading(folder) {
-            let doubt = if best.folded.contains(&design) { FOLDS } else { "" };
-            self.add(&[&rank, &design, &fitness, doubt])?;
+        for [rank, design, fitness] in &facts.leading {
+            let doubt = if best.folded.contains(design) { FOLDS } else { "" };
+            self.add(&[rank, design, fitness, doubt])?;
         }
         Ok(())
     }
@@ -230,11 +253,14 @@ fn is_design_number(cell: &str) -> bool {
 }
 
 /// Rank, number and fitness of the first designs of the ranking of a folder.
-fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
+fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     let [ranking, ..] = RunFolder::RANKING;
-    let file = File::open(folder.path().join(ranking));
-    let Ok((format, mut table)) = file.and_then(super::open) else { return Vec::new() };
-    let Ok(header) = table.headers().cloned() else { return Vec::new() };
+    // A ranking that no design meets has preferences and no tables.
+    if !folder.holds(ranking) {
+        return Ok(Vec::new());
+    }
+    let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
+    let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
     let row = |row: csv::StringRecord| {
         places.map(|place| {
@@ -245,5 +271,5 @@ fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
             }
         })
     };
-    table.records().take(LISTED).filter_map(Result::ok).map(row).collect()
+    Ok(table.records().take(LISTED).filter_map(Result::ok).map(row).collect())
 }
