@@ -3,11 +3,11 @@
 use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
+use results::DesignRow;
 use results::columns::{AREAL_MASS, measure_name};
-use results::{DesignRow, sha256};
-use run::{Evaluator, Program};
+use run::{Evaluator, JournalHeader, Program};
 use skin::Imperfection;
-use sweep::{Case, Measure, Sweep};
+use sweep::{Case, Measure, Subset, Sweep};
 
 use crate::draw;
 use crate::linear::{Gradients, LinearSpread};
@@ -154,8 +154,8 @@ impl<'a> Analysis<'a> {
         let solve =
             |sample: u64| self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()]);
         let number = nominal.row.number.to_string();
-        let identity = identity(self.program, &self.sweep.only(nominal.index));
-        store.samples((&number, &identity), columns, self.samples, self.stop, solve)
+        let header = header(self.program, &self.sweep.only(nominal.index));
+        store.samples((&number, header), columns, self.samples, self.stop, solve)
     }
 
     /// The deviations and values of a sample; `None` if there is no such skin.
@@ -227,8 +227,7 @@ fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     measure == AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
-/// The digest of all that the samples of a sweep depend on.
-pub(crate) fn identity(program: Program, sweep: &Sweep) -> String {
-    let Program { version, revision } = program;
-    sha256(format!("{version} {revision}\n{}", sweep.to_toml()))
+/// The header of the journal of the samples of a sweep.
+pub(crate) fn header(program: Program, sweep: &Sweep) -> JournalHeader {
+    JournalHeader::new(sweep.to_toml(), Subset::default(), &program)
 }

@@ -11,7 +11,7 @@ use std::time::Instant;
 use ::report::Figure;
 use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
-use results::{RunFolder, make_folder};
+use results::RunFolder;
 
 use super::source::{folder_of, settings};
 use super::work::{Earlier, Format, Threads};
@@ -88,7 +88,6 @@ pub struct Arguments {
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let goal = DesignGoal::read(&arguments.path, &settings(&arguments.settings)?)?;
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
-    make_folder(&folder)?;
     interrupt.ask_first();
     let begun = Instant::now();
     let display = SearchDisplay::new(arguments.quiet, interrupt);
@@ -105,13 +104,9 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     };
     let written = RunFolder::new(&folder);
     let format = arguments.format.csv.unwrap_or_default();
-    let mut files: Vec<String> =
-        write_found(&written, &goal, &found, format)?.into_iter().map(str::to_owned).collect();
-    for Figure { name, svg } in figures(&goal, &found) {
-        let file = format!("{name}.svg");
-        written.write_text(&file, &svg)?;
-        files.push(file);
-    }
+    let figures = figures(&goal, &found);
+    let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
+    let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
     if arguments.json {
         json::print(&record(&goal, &found))?;

@@ -4,20 +4,22 @@ mod figures;
 mod record;
 mod report;
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
 use ranking::Requirement;
 use rayon::prelude::*;
-use results::{CsvFormat, RunFolder, write_rows};
+use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
     Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
-use super::selection::indices;
+use super::selection::ranges;
 use super::source::{Definition, folder_within, read};
 use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
@@ -72,6 +74,9 @@ pub struct Arguments {
     pub json: bool,
 }
 
+/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
+const MOST: u64 = 100_000;
+
 /// The folder of the samples in that of the tables.
 pub(super) const SAMPLES: &str = "samples";
 
@@ -80,12 +85,11 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
     let requirements = requirements(arguments)?;
-    let designs = match arguments.numbers.as_slice() {
-        [] => (0..sweep.grid().len()).collect(),
-        numbers => indices(sweep.grid(), numbers, &arguments.definition.path)?,
-    };
+    let designs = designs(arguments, &sweep)?;
     let default = || folder_within(&arguments.definition, &sweep, "tolerance");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    // Before hours of work, and not behind them.
+    Claim::check(&folder, Maker::Tolerance)?;
     let store = SampleStore::new(&folder.file(SAMPLES));
     interrupt.ask_first();
     let samples = arguments.samples as usize;
@@ -94,10 +98,16 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
+    let mut claim = Claim::take(&folder, Maker::Tolerance)?;
     let mut files = write(&folder, &all)?;
     if let [design] = all.as_slice() {
-        files.extend(figures::write(&folder, &sweep, &requirements, design)?);
+        for (name, svg) in figures::figures(&sweep, &requirements, design) {
+            claim.add(&name)?;
+            folder.write_text(&name, &svg)?;
+            files.push(name);
+        }
     }
+    claim.state()?;
     let place = folder.path();
     if arguments.json {
         json::print(&record::record(&sweep, &all, place, &files))?;
@@ -143,6 +153,29 @@ fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
     arguments.require.iter().map(read).collect()
 }
 
+/// The indices of the designs that are asked for.
+fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
+    let grid = sweep.grid();
+    let path = &arguments.definition.path;
+    let mut ranges = ranges(grid, &arguments.numbers, path)?;
+    if arguments.numbers.is_empty() {
+        ranges.push(0..=grid.len().saturating_sub(1));
+    }
+    // Counted before they are listed: a list of 10⁹ designs takes all memory.
+    let count = |range: &RangeInclusive<u64>| (range.end() - range.start()).saturating_add(1);
+    let count = ranges.iter().map(count).fold(0, u64::saturating_add);
+    ensure!(
+        count <= MOST,
+        "{}: {count} designs, at most {MOST} at a time: choose some with --design",
+        path.display()
+    );
+    let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
+    // The samples of a design are solved once, however often it is named.
+    let mut known = BTreeSet::new();
+    designs.retain(|design| known.insert(*design));
+    Ok(designs)
+}
+
 /// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.
 fn analysed(
     analysis: &Analysis<'_>,
@@ -163,7 +196,6 @@ fn analysed(
 
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
-    folder.make()?;
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
         let number = design.nominal.number;
@@ -186,11 +218,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     if all.iter().any(|design| !design.yields.is_empty()) {
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
-    } else {
-        // An earlier table would pass for one of this analysis.
-        folder.remove("yield.csv");
     }
-    folder.sync();
     Ok(files)
 }
 
