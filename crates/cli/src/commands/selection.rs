@@ -1,5 +1,6 @@
 //! The designs that a command looks at: by their numbers, or by their values.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
@@ -70,17 +71,20 @@ fn by_numbers(
         original: original.as_ref().map(|original| original.grid().case(index)),
         sweep: sweep.only(index),
     };
-    Ok(indices(grid, numbers, file)?.into_iter().map(selected).collect())
+    Ok(ranges(grid, numbers, file)?.into_iter().flatten().map(selected).collect())
 }
 
-/// The indices of the designs with these numbers in the grid of `file`.
-pub fn indices(grid: &Grid, numbers: &[String], file: &Path) -> anyhow::Result<Vec<u64>> {
+/// The indices of the designs with these numbers in the grid of `file`, as ranges.
+pub fn ranges(
+    grid: &Grid,
+    numbers: &[String],
+    file: &Path,
+) -> anyhow::Result<Vec<RangeInclusive<u64>>> {
     let range = |text: &String| {
         let range = grid.parse_numbers(text.trim());
         range.with_context(|| format!("{}: --design {text}", file.display()))
     };
-    let ranges: Vec<_> = numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
-    Ok(ranges.into_iter().flatten().collect())
+    numbers.iter().map(range).collect()
 }
 
 fn by_values(

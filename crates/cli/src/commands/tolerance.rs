@@ -19,15 +19,13 @@ use tolerance::{
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
+use super::selection::ranges;
 use super::source::{Definition, folder_within, read};
 use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
-
-/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
-const MOST: u64 = 100_000;
 
 /// Arguments of `squama tolerance`.
 #[derive(Debug, Args)]
@@ -75,6 +73,9 @@ pub struct Arguments {
     #[arg(long)]
     pub json: bool,
 }
+
+/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
+const MOST: u64 = 100_000;
 
 /// The folder of the samples in that of the tables.
 pub(super) const SAMPLES: &str = "samples";
@@ -155,12 +156,8 @@ fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
 /// The indices of the designs that are asked for.
 fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
-    let path = arguments.definition.path.display();
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{path}: --design {text}"))
-    };
-    let mut ranges: Vec<_> = arguments.numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
+    let path = &arguments.definition.path;
+    let mut ranges = ranges(grid, &arguments.numbers, path)?;
     if arguments.numbers.is_empty() {
         ranges.push(0..=grid.len().saturating_sub(1));
     }
@@ -169,7 +166,8 @@ fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let count = ranges.iter().map(count).fold(0, u64::saturating_add);
     ensure!(
         count <= MOST,
-        "{path}: {count} designs, at most {MOST} at a time: choose some with --design"
+        "{}: {count} designs, at most {MOST} at a time: choose some with --design",
+        path.display()
     );
     let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
     // The samples of a design are solved once, however often it is named.

@@ -92,7 +92,7 @@ fn what_is_a_strangers_is_not_touched() {
     let place = Place::with(FEW);
     std::fs::create_dir(place.path("r")).expect("a folder");
     std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
-    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this), expected it as it was written, or --fresh to throw all of it away");
+    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this); restore it, or use --fresh to discard everything");
     assert_eq!(place.read("r/journal.jsonl"), "{\"a\": 1}");
 }
 
@@ -250,7 +250,7 @@ mod signals {
             let code = squama.end_within(Duration::from_secs(20)).expect("it does not hang").code();
             assert_eq!(code, Some(2), "{command}");
         }
-        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is no regular file, expected a journal that squama writes");
+        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is not a regular file, expected a journal that squama writes");
     }
 
     #[test]
