@@ -95,10 +95,10 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       // Both curves of each measure are seen, on either kind of axis: the pinned one dashed.
       const curves = () => page.locator("#compare-curves .curve.on").evaluateAll((all) => all.map((one) => ({ design: one.dataset.design, dash: one.style.strokeDasharray, wide: one.getBoundingClientRect().width })));
       for (const kind of ["linear", "logarithmic"]) {
-        await page.waitForFunction((log) => document.querySelectorAll("#compare-curves .curve.on").length === 4 && squama.state.log === log, kind === "logarithmic");
+        await page.waitForFunction((log) => document.querySelectorAll("#compare-curves .curve.on").length === 4 && document.querySelector("#compare-curves .drawn").dataset.log === String(log), kind === "logarithmic");
         const all = await curves();
         assert.deepEqual(all.map(({ design }) => design).sort(), [first, first, second, second].sort(), kind);
-        for (const { design, dash, wide } of all) assert.ok(wide > 20 && (dash !== "none") === (design === first), `${kind} ${design} ${dash} ${wide}`);
+        for (const { design, dash, wide } of all) assert.ok(wide > 60 && (dash !== "none") === (design === first), `${kind} ${design} ${dash} ${wide}`);
         await page.locator("#log").check();
       }
       await page.locator("#log").uncheck();

@@ -59,6 +59,7 @@ export default ({ open, run, folders }) => ({
     assert.match(await page.locator("#detail-values").textContent(), /critical force \(N\)/);
     assert.match(await page.locator("#summary-list").textContent(), /largest critical force, N/);
     assert.ok((await drawn(page, "critical-force")).includes("critical force (N)"));
+    assert.ok((await drawn(page, "penetration")).includes("penetration (mm)"));
     await page.close();
   },
 

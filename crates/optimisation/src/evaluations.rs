@@ -2,7 +2,6 @@
 
 mod journal;
 
-use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,6 +9,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError};
 use run::{Evaluator, Program};
+use store::Journal;
 use sweep::{Case, DesignNumber, Measure};
 use tolerance::Sampler;
 
@@ -17,7 +17,7 @@ use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, SpacePoint};
-use journal::{EvaluationJournal, JournalLine, SkinsLine, SolvedLine};
+use journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
 /// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
 const BEFORE: u64 = 1 << 32;
@@ -33,41 +33,13 @@ pub(crate) enum Halt {
     Stalled,
 }
 
-/// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct EvaluationKey {
-    differentiated: bool,
-    /// The number of the sample whose batch it is; `None` of the nominal design.
-    sample: Option<u64>,
-    point: PointKey,
-}
-
-/// A point, to the last bit.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct PointKey {
-    shares: Vec<u64>,
-    chosen: Vec<usize>,
-}
-
-/// A point, and the first and the count of its samples.
-type SamplesKey = (PointKey, u64, usize);
-
-impl PointKey {
-    fn of(point: &SpacePoint) -> Self {
-        let shares = point.shares.iter().map(|share| share.to_bits()).collect();
-        Self { shares, chosen: point.chosen.clone() }
-    }
-}
-
 /// Solves points of a space, each once: what an earlier session has solved is read from its journal.
 pub(crate) struct Evaluations<'a> {
     space: &'a DesignSpace,
     plain: Evaluator,
     differentiating: Evaluator,
     sampler: Sampler,
-    known: Mutex<HashMap<EvaluationKey, Arc<DesignResult>>>,
-    sampled: Mutex<HashMap<SamplesKey, Arc<Samples>>>,
-    journal: Mutex<EvaluationJournal>,
+    journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
 }
 
@@ -80,43 +52,19 @@ impl<'a> Evaluations<'a> {
         program: &Program,
         stop: &'a AtomicBool,
     ) -> Result<Self, OptimisationError> {
-        let (journal, lines) = EvaluationJournal::begin(folder, goal.to_toml(), program, start)?;
+        let journal = journal::begin(folder, goal.to_toml(), program, start)?;
         let measures: Vec<Measure> = goal.space.sweep().measures().to_vec();
         let measures: Vec<Measure> =
             measures.into_iter().filter(|measure| *measure != Measure::Sensitivity).collect();
         let all = [measures.as_slice(), &[Measure::Sensitivity]].concat();
-        let mut evaluations = Self {
+        Ok(Self {
             space: &goal.space,
             plain: Evaluator::new(&measures),
             differentiating: Evaluator::new(&all),
             sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
-            known: Mutex::default(),
-            sampled: Mutex::default(),
             journal: Mutex::new(journal),
             stop,
-        };
-        for line in lines {
-            evaluations.recall(line);
-        }
-        Ok(evaluations)
-    }
-
-    /// Takes what a line of the journal holds as solved.
-    fn recall(&mut self, line: JournalLine) {
-        match line {
-            JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, skin: sample, shares, chosen, result } = *line;
-                let point = SpacePoint { shares, chosen };
-                let point =
-                    if sample.is_none() { self.point_key(&point) } else { PointKey::of(&point) };
-                let key = EvaluationKey { differentiated, sample, point };
-                lock(&self.known).insert(key, Arc::new(result));
-            }
-            JournalLine::Skins(SkinsLine { first, shares, chosen, values }) => {
-                let key = (PointKey::of(&SpacePoint { shares, chosen }), first, values.len());
-                lock(&self.sampled).insert(key, Arc::new(Samples(values)));
-            }
-        }
+        })
     }
 
     /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
@@ -128,13 +76,13 @@ impl<'a> Evaluations<'a> {
         scaling.map(|(j, _)| j).collect()
     }
 
-    /// The key of a design: designs that one of those intervals alone tells apart have one result.
-    fn point_key(&self, point: &SpacePoint) -> PointKey {
-        let mut point = point.clone();
+    /// The point that stands for all whose designs only scale each other, and have one result.
+    fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
+        let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            point.shares[j] = 0.0;
+            unscaled.shares[j] = 0.0;
         }
-        PointKey::of(&point)
+        unscaled
     }
 
     /// The row of the design at `point`, as number `index` of a table.
@@ -157,7 +105,8 @@ impl<'a> Evaluations<'a> {
         differentiated: bool,
     ) -> Result<Arc<DesignResult>, Halt> {
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
-        self.known_or(point, differentiated, None, &self.space.case(point), evaluator)
+        let point = self.unscaled(point);
+        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
     /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
@@ -187,9 +136,8 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let point_key = if sample.is_none() { self.point_key(point) } else { PointKey::of(point) };
-        let key = EvaluationKey { differentiated, sample, point: point_key };
-        if let Some(known) = lock(&self.known).get(&key) {
+        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
+        if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
@@ -202,10 +150,10 @@ impl<'a> Evaluations<'a> {
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, skin: sample, shares, chosen, result };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let result = Arc::new(line.result);
-        lock(&self.known).insert(key, Arc::clone(&result));
+        let result = Arc::new(result);
+        let line =
+            SolvedLine { differentiated, sample, shares, chosen, result: Arc::clone(&result) };
+        self.journal().append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(result)
     }
 
@@ -221,7 +169,7 @@ impl<'a> Evaluations<'a> {
         judge: &SampleJudge,
     ) -> Result<Arc<Samples>, Halt> {
         let key = (PointKey::of(point), first, count);
-        if let Some(known) = lock(&self.sampled).get(&key) {
+        if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
         }
         let (case, last) = (self.space.case(point), first + count as u64);
@@ -232,11 +180,10 @@ impl<'a> Evaluations<'a> {
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SkinsLine { first, shares, chosen, values };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let samples = Arc::new(Samples(line.values));
-        lock(&self.sampled).insert(key, Arc::clone(&samples));
-        Ok(samples)
+        let values = Arc::new(Samples(values));
+        let line = SamplesLine { first, shares, chosen, values: Arc::clone(&values) };
+        self.journal().append(JournalLine::Samples(line)).map_err(Halt::Output)?;
+        Ok(values)
     }
 
     /// Refuses to go on once the process is asked to end.
@@ -246,17 +193,19 @@ impl<'a> Evaluations<'a> {
 
     /// Forces the journal to the disk.
     pub fn sync(&self) -> Result<(), OutputError> {
-        lock(&self.journal).sync()
+        self.journal().sync()
     }
 
     /// The number of points that were solved, in this session and before, and of samples.
     pub fn count(&self) -> usize {
-        let samples: usize = lock(&self.sampled).values().map(|samples| samples.0.len()).sum();
-        lock(&self.known).len() + samples
+        let journal = self.journal();
+        let known = journal.records();
+        let samples: usize = known.sampled.values().map(|samples| samples.0.len()).sum();
+        known.solved.len() + samples
     }
-}
 
-/// The value behind a mutex; nothing that is done under these locks leaves it half-done.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+    /// What is known, and where more is noted; nothing that is done under this lock leaves it half-done.
+    fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }

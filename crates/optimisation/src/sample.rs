@@ -2,6 +2,7 @@
 
 use ranking::{Relation, Requirement};
 use results::{DesignRow, QUANTILES, quantile_places};
+use serde::{Deserialize, Serialize};
 
 use crate::column::NumberColumn;
 use crate::margin::Bounds;
@@ -9,7 +10,7 @@ use crate::statistic::Statistic;
 
 /// What is known of the samples of a design: of each the values in the columns of the bounds, then a value for every statistic, which of
 /// a yield does not exist.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Samples(pub Vec<Vec<Option<f64>>>);
 
 /// A statistic as a goal uses it.

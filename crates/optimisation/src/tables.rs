@@ -2,9 +2,9 @@
 
 use results::columns::{Cell, design_columns};
 use results::{
-    Column, CsvFormat, DesignRow, OutputError, RunFolder, finite, write_rows, write_text,
+    Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
+    write_text,
 };
-
 use sweep::Case;
 
 use crate::answer::Answer;
@@ -152,7 +152,8 @@ fn cells(
     columns.enumerate().map(column).collect()
 }
 
-/// Writes what was found into `folder`: the goal, the history, and the optimum or the front; returns the names of the files.
+/// Writes what was found into `folder`: the goal, the history, the optimum or the front, and `figures`, each with its name; returns
+/// the names of the files.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
@@ -160,12 +161,11 @@ pub fn write_found(
     folder: &RunFolder,
     goal: &DesignGoal,
     found: &Found,
+    figures: &[(String, String)],
     format: CsvFormat,
-) -> Result<Vec<&'static str>, OutputError> {
+) -> Result<Vec<String>, OutputError> {
     let mut files = vec![GOAL, HISTORY];
-    for file in [OPTIMUM, OPTIMUM_DEFINITION, NEAREST_DEFINITION, FRONT] {
-        folder.remove(file);
-    }
+    let mut claim = Claim::take(folder, Maker::Search)?;
     folder.write_text(GOAL, goal.to_toml())?;
     write_rows(folder, HISTORY, format, &history_columns(goal), history(goal, found))?;
     match &found.answer {
@@ -186,6 +186,13 @@ pub fn write_found(
             }
         }
     }
+    let mut files: Vec<String> = files.into_iter().map(str::to_owned).collect();
+    for (name, svg) in figures {
+        claim.add(name)?;
+        folder.write_text(name, svg)?;
+        files.push(name.clone());
+    }
+    claim.state()?;
     Ok(files)
 }
 

@@ -1,11 +1,10 @@
 //! The preferences that a ranking goes by: requirements, criteria, their weights and their scale.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
-use results::RunFolder;
+use results::{InvalidFolder, RunFolder, VerifiedFolder};
+use sweep::number;
 use sweep::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
-use sweep::{number, reason};
 
 use crate::criterion::{CRITERIA, Criterion};
 use crate::requirement::Requirement;
@@ -53,14 +52,9 @@ pub enum InvalidPreferences {
         /// The column.
         column: String,
     },
-    /// The file cannot be read.
-    #[error("{file}: cannot be read ({reason}), expected the file that squama rank writes")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// The message of the system.
-        reason: String,
-    },
+    /// The file cannot be read, or is not as squama rank wrote it.
+    #[error(transparent)]
+    File(#[from] InvalidFolder),
     /// The file is no TOML.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
@@ -131,18 +125,14 @@ impl Preferences {
     /// The preferences in the file `ranking.toml` of `folder`; `None` if there is none.
     ///
     /// # Errors
-    /// If the file cannot be read, or does not say what `squama rank` writes.
-    pub fn read(folder: &Path) -> Result<Option<Self>, InvalidPreferences> {
-        let folder = RunFolder::new(folder);
+    /// If the file cannot be read, or is not as `squama rank` wrote it.
+    pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
         if !folder.holds(RunFolder::PREFERENCES) {
             return Ok(None);
         }
-        let path = folder.file(RunFolder::PREFERENCES);
-        let file = path.display().to_string();
-        let text = std::fs::read_to_string(&path).map_err(|error| {
-            InvalidPreferences::Unreadable { file: file.clone(), reason: reason(&error) }
-        })?;
-        Self::parse(&text, &file).map(Some)
+        let text = folder.text(RunFolder::PREFERENCES)?;
+        let name = folder.path().join(RunFolder::PREFERENCES);
+        Self::parse(&text, &name.display().to_string()).map(Some)
     }
 
     /// The preferences that `text`, from the file `name`, says. What is left out is as in the paper.

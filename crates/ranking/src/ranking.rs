@@ -8,7 +8,7 @@ use std::path::Path;
 use rayon::prelude::*;
 use results::columns::FOLD_FORCE;
 use results::round_off::ROUND_OFF;
-use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
+use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
 
 use crate::criterion::Criterion;
 use crate::incomparable::Incomparable;
@@ -323,7 +323,7 @@ pub fn write_ranking(
     ranking: &Ranking<'_>,
 ) -> Result<Vec<&'static str>, OutputError> {
     let folder = RunFolder::new(folder);
-    folder.make()?;
+    let claim = Claim::take(&folder, Maker::Ranking)?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
     let format = ranking.results.format();
@@ -349,12 +349,8 @@ pub fn write_ranking(
             ranking.quaternary(),
         )?;
         files.splice(2..2, [winners, quaternary]);
-    } else {
-        for file in [winners, quaternary] {
-            folder.remove(file);
-        }
     }
-    folder.sync();
+    claim.state()?;
     Ok(files)
 }
 
@@ -365,10 +361,8 @@ pub fn write_ranking(
 /// If the folder or the disk does not take it.
 pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
     let folder = RunFolder::new(folder);
-    folder.make()?;
-    for file in RunFolder::RANKING {
-        folder.remove(file);
-    }
+    let claim = Claim::take(&folder, Maker::Ranking)?;
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
+    claim.state()?;
     Ok(RunFolder::PREFERENCES)
 }

@@ -30,6 +30,17 @@ impl Area {
         self.top + self.height
     }
 
+    /// Draws the border.
+    pub(crate) fn border(&self) -> Element {
+        Element::new("rect")
+            .at("x", self.left)
+            .at("y", self.top)
+            .at("width", self.width)
+            .at("height", self.height)
+            .with("fill", "none")
+            .with("stroke", FAINT)
+    }
+
     pub(crate) fn center(&self) -> Spot {
         [self.left + 0.5 * self.width, self.top + 0.5 * self.height]
     }
@@ -65,21 +76,19 @@ impl ChartPanel<'_> {
     /// Draws frame, grid, ticks and title.
     pub(crate) fn frame(&self) -> Element {
         let area = &self.area;
-        let border = Element::new("rect")
-            .at("x", area.left)
-            .at("y", area.top)
-            .at("width", area.width)
-            .at("height", area.height)
-            .with("fill", "none")
-            .with("stroke", FAINT);
         let title = label(&self.title, [area.center()[0], area.top - 6.0], 12.0, Anchor::Middle);
         Element::group("frame")
             .containing(self.x_ticks())
             .containing(self.y_ticks())
-            .containing([border, title.with("fill", INK)])
+            .containing([self.border(), title.with("fill", INK)])
     }
 
-    fn x_ticks(&self) -> Vec<Element> {
+    /// Draws the border of the panel.
+    pub(crate) fn border(&self) -> Element {
+        self.area.border()
+    }
+
+    pub(crate) fn x_ticks(&self) -> Vec<Element> {
         let area = self.area;
         let wanted = (area.width / 42.0).clamp(2.0, 9.0) as usize;
         let mut drawn = Vec::new();
@@ -103,7 +112,7 @@ impl ChartPanel<'_> {
         drawn
     }
 
-    fn y_ticks(&self) -> Vec<Element> {
+    pub(crate) fn y_ticks(&self) -> Vec<Element> {
         let area = self.area;
         let wanted = (area.height / 34.0).clamp(2.0, 9.0) as usize;
         let mut drawn = Vec::new();
@@ -166,6 +175,11 @@ pub(crate) enum MarkLook {
 impl MarkLook {
     const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
+    /// Returns the look of a design in a figure of what folds touch.
+    pub(crate) fn of(designs: &Designs, row: usize) -> Self {
+        if designs.folded(row) { Self::Folded } else { Self::Filled }
+    }
+
     /// Returns the identifier of the shape of a mark with this look.
     fn shape(self, mark: Mark) -> String {
         match self {
@@ -223,25 +237,20 @@ pub(crate) fn design_mark(
     palette: &SlantPalette,
     row: usize,
     at: Spot,
-    is_open: bool,
+    look: MarkLook,
 ) -> Option<Element> {
-    let look = match (designs.folded(row), is_open) {
-        (true, _) => MarkLook::Folded,
-        (false, true) => MarkLook::Open,
-        (false, false) => MarkLook::Filled,
-    };
     let mark = mark(palette, designs.number("slant_deg", row)?, at, look);
     Some(mark.with("data-design", designs.text("design", row)))
 }
 
 /// Returns the slants with their marks in one line, and what other looks of marks mean.
-pub(crate) fn mark_legend(designs: &Designs, palette: &SlantPalette, [x, y]: Spot) -> Element {
+pub(crate) fn mark_legend(palette: &SlantPalette, has_folds: bool, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
     let mut legend = Element::group("legend").containing([shapes(palette), name]);
     let mut left = x + 64.0;
     let slants =
         palette.slants().iter().map(|&slant| (slant, MarkLook::Filled, format!("{slant}°")));
-    let last = palette.slants().last().filter(|_| designs.any_folded());
+    let last = palette.slants().last().filter(|_| has_folds);
     let folded =
         last.map(|&slant| (slant, MarkLook::Folded, "surface folds: do not trust".to_owned()));
     for (slant, look, text) in slants.chain(folded) {

@@ -12,7 +12,8 @@ pub(crate) mod weight_slices;
 
 use ranking::{RankedDesign, Ranking, Weights};
 use results::Quantity::{Force, Length, Moment, Stiffness};
-use results::columns::physical_source;
+use results::columns::{measure_of, physical_source};
+use sweep::Measure;
 
 pub(crate) use names::in_words;
 use names::with_value;
@@ -58,8 +59,19 @@ impl Quantity {
     }
 }
 
+/// Returns whether a column depends on the surface of the substrate: punctures do, bending and coverage do not.
+pub(crate) fn is_touched_by_folds(column: &str) -> bool {
+    measure_of(column) == Some(Measure::Puncture)
+}
+
+/// Returns what the title of a figure says that shows perfect designs of a sweep whose gaps are random.
+pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
+    let has_samples = MULTIPLES.iter().any(|(measure, _)| designs.has(&format!("{measure}_p50")));
+    if has_samples { ", of the perfect designs" } else { "" }
+}
+
 /// Returns the column of a measure in newtons or millimetres, if the table has one.
-fn physical(designs: &Designs, measure: &str) -> Option<String> {
+pub(crate) fn physical(designs: &Designs, measure: &str) -> Option<String> {
     let is_same = |name: &&String| {
         let source = physical_source(name);
         // What is divided by a width or inverted is another quantity.

@@ -70,6 +70,8 @@ pub struct Page {
     pub run: Vec<Fact>,
     /// The key, the value and the meaning of each parameter that all designs share.
     pub shared: Vec<[String; 3]>,
+    /// Whether the curves of punctures, and those of bending, are in newtons and millimetres.
+    pub is_physical: [bool; 2],
     /// Designs that were solved again for the page.
     pub solved: Vec<PageDesign>,
     /// Designs that a search has found, if the page is to show them.

@@ -5,6 +5,8 @@ mod change;
 mod closed;
 mod stiffness;
 
+use std::ops::{Deref, DerefMut};
+
 pub use change::ContactChange;
 pub use closed::Contact;
 
@@ -12,9 +14,11 @@ use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
     Force, Level, Pair, Pose,
 };
+use geometry::Parallelogram;
 use solver::{Change, Residual, Tangent};
 
 use crate::arrangement::Arrangement;
+use crate::puncture::NeedleMode;
 
 /// The levels of a pair, each with a contact of its own.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
@@ -26,11 +30,32 @@ pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
 /// for.
 const HOLDS: f64 = 1.0;
 
-/// A state of a skin: its mode is the state of every contact.
-pub(crate) type SkinState = solver::State<Vec<CornerContact>>;
+/// The mode of a skin: the state of every contact, as which it is read, and that of a guided needle.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct SkinMode {
+    pub(crate) contacts: Vec<CornerContact>,
+    pub(crate) needle: NeedleMode,
+}
+
+impl Deref for SkinMode {
+    type Target = Vec<CornerContact>;
+
+    fn deref(&self) -> &Vec<CornerContact> {
+        &self.contacts
+    }
+}
+
+impl DerefMut for SkinMode {
+    fn deref_mut(&mut self) -> &mut Vec<CornerContact> {
+        &mut self.contacts
+    }
+}
+
+/// A state of a skin.
+pub(crate) type SkinState = solver::State<SkinMode>;
 
 /// An equilibrium of a skin on its path.
-pub(crate) type SkinPoint = solver::Point<Vec<CornerContact>>;
+pub(crate) type SkinPoint = solver::Point<SkinMode>;
 
 /// The contacts between the neighbours of a row, and where their unknowns stand.
 ///
@@ -79,14 +104,25 @@ impl Contacts {
         self.arrangement.gap(scale)
     }
 
+    /// A scale at rest.
+    pub(crate) fn scale(&self, scale: usize) -> Parallelogram {
+        self.arrangement.scale(scale)
+    }
+
+    /// Distance of the node of a scale from that of the first, at rest.
+    pub(crate) fn place(&self, scale: usize) -> f64 {
+        self.arrangement.place(scale)
+    }
+
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces
     }
 
     /// The state of rest of all contacts.
-    pub(crate) fn open(&self) -> Vec<CornerContact> {
-        vec![CornerContact::Open; self.forces.len() / FORCES]
+    pub(crate) fn open(&self) -> SkinMode {
+        let contacts = vec![CornerContact::Open; self.forces.len() / FORCES];
+        SkinMode { contacts, needle: NeedleMode::default() }
     }
 
     /// The left scale of the pair that a constraint belongs to.

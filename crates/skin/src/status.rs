@@ -15,6 +15,8 @@ pub enum Status {
     LimitPoint,
     /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) needs a longer row than it may take.
     RowLimit,
+    /// A guided needle is as deep as two scales are thick, and has tilted none critically: it pushes a scale straight down.
+    Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
     /// A contact carries beyond the end of its edge.

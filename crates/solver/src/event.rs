@@ -1,5 +1,6 @@
 //! Events on the path: where they are.
 
+use crate::bracket::Bracket;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
 use crate::system::{State, System};
@@ -63,8 +64,8 @@ impl<S: System> Path<S> {
         let located = self.locate_from(from, state, constraint).ok()?;
         let condition = self.condition(from);
         let reached = condition.of(&located.state.z) - condition.value;
-        let within =
-            (0.0..=FARTHER * distance).contains(&reached) && self.progress(&located.state.z) <= 1.0;
+        let within = (0.0..=FARTHER * distance).contains(&reached)
+            && self.progress(&located.state.z) <= self.system.target();
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
@@ -224,39 +225,51 @@ impl<S: System> Path<S> {
         Candidate { state, direction, event: Some(Event::Changed(changes)) }
     }
 
-    /// Whether the load has an extremum between the point and the candidate.
-    pub(crate) fn turns(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    /// Cuts a step short where a rate vanishes within it: that of the load, or that of a constraint whose unknown only grows.
+    pub(crate) fn up_to_turn(
+        &mut self,
+        from: &Point<S::Mode>,
+        mut candidate: Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        from.event != Some(Event::LoadExtremum)
-            && from.leaving[load] * candidate.direction[load] < 0.0
+        let turns = from.leaving[load] * candidate.direction[load] < 0.0;
+        if turns && from.event != Some(Event::LoadExtremum) {
+            candidate = self.extremum(from, &candidate, load)?;
+            candidate.event = Some(Event::LoadExtremum);
+        }
+        for number in 0..self.system.growing().len() {
+            let constraint = self.system.growing()[number];
+            let unknown = self.system.constraints()[constraint];
+            let grows = from.state.active[constraint] && from.leaving[unknown] > 0.0;
+            if grows && candidate.direction[unknown] < 0.0 {
+                candidate = self.extremum(from, &candidate, unknown)?;
+                candidate.event =
+                    Some(Event::Changed(vec![Change { constraint, activated: false }]));
+            }
+        }
+        Ok(candidate)
     }
 
-    /// The point where the load turns, by the Illinois variant of the false position
-    /// (Dowell & Jarratt 1971, doi 10.1007/BF01934364).
-    pub(crate) fn extremum(
+    /// The point where an unknown turns.
+    fn extremum(
         &mut self,
         from: &Point<S::Mode>,
         beyond: &Candidate<S::Mode>,
+        unknown: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let load = self.system.load();
         let condition = self.condition(from);
-        let (mut low, mut high) = (0.0, condition.of(&beyond.state.z) - condition.value);
-        let (mut f_low, mut f_high) = (from.leaving[load], beyond.direction[load]);
-        let span = high;
+        let span = condition.of(&beyond.state.z) - condition.value;
+        let start = from.leaving[unknown];
+        // Not halved every time: extrema of the load are kept to the last digit of what they were with this rule.
+        let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
-            let distance = (low * f_high - high * f_low) / (f_high - f_low);
-            let mut candidate = self.trial(from, distance)?;
-            let f = candidate.direction[load];
-            if (high - low).abs() <= CLOSE * span || f.abs() <= CLOSE * from.leaving[load].abs() {
-                candidate.event = Some(Event::LoadExtremum);
+            let distance = bracket.secant();
+            let candidate = self.trial(from, distance)?;
+            let rate = candidate.direction[unknown];
+            if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }
-            if f * f_high < 0.0 {
-                (low, f_low) = (high, f_high);
-            } else {
-                f_low *= 0.5;
-            }
-            (high, f_high) = (distance, f);
+            bracket.narrow(distance, rate);
         }
         Err(NewtonFailure::TooManyIterations)
     }
@@ -264,6 +277,15 @@ impl<S: System> Path<S> {
     /// Whether a load that only pushes would have to pull at the candidate.
     pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
         self.system.load_only_pushes() && candidate.state.z[self.system.load()] < 0.0
+    }
+
+    /// Whether what carries the load lets go of it at the candidate, to round-off: the path ends there as where it pulls.
+    pub(crate) fn lets_go(&self, candidate: &Candidate<S::Mode>) -> bool {
+        let load = self.system.load();
+        self.system.load_only_pushes()
+            && matches!(candidate.event, Some(Event::Changed(_)))
+            && candidate.state.z[load].abs() <= FLOOR
+            && candidate.direction[load] < 0.0
     }
 
     /// The point before `beyond` where the load comes back to zero.

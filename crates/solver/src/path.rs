@@ -104,11 +104,11 @@ impl<S: System> Path<S> {
     }
 
     /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
-    /// it left `point`, whose state need be an equilibrium of the system to first order only.
-    pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) {
+    /// it left `point`, whose state need be an equilibrium of the system to first order only. Returns the system that was left.
+    pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) -> S {
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
-        self.system = system;
+        let left = std::mem::replace(&mut self.system, system);
         self.stop = None;
         let condition = self.condition(&point);
         match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
@@ -117,6 +117,7 @@ impl<S: System> Path<S> {
         }
         self.newton.history = history;
         self.stand(point);
+        left
     }
 
     /// Why the path ended; `None` while it has not.
@@ -308,7 +309,7 @@ impl<S: System> Path<S> {
     /// The next distance: the step, but not past the target.
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
-        let left = 1.0 - self.progress(&self.point.state.z);
+        let left = self.system.target() - self.progress(&self.point.state.z);
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
@@ -331,10 +332,10 @@ impl<S: System> Path<S> {
             Some(candidate) => candidate,
             None => self.plain_step(&from, distance)?,
         };
-        if self.turns(&from, &candidate) {
-            candidate = self.extremum(&from, &candidate)?;
-        }
-        if self.pulls(&candidate) {
+        candidate = self.up_to_turn(&from, candidate)?;
+        if self.lets_go(&candidate) {
+            candidate.event = Some(Event::Unloaded);
+        } else if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
         }
         Ok(candidate)
@@ -347,7 +348,7 @@ impl<S: System> Path<S> {
         distance: f64,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let mut candidate = self.trial(from, distance)?;
-        if self.progress(&candidate.state.z) > 1.0 {
+        if self.progress(&candidate.state.z) > self.system.target() {
             candidate = self.target(from, &candidate)?;
         }
         self.first_event(from, candidate)
@@ -360,14 +361,20 @@ impl<S: System> Path<S> {
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
-        let state = from.state.interpolated(&beyond.state, (1.0 - start) / (end - start));
-        let control = self.control_parameter();
-        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 1.0 };
+        let (target, control) = (self.system.target(), self.control_parameter());
+        let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
+        let row = vec![(control.index, 1.0 / control.scale)];
+        let condition = Condition { row, value: target };
         self.correct(state, &condition)
     }
 
     fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
         let Candidate { mut state, direction: arriving, mut event } = candidate;
+        if let Some(Event::Changed(changes)) = &event
+            && changes.iter().any(|change| self.system.ends(change.constraint))
+        {
+            event = Some(Event::Target);
+        }
         let leaving = match &mut event {
             Some(Event::Changed(changes)) => self.resolve_event(&mut state, &arriving, changes)?,
             _ => arriving.clone(),
@@ -379,7 +386,7 @@ impl<S: System> Path<S> {
     }
 
     fn at_target(&self, state: &State<S::Mode>) -> bool {
-        (self.progress(&state.z) - 1.0).abs() <= FLOOR
+        (self.progress(&state.z) - self.system.target()).abs() <= FLOOR
     }
 }
 
@@ -397,7 +404,7 @@ impl<S: System> Iterator for Path<S> {
         self.points += 1;
         match self.advance() {
             Ok(point) => {
-                if self.at_target(&point.state) {
+                if point.event == Some(Event::Target) || self.at_target(&point.state) {
                     self.stop = Some(Stop::Reached);
                 } else if point.event == Some(Event::Unloaded) {
                     self.stop = Some(Stop::Unloaded);

@@ -59,8 +59,12 @@ impl TangentSolver {
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
         self.inactive.extend(inactive(system, state));
+        if !self.inactive.is_sorted() {
+            self.inactive.sort_unstable();
+        }
         self.is_in_blocks = false;
-        if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, system.blocks()) {
+        let blocks = system.blocks().filter(|_| system.is_in_blocks(state));
+        if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.matrix);
             self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();

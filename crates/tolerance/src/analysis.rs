@@ -3,11 +3,11 @@
 use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
+use results::DesignRow;
 use results::columns::{AREAL_MASS, measure_name};
-use results::{DesignRow, sha256};
-use run::{Evaluator, Program};
+use run::{Evaluator, JournalHeader, Program};
 use skin::Imperfection;
-use sweep::{Case, Measure, Sweep};
+use sweep::{Case, Measure, Subset, Sweep};
 
 use crate::draw;
 use crate::linear::{Gradients, LinearSpread};
@@ -120,7 +120,7 @@ impl<'a> Analysis<'a> {
             let solved = self.solved(index, &case, &measured, sample);
             solved.unwrap_or_else(|| vec![None; columns.len()])
         };
-        let label = (&*number.to_string(), &*identity(self.program, &self.sweep.only(index)));
+        let label = (&*number.to_string(), header(self.program, &self.sweep.only(index)));
         let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
         let of = |column: usize| -> Vec<Option<f64>> {
             let place = deviations.len() + column;
@@ -199,8 +199,7 @@ fn has_derivatives(name: &str, drawn: &DesignRow) -> bool {
     measure == AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 
-/// The digest of all that the samples of a sweep depend on.
-pub(crate) fn identity(program: Program, sweep: &Sweep) -> String {
-    let Program { version, revision } = program;
-    sha256(format!("{version} {revision}\n{}", sweep.to_toml()))
+/// The header of the journal of the samples of a sweep.
+pub(crate) fn header(program: Program, sweep: &Sweep) -> JournalHeader {
+    JournalHeader::new(sweep.to_toml(), Subset::default(), &program)
 }

@@ -35,7 +35,8 @@ pub fn note(
 
 /// The command that this process is, as a shell takes it.
 fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| shell_word(&word));
+    // A name that is no text is told as it is shown.
+    let words = std::env::args_os().skip(1).map(|word| shell_word(&word.to_string_lossy()));
     std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 

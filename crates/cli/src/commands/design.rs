@@ -3,8 +3,8 @@
 use anyhow::ensure;
 use results::columns::design_columns;
 use results::{
-    Cell, Column, DesignRow, ParameterDerivative, RunFolder, SolvedDesign, write_measures,
-    write_path_tables,
+    Cell, Claim, Column, DesignRow, Maker, ParameterDerivative, RunFolder, SolvedDesign,
+    write_measures, write_path_tables,
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
@@ -25,10 +25,12 @@ pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
     }
     let chosen = SolvedChoice::new(design);
     let folder = RunFolder::new(chosen.folder(arguments));
+    let claim = Claim::take(&folder, Maker::Design)?;
     let mut files = write_path_tables(&folder, &chosen.solved)?;
     files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);
     folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
     files.push("design.toml");
+    claim.state()?;
     let place = folder.path().display();
     if arguments.json {
         json::print(&chosen.json(&place.to_string(), &files))?;

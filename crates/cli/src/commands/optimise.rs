@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use ::report::Figure;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
-use results::{RunFolder, make_folder};
+use results::RunFolder;
 use sweep::Setting;
 
 use super::source::folder_of;
@@ -29,7 +29,6 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
     let settings: Vec<Setting> = settings.collect::<Result<_, _>>()?;
     let goal = DesignGoal::read(&arguments.path, &settings)?;
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
-    make_folder(&folder)?;
     interrupt.ask_first();
     let begun = Instant::now();
     let display = SearchDisplay::new(arguments.quiet, interrupt);
@@ -42,13 +41,9 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
     };
     let written = RunFolder::new(&folder);
     let format = arguments.format.csv.unwrap_or_default();
-    let mut files: Vec<String> =
-        write_found(&written, &goal, &found, format)?.into_iter().map(str::to_owned).collect();
-    for Figure { name, svg } in figures(&goal, &found) {
-        let file = format!("{name}.svg");
-        written.write_text(&file, &svg)?;
-        files.push(file);
-    }
+    let figures = figures(&goal, &found);
+    let figures = figures.into_iter().map(|Figure { name, svg }| (format!("{name}.svg"), svg));
+    let files = write_found(&written, &goal, &found, &figures.collect::<Vec<_>>(), format)?;
     let report = SearchReport { goal: &goal, found: &found };
     if arguments.json {
         json::print(&record(&goal, &found))?;

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{GapFactors, Page, PageDesign, drawings};
+use results::Quantity;
 use results::columns::design_columns;
 use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
@@ -64,16 +65,19 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         [parameter.path(), value.to_string(), parameter.meaning.to_owned()]
     });
     let rankings = results.rankings()?;
+    let grid = sweep.grid();
     Ok(Page {
         name: results.title(),
         version: PROGRAM.version.to_owned(),
         folder: results.folder.display().to_string(),
-        axes: sweep.grid().axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
+        axes: grid.axes().iter().map(|axis| axis.parameter().key.to_owned()).collect(),
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
+        is_physical: is_physical(&grid.case(0)),
         solved: solved(results, &rankings),
-        opening: Preferences::read(&results.folder)?.map_or_else(String::new, |own| opening(&own)),
+        opening: Preferences::read(results.verified())?
+            .map_or_else(String::new, |own| opening(&own)),
         designs: results.designs.clone(),
         front: None,
     })
@@ -153,14 +157,30 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
         thickness_mm: case.material.thickness_mm,
         states: &states,
     };
-    let path = solved.puncture.path.iter();
+    let path = solved.puncture.path.iter().map(|point| [point.displacement, point.force]);
     Some(PageDesign {
         number: number.to_owned(),
         svg: if is_drawn { drawing.svg().ok()? } else { String::new() },
-        puncture: path.map(|point| [point.displacement, point.force]).collect(),
-        flexure: bending(&case),
+        puncture: path.map(|point| scaled(point, units(&case)[0])).collect(),
+        flexure: bending(&case).into_iter().map(|point| scaled(point, units(&case)[1])).collect(),
         gap_factors: gap_factors(results, number),
     })
+}
+
+/// A millimetre and a newton of a puncture, 1/mm and N mm of bending: what the units of its curves are, where the material tells.
+fn units(case: &Case) -> [Option<[f64; 2]>; 2] {
+    let unit = |quantity: Quantity| quantity.physical(1.0, case);
+    let curvature = unit(Quantity::Length).map(f64::recip);
+    let both = |x: Option<f64>, y: Option<f64>| Some([x?, y?]);
+    [both(unit(Quantity::Length), unit(Quantity::Force)), both(curvature, unit(Quantity::Moment))]
+}
+
+fn is_physical(case: &Case) -> [bool; 2] {
+    units(case).map(|units| units.is_some())
+}
+
+fn scaled([x, y]: [f64; 2], units: Option<[f64; 2]>) -> [f64; 2] {
+    units.map_or([x, y], |[unit_x, unit_y]| [x * unit_x, y * unit_y])
 }
 
 /// How the criteria of a design move with its gap.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::ensure;
-use results::{CsvFormat, MEASURE_TABLES, RunFolder, write_rows};
+use results::{Claim, CsvFormat, MEASURE_TABLES, Maker, RunFolder, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
 use tolerance::{
@@ -31,6 +31,7 @@ pub fn sensitivity(
     check(&sweep, &arguments.definition.path)?;
     let default = || folder_within(&arguments.definition, &sweep, "sensitivity");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    Claim::check(&folder, Maker::Sensitivity)?;
     let store = SampleStore::new(&folder.file(SAMPLES));
     interrupt.ask_first();
     let (samples, stop) = (arguments.samples as usize, interrupt.stop());
@@ -39,9 +40,10 @@ pub fn sensitivity(
     let Some(found) = unless_stopped(solved, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
-    folder.make()?;
+    let claim = Claim::take(&folder, Maker::Sensitivity)?;
     let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
     write_rows(&folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
+    claim.state()?;
     let place = folder.path();
     if arguments.json {
         json::print(&record(&sweep, &found, place))?;

@@ -4,11 +4,14 @@ mod figures;
 mod record;
 mod report;
 
+use std::collections::BTreeSet;
+use std::ops::RangeInclusive;
+
 use anyhow::{Context as _, ensure};
 use ranking::Requirement;
 use rayon::prelude::*;
 
-use results::{CsvFormat, RunFolder, write_rows};
+use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
     Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
@@ -21,6 +24,9 @@ use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
+
+/// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
+const MOST: u64 = 100_000;
 
 /// The folder of the samples in that of the tables.
 pub(super) const SAMPLES: &str = "samples";
@@ -36,6 +42,8 @@ pub fn tolerance(
     let designs = designs(arguments, &sweep)?;
     let default = || folder_within(&arguments.definition, &sweep, "tolerance");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    // Before hours of work, and not behind them.
+    Claim::check(&folder, Maker::Tolerance)?;
     let store = SampleStore::new(&folder.file(SAMPLES));
     interrupt.ask_first();
     let samples = arguments.samples as usize;
@@ -44,10 +52,16 @@ pub fn tolerance(
     let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
+    let mut claim = Claim::take(&folder, Maker::Tolerance)?;
     let mut files = write(&folder, &all)?;
     if let [design] = all.as_slice() {
-        files.extend(figures::write(&folder, &sweep, &requirements, design)?);
+        for (name, svg) in figures::figures(&sweep, &requirements, design) {
+            claim.add(&name)?;
+            folder.write_text(&name, &svg)?;
+            files.push(name);
+        }
     }
+    claim.state()?;
     let place = folder.path();
     if arguments.json {
         json::print(&record::record(&sweep, &all, place, &files))?;
@@ -96,16 +110,27 @@ fn requirements(arguments: &args::ToleranceArguments) -> anyhow::Result<Vec<Requ
 /// The indices of the designs that are asked for.
 fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
-    if arguments.numbers.is_empty() {
-        return Ok((0..grid.len()).collect());
-    }
     let path = arguments.definition.path.display();
     let range = |text: &String| {
         let range = grid.parse_numbers(text.trim());
         range.with_context(|| format!("{path}: --design {text}"))
     };
-    let ranges: anyhow::Result<Vec<_>> = arguments.numbers.iter().map(range).collect();
-    Ok(ranges?.into_iter().flatten().collect())
+    let mut ranges: Vec<_> = arguments.numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
+    if arguments.numbers.is_empty() {
+        ranges.push(0..=grid.len().saturating_sub(1));
+    }
+    // Counted before they are listed: a list of 10⁹ designs takes all memory.
+    let count = |range: &RangeInclusive<u64>| (range.end() - range.start()).saturating_add(1);
+    let count = ranges.iter().map(count).fold(0, u64::saturating_add);
+    ensure!(
+        count <= MOST,
+        "{path}: {count} designs, at most {MOST} at a time: choose some with --design"
+    );
+    let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
+    // The samples of a design are solved once, however often it is named.
+    let mut known = BTreeSet::new();
+    designs.retain(|design| known.insert(*design));
+    Ok(designs)
 }
 
 /// The tolerances of designs, one after the other; samples in parallel. Of several designs no samples are held.
@@ -126,7 +151,6 @@ fn analysed(
 
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
-    folder.make()?;
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
         let number = design.drawn.number;
@@ -149,10 +173,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     if all.iter().any(|design| !design.yields.is_empty()) {
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
-    } else {
-        folder.remove("yield.csv");
     }
-    folder.sync();
     Ok(files)
 }
 

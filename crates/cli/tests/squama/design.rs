@@ -4,7 +4,7 @@ use crate::table::{cell, columns};
 use crate::{FEW, Place};
 
 /// The files of the path of a design.
-const COURSE: &str = "design.toml events.csv flexure_events.csv flexure_path.csv \
+const COURSE: &str = "derived design.toml events.csv flexure_events.csv flexure_path.csv \
                       flexure_scales.csv flexure_steps.csv measures.csv path.csv scales.csv steps.csv";
 
 #[test]

@@ -69,7 +69,7 @@ fn results_are_not_overwritten_unasked() {
     place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
     assert_ne!(place.read("results/few/designs.csv"), before);
     std::fs::remove_file(place.path("results/few/journal.jsonl")).expect("a file");
-    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds coverage.csv without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results");
+    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds designs.csv without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results");
 }
 
 #[test]
@@ -250,7 +250,7 @@ mod signals {
             let code = squama.end_within(Duration::from_secs(20)).expect("it does not hang").code();
             assert_eq!(code, Some(2), "{command}");
         }
-        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is no regular file, expected the journal of a run");
+        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is no regular file, expected a journal that squama writes");
     }
 
     #[test]

@@ -58,7 +58,7 @@ fn one_design_is_told_in_words_and_in_json() {
     // Derivatives alone.
     let text = place.prints("tolerance x.toml --samples 0 --out linear");
     assert!(text.contains("2 designs of 2"), "{text}");
-    assert_eq!(place.list("linear"), "tolerance.csv tolerance_sources.csv");
+    assert_eq!(place.list("linear"), "derived tolerance.csv tolerance_sources.csv");
 }
 
 #[test]

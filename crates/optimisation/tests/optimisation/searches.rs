@@ -5,10 +5,11 @@ use std::sync::atomic::AtomicBool;
 
 use optimisation::{
     Answer, BestDesign, DesignGoal, Found, Judgement, Limit, SearchMeter, SearchOptions,
-    SearchStage, optimise,
+    SearchStage, optimise, write_found,
 };
-use results::Results;
+use results::{CsvFormat, Results};
 use run::{Program, Start};
+use store::Seal;
 
 const PROGRAM: Program = Program { version: "1.0", revision: "none" };
 
@@ -238,10 +239,89 @@ fn threads_and_interruptions_change_nothing() {
         assert_eq!(places(&again), places(&whole));
         assert_eq!(again.evaluations, whole.evaluations);
     }
+    assert!(refused(folder.path(), &goal, Start::New).contains("--resume"));
+}
+
+/// The message of a search that does not begin.
+fn refused(folder: &Path, goal: &DesignGoal, start: Start) -> String {
     let (stop, meter) = (AtomicBool::new(false), SearchMeter::default());
-    let options = SearchOptions { threads: 1, start: Start::New, stop: &stop, meter: &meter };
-    let error = optimise(&goal, folder.path(), &options, &PROGRAM).expect_err("there are results");
-    assert!(error.to_string().contains("--resume"), "{error}");
+    let options = SearchOptions { threads: 1, start, stop: &stop, meter: &meter };
+    optimise(goal, folder, &options, &PROGRAM).expect_err("refused").to_string()
+}
+
+#[test]
+fn a_damaged_line_costs_nothing_of_a_search() {
+    let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
+    let folder = tempfile::tempdir().expect("a folder");
+    found_in(folder.path(), &goal, 1, Start::New);
+    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let sound = std::fs::read_to_string(&journal).expect("a journal");
+    let lines: Vec<&str> = sound.split_inclusive('\n').collect();
+    let damage = |line: usize| {
+        let mut lines = lines.clone();
+        let damaged = lines[line].replacen('0', "1", 1);
+        lines[line] = &damaged;
+        lines.concat()
+    };
+    // Neither the first line nor one in the middle throws the others away, whatever is asked for but a fresh start.
+    for (line, what) in [(0, ":1: not the first line"), (lines.len() / 2, ": damaged line")] {
+        let damaged = damage(line);
+        assert_ne!(damaged, sound);
+        std::fs::write(&journal, &damaged).expect("writable");
+        for start in [Start::New, Start::Resume] {
+            let message = refused(folder.path(), &goal, start);
+            assert!(message.contains(what), "{message}");
+            assert_eq!(std::fs::read_to_string(&journal).expect("text"), damaged);
+        }
+    }
+    // Format 1 is refused by the name of the program that reads it.
+    let old = Seal::default().seal(&serde_json::json!({
+        "optimisation": 1, "program": "0.1.0 (abc)", "goal_sha256": "0"
+    }));
+    std::fs::write(&journal, &old).expect("writable");
+    let message = refused(folder.path(), &goal, Start::Resume);
+    assert!(
+        message.contains("a journal of format 1") && message.contains("0.1.0 (abc)"),
+        "{message}"
+    );
+}
+
+#[test]
+fn an_old_optimum_does_not_outlive_its_search() {
+    let (old, new) = (goal("maximize = 'coverage'"), goal("minimize = 'areal_mass_kg_m2'"));
+    let place = tempfile::tempdir().expect("a folder");
+    let folder = results::RunFolder::new(place.path());
+    let found = found_in(place.path(), &old, 1, Start::New);
+    let figures = [("history.svg".to_owned(), "<svg/>".to_owned())];
+    write_found(&folder, &old, &found, &figures, CsvFormat::Plain).expect("writable");
+    assert!(folder.holds("optimum.csv") && folder.holds("history.svg"));
+    // Another search begins afresh, and is ended before it has found anything.
+    let (stop, meter) = (AtomicBool::new(true), SearchMeter::default());
+    let options = SearchOptions { threads: 1, start: Start::Fresh, stop: &stop, meter: &meter };
+    let ended = optimise(&new, place.path(), &options, &PROGRAM).expect("a search");
+    assert!(ended.is_none());
+    for file in ["optimum.csv", "optimum.toml", "goal.toml", "history.csv", "history.svg"] {
+        assert!(!folder.holds(file), "{file}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_journal_is_left_alone() {
+    let goal = goal("maximize = 'coverage'\nminimize = 'areal_mass_kg_m2'\npoints = 2");
+    let folder = tempfile::tempdir().expect("a folder");
+    let journal = folder.path().join(results::RunFolder::EVALUATIONS);
+    let target = folder.path().join("target");
+    std::fs::write(&target, "a stranger's").expect("writable");
+    std::os::unix::fs::symlink(&target, &journal).expect("a link");
+    for start in [Start::New, Start::Resume, Start::Fresh] {
+        let message = refused(folder.path(), &goal, start);
+        assert!(message.contains("is no regular file"), "{message}");
+    }
+    assert_eq!(std::fs::read_to_string(&target).expect("text"), "a stranger's");
+    std::fs::remove_file(&journal).expect("a link");
+    std::os::unix::fs::symlink("/dev/zero", &journal).expect("a link");
+    assert!(refused(folder.path(), &goal, Start::Resume).contains("is no regular file"));
 }
 
 /// The strongest of the 720 designs of the reference study that meets the requirements of a goal is not as good as what a search

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::contours::contours;
 use super::names::{axis_label, in_short, in_words, with_value};
-use super::{Figure, columns, sheet};
+use super::{Figure, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, NAME};
 use crate::colors::{FAINT, INK, RED, map_color};
@@ -209,9 +209,9 @@ impl MapSubject<'_> {
         sheet(WIDTH, bottom + 54.0, title, inside)
     }
 
-    /// Whether the column depends on the substrate that may have folded over.
+    /// Whether the column depends on the substrate that may have folded over: bending and coverage do not.
     fn marks_folds(&self) -> bool {
-        self.of != COVERAGE
+        is_touched_by_folds(self.of)
     }
 
     fn color(&self, value: f64) -> Option<String> {
@@ -339,15 +339,9 @@ impl Map<'_> {
 
     fn frame(&self, title: &str, x_labels: bool, y_labels: bool) -> Element {
         let Area { left, top, width, height } = self.area;
-        let border = Element::new("rect")
-            .at("x", left)
-            .at("y", top)
-            .at("width", width)
-            .at("height", height)
-            .with("fill", "none")
-            .with("stroke", FAINT);
         let title = label(title, [left + 0.5 * width, top - 7.0], 12.0, Anchor::Middle);
-        let mut frame = Element::group("frame").containing([border, title.with("fill", INK)]);
+        let mut frame =
+            Element::group("frame").containing([self.area.border(), title.with("fill", INK)]);
         let [w, h] = self.cell();
         if x_labels {
             // Every label has room for five characters.

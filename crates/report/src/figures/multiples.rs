@@ -1,7 +1,7 @@
 //! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
 
 use super::names::{axis_label, with_value};
-use super::{Quantity, columns, sheet};
+use super::{Quantity, columns, is_touched_by_folds, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel, MarkLook, NAME, design_mark, mark, mark_legend};
 use crate::colors::INK;
@@ -41,10 +41,12 @@ pub(crate) fn figure(
     let values = some(designs.values(across));
     let columns = columns(values.len());
     let palette = designs.palette();
-    let mut inside = vec![mark_legend(designs, &palette, [LEFT, 50.0])];
+    let has_folds = is_touched_by_folds(&quantity.column) && designs.any_folded();
+    let mut inside = vec![mark_legend(&palette, has_folds, [LEFT, 50.0])];
     inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 630.0, 50.0])));
     inside.extend(quantity.band.as_ref().map(|_| {
-        label("band: 5 % to 95 % of the samples", [LEFT + 630.0, 68.0], 12.0, Anchor::Start)
+        let text = "line: median; band: 5 % to 95 % of the samples";
+        label(text, [LEFT, 68.0], 12.0, Anchor::Start).with("fill", INK)
     }));
     for (k, &value) in values.iter().enumerate() {
         let title = with_value(&(across, &value.to_string()));
@@ -103,7 +105,9 @@ impl PanelSeries<'_> {
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
             let color = self.palette.color(slant);
             let band = self.quantity.band.as_ref().map(|band| self.band(panel, &points, band));
-            series = series.containing(band.map(|band| band.with("fill", color.as_str())));
+            // The stroke shows where there is one design, and the band has no width.
+            let stroked = band.map(|band| band.with("fill", &color).with("stroke", &color));
+            series = series.containing(stroked);
             // No line crosses the place where contact begins: the value jumps there.
             for part in points.chunk_by(|a, b| self.is_filled(a.2) == self.is_filled(b.2)) {
                 let spots: Vec<Spot> = part.iter().map(|point| point.1).collect();
@@ -111,7 +115,7 @@ impl PanelSeries<'_> {
             }
         }
         series.containing(points.iter().filter_map(|&(_, at, row)| {
-            design_mark(designs, self.palette, row, at, !self.is_filled(row))
+            design_mark(designs, self.palette, row, at, self.look(row))
         }))
     }
 
@@ -137,7 +141,18 @@ impl PanelSeries<'_> {
         };
         let [low, high] = quantiles.each_ref().map(edge);
         let around: Vec<Spot> = low.into_iter().chain(high.into_iter().rev()).collect();
-        polygon(&around).with("class", "band").with("fill-opacity", "0.18")
+        polygon(&around)
+            .with("class", "band")
+            .with("fill-opacity", "0.18")
+            .with("stroke-opacity", "0.3")
+    }
+
+    fn look(&self, row: usize) -> MarkLook {
+        match self.is_filled(row) {
+            false => MarkLook::Open,
+            true if is_touched_by_folds(&self.quantity.column) => MarkLook::of(self.designs, row),
+            true => MarkLook::Filled,
+        }
     }
 
     fn is_filled(&self, row: usize) -> bool {

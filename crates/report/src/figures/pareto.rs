@@ -1,8 +1,8 @@
 //! The Pareto fronts of the four criteria, two at a time.
 
-use super::{sheet, thinned};
+use super::{of_perfect, sheet, thinned};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, design_mark, mark_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::colors::{FAINT, INK};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
@@ -39,7 +39,7 @@ pub(crate) fn figure(
     let axes: Vec<ChartAxis> = (0..4).map(axis).collect();
     let palette = designs.palette();
     let dot = circle([0.0, 0.0], 1.6).with("fill", "currentColor").with("id", "dot");
-    let mut inside = vec![mark_legend(designs, &palette, [LEFT, 50.0])];
+    let mut inside = vec![mark_legend(&palette, designs.any_folded(), [LEFT, 50.0])];
     inside.extend([Element::new("defs").containing([dot]), legend()]);
     for (k, (i, j)) in PAIRS.into_iter().enumerate() {
         let area = Area {
@@ -59,7 +59,8 @@ pub(crate) fn figure(
         let pair = [CRITERIA[i].0, CRITERIA[j].0].join(" ");
         inside.push(front(&points, designs, &palette).with("data-criteria", pair));
     }
-    let title = format!("{name}: designs that no other beats in two criteria");
+    let title =
+        format!("{name}: designs that no other beats in two criteria{}", of_perfect(designs));
     Some(sheet(WIDTH, TOP + 2.0 * (PANEL[1] + BETWEEN[1]), &title, inside))
 }
 
@@ -85,7 +86,9 @@ fn front(points: &[Point], designs: &Designs, palette: &SlantPalette) -> Element
     });
     let spots: Vec<Spot> = front.iter().map(|point| point.spot).collect();
     let line = polyline(&spots).with("stroke", FAINT).at("stroke-width", 1.2);
-    let marks = front.iter().filter_map(|p| design_mark(designs, palette, p.row, p.spot, false));
+    let marks = front
+        .iter()
+        .filter_map(|p| design_mark(designs, palette, p.row, p.spot, MarkLook::of(designs, p.row)));
     Element::group("front")
         .containing(beaten)
         .containing([line.with("class", "line")])

@@ -3,9 +3,9 @@
 use results::columns::{MAX_STIFFNESS, SECANT_STIFFNESS};
 
 use super::names::axis_label;
-use super::{Quantity, sheet, thinned};
+use super::{of_perfect, physical, sheet, thinned};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, design_mark, mark_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, design_mark, mark_legend};
 use crate::designs::Designs;
 
 const WIDTH: f64 = 1000.0;
@@ -19,12 +19,14 @@ const STIFFNESSES: [(&str, &str); 2] = [
 
 pub(crate) fn figure(name: &str, designs: &Designs) -> String {
     let palette = designs.palette();
-    let mut inside = vec![mark_legend(designs, &palette, [78.0, 50.0])];
-    let force = Quantity::of(designs, "critical_force").column;
+    let mut inside = vec![mark_legend(&palette, designs.any_folded(), [78.0, 50.0])];
+    // Samples have no stiffness of their own: both axes are those of the perfect design.
+    let physical = |measure: &str| physical(designs, measure).unwrap_or(measure.to_owned());
+    let force = physical("critical_force");
     let x = ChartAxis::fit(&axis_label(&force), designs.numbers(&force));
     let width = 0.5 * (WIDTH - 2.0 * 78.0 - 20.0);
     for (k, (measure, title)) in STIFFNESSES.into_iter().enumerate() {
-        let stiffness = Quantity::of(designs, measure).column;
+        let stiffness = physical(measure);
         let y = ChartAxis::fit(&axis_label(&stiffness), designs.numbers(&stiffness));
         let left = 78.0 + k as f64 * (width + 78.0);
         let area = Area { left, top: 92.0, width, height: HEIGHT - 92.0 - 60.0 };
@@ -33,9 +35,15 @@ pub(crate) fn figure(name: &str, designs: &Designs) -> String {
         inside.extend([panel.frame(), panel.x_name(), panel.y_name(52.0)]);
         inside.extend(thinned(designs.count(), STIFFNESSES.len()).filter_map(|row| {
             let [force, stiffness] = [&force, &stiffness].map(|name| designs.number(name, row));
-            design_mark(designs, &palette, row, panel.place(force?, stiffness?)?, false)
+            design_mark(
+                designs,
+                &palette,
+                row,
+                panel.place(force?, stiffness?)?,
+                MarkLook::of(designs, row),
+            )
         }));
     }
-    let title = format!("{name}: puncture stiffness against critical force");
+    let title = format!("{name}: puncture stiffness against critical force{}", of_perfect(designs));
     sheet(WIDTH, HEIGHT, &title, inside)
 }

@@ -158,7 +158,7 @@ impl WeightSlices {
         let spots = [
             [top[0], top[1] - 14.0],
             [left[0] + away, left[1] + 22.0],
-            [right[0] - away * 0.5, right[1] + 22.0],
+            [right[0] - away, right[1] + 22.0],
         ];
         names.into_iter().zip(spots).map(|(name, spot)| middle(name, spot, 12.0))
     }

@@ -6,7 +6,7 @@ use std::io::Read as _;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use ranking::{Ranking, TetrahedralGrid};
-use report::{Designs, Page, PageDesign, figures, untitled};
+use report::{Designs, MapRequest, Page, PageDesign, figures, map, untitled};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -239,5 +239,118 @@ fn curves_of_solved_designs_stand_in_one_chart() {
         let (_, svg) = all.iter().find(|(kind, _)| kind == choice).expect("curves");
         assert_eq!(svg.matches("class=\"curve\"").count(), 2, "one point is no curve: {svg}");
         assert!(svg.contains("force") && !svg.contains("moment"));
+        // The smaller one has an axis as well, so that both can be seen alone.
+        let axes = svg.matches("data-axis=\"y\"").count();
+        assert_eq!(axes > 4, choice == "curves linear", "{axes}");
     }
+}
+
+/// A column and its value of a design, by the number of the design.
+type Column = (&'static str, fn(u32) -> f64);
+
+/// A table like [`table`], with more columns, each made from the number of a design.
+fn table_with(columns: &[Column]) -> String {
+    let own = table();
+    let mut lines = own.lines();
+    let names = columns.iter().map(|(name, _)| *name);
+    let header = lines.next().into_iter().chain(names).collect::<Vec<_>>().join(",");
+    let rows = (1..).zip(lines).map(|(k, line)| {
+        let cells = columns.iter().map(|(_, value)| value(k).to_string());
+        std::iter::once(line.to_owned()).chain(cells).collect::<Vec<_>>().join(",")
+    });
+    std::iter::once(header).chain(rows).collect::<Vec<_>>().join("\n")
+}
+
+/// Where the marks of a figure stand, by their designs.
+fn marks(svg: &str) -> Vec<(&str, &str)> {
+    let uses = svg.split("<use ").filter(|text| text.contains("data-design"));
+    let attribute = |text: &'_ str, name: &str| -> Option<std::ops::Range<usize>> {
+        let start = text.find(&format!("{name}=\""))? + name.len() + 2;
+        Some(start..start + text[start..].find('"')?)
+    };
+    let of = |text| Some((&text[attribute(text, "data-design")?], &text[attribute(text, "y")?]));
+    uses.filter_map(of).collect()
+}
+
+fn figure<'a>(all: &'a [report::Figure], name: &str) -> &'a str {
+    &all.iter().find(|figure| figure.name.starts_with(name)).expect("a figure").svg
+}
+
+#[test]
+fn figures_of_random_gaps_show_the_median_and_the_band() {
+    let sampled = |scale: [fn(u32) -> f64; 3]| {
+        let names = ["critical_force_p05", "critical_force_p50", "critical_force_p95"];
+        let columns: Vec<_> = names.into_iter().zip(scale).collect();
+        figures("x", &Designs::of(&results(&table_with(&columns))), None)
+    };
+    let (one, other) = (
+        sampled([|k| 0.1 * f64::from(k), |k| 0.2 * f64::from(k), |k| 0.5 * f64::from(k)]),
+        // The same perfect designs, of which the median lies elsewhere.
+        sampled([|k| 0.1 * f64::from(k), |k| 0.4 * f64::from(k), |k| 0.5 * f64::from(k)]),
+    );
+    let (one, other) = (figure(&one, "critical-force"), figure(&other, "critical-force"));
+    assert_eq!(marks(one).len(), 24);
+    assert_ne!(marks(one), marks(other));
+    assert_eq!(one.matches("class=\"band\"").count(), 8, "a band for each gap and slant");
+    assert!(one.contains("median of critical force") && one.contains("band: 5 % to 95 %"));
+    let perfect = figures("x", &designs(), None);
+    assert!(!figure(&perfect, "critical-force").contains("class=\"band\""));
+    assert!(figure(&sampled([|_| 1.0; 3]), "stiffness").contains("of the perfect designs"));
+}
+
+#[test]
+fn figures_of_a_material_are_in_newtons_and_millimetres() {
+    let columns: [Column; 2] =
+        [("critical_force_N", |k| 7.0 / f64::from(k)), ("penetration_mm", f64::from)];
+    let table = table_with(&columns);
+    let all = figures("x", &Designs::of(&results(&table)), None);
+    for (name, label) in
+        [("critical-force", "critical force (N)"), ("penetration", "penetration (mm)")]
+    {
+        assert!(figure(&all, name).contains(label), "{name}");
+    }
+    let plain = figures("x", &designs(), None);
+    assert_ne!(marks(figure(&all, "critical-force")), marks(figure(&plain, "critical-force")));
+}
+
+#[test]
+fn only_what_the_fold_touches_is_struck_out() {
+    let designs = Designs::of(&results(&table_with(&[
+        ("fold_force", |k| f64::from(k)),
+        ("bend_radius_mm", |k| f64::from(k)),
+    ])));
+    let struck = |of: &str| {
+        let request =
+            MapRequest { x: "gap_over_t".into(), y: "slant_deg".into(), of: of.into(), at: vec![] };
+        map("x", &designs, &request).expect("a map").svg.contains("struck through")
+    };
+    assert_eq!(
+        [
+            "critical_force",
+            "penetration",
+            "max_stiffness",
+            "compliance",
+            "bend_radius_mm",
+            "coverage"
+        ]
+        .map(struck),
+        [true, true, true, false, false, false]
+    );
+    let all = figures("x", &designs, None);
+    assert!(figure(&all, "critical-force").contains("do not trust"));
+    assert!(!figure(&all, "compliance").contains("do not trust"));
+}
+
+#[test]
+fn titles_have_symbols_and_units() {
+    let table =
+        table_with(&[("thickness_mm", |k| f64::from(1 + k % 2)), ("critical_force_N", f64::from)]);
+    let request = MapRequest {
+        x: "gap_over_t".into(),
+        y: "slant_deg".into(),
+        of: "critical_force_N".into(),
+        at: vec![("thickness_mm".into(), "1".into())],
+    };
+    let map = map("x", &Designs::of(&results(&table)), &request).expect("a map");
+    assert!(map.svg.contains("<title>x: critical force (N) over d/t and α, t = 1 mm</title>"));
 }

@@ -146,7 +146,7 @@ fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome
 #[cfg(test)]
 mod tests {
     use skin::Status;
-    use skin::puncture::PunctureMeasures;
+    use skin::puncture::{Passage, PunctureMeasures};
 
     use super::*;
 
@@ -171,6 +171,7 @@ mod tests {
             folds,
             scales,
             history,
+            passage: Passage::default(),
         }
     }
 

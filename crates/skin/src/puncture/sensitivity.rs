@@ -1,6 +1,5 @@
 //! Derivatives of the measures of a puncture.
 
-use contact::CornerContact;
 use geometry::OutOfRange;
 use solver::{AnchoredPoint, Path, PathAnchor};
 use substrate::RowStiffness;
@@ -9,7 +8,7 @@ use super::fold::{Fold, FoldWatch};
 use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
     self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
@@ -49,7 +48,7 @@ pub fn differentiate(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (start, longest) = problem.start()?;
-    let mut followed = problem.follow(start, longest, &FOLLOWED)?;
+    let mut followed = problem.follow(start, longest, &FOLLOWED, &[])?;
     let derivatives = match followed.status {
         Status::Complete => problem.derivatives(&mut followed, variations)?,
         _ => Vec::new(),
@@ -123,17 +122,14 @@ impl PunctureInput {
 
 impl Chain {
     /// The place of the largest load: held by that where nothing else holds it.
-    fn extremum(
-        &self,
-        place: &AnchoredPoint<Vec<CornerContact>>,
-    ) -> AnchoredPoint<Vec<CornerContact>> {
+    fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);
         let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..place.clone() }
     }
 
     /// The equilibrium at which a gap vanishes.
-    fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<Vec<CornerContact>> {
+    fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
         AnchoredPoint {
             state: point.state.clone(),
@@ -145,7 +141,7 @@ impl Chain {
 
 /// Quantities at a place. Where load or depth turns back smoothly, the direction of the path tells the place.
 fn at_turn<const N: usize>(
-    place: Option<AnchoredPoint<Vec<CornerContact>>>,
+    place: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
 ) -> MeasuredPoint<Chain> {
     let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));

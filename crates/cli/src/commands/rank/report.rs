@@ -10,6 +10,9 @@ use run::GapChange;
 use super::gap_changes::gap_changes_report;
 use crate::print::{aligned, counted, digits, shortfall};
 
+/// The mark of a design under which the surface of the substrate folds over.
+const FOLDED: char = '⚠';
+
 /// Designs that are listed before a list is cut short.
 const LISTED: usize = 10;
 
@@ -36,6 +39,12 @@ impl RankReport<'_> {
             let _ = write!(text, "\n{}", self.winners());
         }
         let _ = write!(text, "\n{}", self.front());
+        if text.contains(FOLDED) {
+            let _ = writeln!(
+                text,
+                "\n{FOLDED} the surface of the substrate folds over: do not trust the critical force"
+            );
+        }
         text
     }
 
@@ -183,15 +192,26 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     columns
 }
 
+/// Whether the surface of the substrate folds over before the puncture of a design ends.
+fn is_folded(results: &Results, row: usize) -> bool {
+    results.column("fold_force").is_ok_and(|fold| !results.text(row, fold).is_empty())
+}
+
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
+    let columns = shown_columns(results, preferences);
+    // A force up to the fold can be trusted.
+    let is_doubtful = columns.iter().any(|column| column.starts_with("critical_force"));
     let cell = |column: &String| {
         let text = results.column(column).map_or("", |column| results.text(row, column));
         match text.parse::<f64>() {
+            _ if column == "design" && is_doubtful && is_folded(results, row) => {
+                format!("{text}{FOLDED}")
+            }
             Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
             _ => text.to_owned(),
         }
     };
-    shown_columns(results, preferences).iter().map(cell).collect()
+    columns.iter().map(cell).collect()
 }
 
 /// The answer where no design meets the requirements.

@@ -20,7 +20,8 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
         format!("--front {name}: there is neither {FRONT} nor {OPTIMUM}, expected a folder in which squama optimise has found designs")
     })?;
     let designs = Designs::of(&Results::of_file(&found, table)?);
-    let goal = DesignGoal::read(&folder.join(GOAL), &[])?;
+    let goal = folder.join(GOAL).display().to_string();
+    let goal = DesignGoal::parse(&found.text(GOAL)?, &goal, &[])?;
     let headers = grid.designs.headers();
     let nominal = goal.nominal();
     let objectives = objectives(&nominal);

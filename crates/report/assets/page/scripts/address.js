@@ -14,7 +14,7 @@
   /** The state as the part of the address behind `#`. */
   squama.written = () => {
     const parts = new URLSearchParams();
-    state.requirements.forEach((one) => parts.append("require", ranking.written(one)));
+    squama.required().forEach((one) => parts.append("require", ranking.written(one)));
     for (const [key, text] of Object.entries(texts)) if (text() !== atFirst[key]) parts.set(key, text());
     if (state.scale !== "paper") parts.set("scale", state.scale);
     if (state.sound) parts.set("sound", "yes");
@@ -48,10 +48,12 @@
     for (const key of ["design", "pinned"]) next[key] = squama.rowOf(parts.get(key));
   };
 
-  /** Takes the state from a text; what makes no sense is passed over. */
+  /** Takes the state from a text; what makes no sense is passed over, and requirements of that kind are named. */
   squama.read = (text) => {
     const parts = new URLSearchParams(text), next = squama.initial();
-    next.requirements = parts.getAll("require").map((one) => ranking.requirement(squama, one)).filter(Boolean);
+    const asked = parts.getAll("require").map((one) => [one, ranking.requirement(squama, one)]);
+    next.requirements = asked.map(([, one]) => one).filter(Boolean);
+    squama.unread = asked.filter(([, one]) => one === null).map(([one]) => one);
     readCriteria(parts, next);
     if (ranking.SCALES.includes(parts.get("scale"))) next.scale = parts.get("scale");
     next.sound = parts.get("sound") === "yes";

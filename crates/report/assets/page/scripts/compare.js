@@ -43,14 +43,29 @@
     log.checked = state.log;
     const rows = pair(), missing = rows.filter((row) => !squama.solved(row)?.curves);
     control.hidden = drawing.hidden = missing.length === rows.length;
-    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page holds the curves of ${squama.drawings.length} designs, those that are best for some weights before others. ` : "Dashed: the pinned design. "}On axes of their own both are drawn by`),
+    words.replaceChildren(squama.element("p", { class: "note" }, `${missing.length > 0 ? `The page holds the curves of ${squama.drawings.length} designs, those that are best for some weights before others. ` : "Dashed: the pinned design. "}With contacts, folds and energies both are drawn by`),
       squama.command(`squama plot curves ${squama.folder}/run.toml --design ${[...new Set(rows.map(squama.number))].join(",")}`));
     const figure = squama.figures.find(({ kind, choice }) => kind === "curves" && (choice === "log") === state.log);
     if (!figure) return;
     drawing.innerHTML = await squama.unpacked(figure.svg);
-    for (const curve of drawing.querySelectorAll(".curve")) {
-      const row = squama.rowOf(curve.dataset.design);
-      curve.classList.toggle("on", rows.includes(row));
+    drawing.dataset.log = state.log;
+    drawing.querySelectorAll(".panel").forEach(fit(rows));
+  };
+
+  /** Shows the curves of some designs in a panel, both as large as the axes are that they need. */
+  const fit = (rows) => (panel) => {
+    const shown = [...panel.querySelectorAll(".curve")].filter((curve) => rows.includes(squama.rowOf(curve.dataset.design)));
+    const high = Object.fromEntries(["x", "y"].map((axis) => {
+      const largest = Math.max(0, ...shown.map((curve) => Number(curve.dataset[axis]))), rungs = [...panel.querySelectorAll(`.rung[data-axis="${axis}"]`)];
+      const rung = rungs.find((one) => Number(one.dataset.high) >= largest) ?? rungs.at(-1);
+      rung.classList.add("on");
+      return [axis, Number(rung.dataset.high)];
+    }));
+    for (const curve of shown) {
+      const row = squama.rowOf(curve.dataset.design), [left, bottom] = panel.dataset.origin.split(" ").map(Number);
+      const part = ["x", "y"].map((axis) => Number(curve.dataset[axis]) / high[axis]);
+      curve.classList.add("on");
+      curve.setAttribute("transform", `translate(${left} ${bottom}) scale(${part.join(" ")}) translate(${-left} ${-bottom})`);
       curve.style.stroke = squama.slant(row).color;
       curve.style.strokeDasharray = row === state.pinned ? "7 4" : "none";
     }

@@ -76,7 +76,7 @@
   /** The command that ranks as the page does; parts of texts are a matter of the page alone. */
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
-    ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
+    ...squama.required().filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
     ...squama.comparable.now().map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
     // The surface folds over where a gap between two bases has closed.
     ...(state.sound ? [`--require ${quoted(`${squama.tightest} > 0`)}`] : []),

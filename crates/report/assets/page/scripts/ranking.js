@@ -32,9 +32,12 @@ squama.ranking = (() => {
     if (!sign) return null;
     const at = text.indexOf(sign);
     const column = text.slice(0, at).trim(), rest = text.slice(at + sign.length).trim();
-    const limit = sign === "~" ? rest : Number(rest);
+    const limit = sign === "~" ? rest : number(rest);
     return table.has(column) && rest !== "" && (sign === "~" || Number.isFinite(limit)) ? { column, sign, limit } : null;
   };
+
+  /** Reads a number with a decimal point or comma; NaN of anything else. */
+  const number = (text) => (/^[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)(e[-+]?[0-9]+)?$/i.test(text.trim()) ? Number(text.trim().replace(",", ".")) : NaN);
 
   /** A requirement as commands write it. */
   const written = ({ column, sign, limit }) => `${column} ${sign} ${limit}`;
@@ -191,5 +194,5 @@ squama.ranking = (() => {
     return { nearest, binding };
   };
 
-  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
 })();

@@ -35,16 +35,16 @@
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
   facts("summary-list", [
-    ...squama.run.map(({ name, value }) => [name, value]),
-    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
-    ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
-    ...folds(),
     ...best("best coverage", "coverage", "max"),
     ...best("largest critical force", "critical_force", "max"),
     ...best("least penetration", "penetration", "min"),
     ...best("largest compliance", "compliance", "max"),
     ...physical(),
+    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
+    ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
+    ...folds(),
   ]);
+  facts("run-list", squama.run.map(({ name, value }) => [name, value]));
   facts("shared-list", squama.shared.map(({ key, value, meaning }) => [`${meaning} (${key})`, value]));
 
   let timer = null;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::header::FORMAT;
-use results::OutputError;
+use crate::atomic_file::OutputError;
+use crate::header::FORMAT;
 
 /// A journal that cannot be used. Each message is one line that says what would be right.
 #[derive(Debug, thiserror::Error)]
@@ -14,11 +14,13 @@ pub enum JournalError {
         /// The folder.
         folder: PathBuf,
     },
-    /// There are the results of a search.
-    #[error("{}: holds the results of a search, expected another folder with --out DIR", folder.display())]
-    HoldsSearch {
+    /// There are the results of another command.
+    #[error("{}: holds the results of {what}, expected another folder with --out DIR", folder.display())]
+    Holds {
         /// The folder.
         folder: PathBuf,
+        /// A word for those results.
+        what: &'static str,
     },
     /// There are tables that no journal stands behind.
     #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
@@ -41,10 +43,18 @@ pub enum JournalError {
         folder: PathBuf,
     },
     /// Something else stands in the place of the journal.
-    #[error("{}: is no regular file, expected the journal of a run", path.display())]
+    #[error("{}: is no regular file, expected a journal that squama writes", path.display())]
     NoFile {
         /// The path of the journal.
         path: PathBuf,
+    },
+    /// A line was changed and sealed again.
+    #[error("{}: design {design} is not what the tables beside it say, though its line is sealed: somebody has changed it; put back the journal as it was, or solve everything again with --fresh", path.display())]
+    Edited {
+        /// The path of the journal.
+        path: PathBuf,
+        /// The number of the first such design.
+        design: String,
     },
     /// Lines at the end of the journal are missing.
     #[error("{}: {lost}; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing", path.display())]
@@ -55,7 +65,7 @@ pub enum JournalError {
         lost: String,
     },
     /// The journal cannot be read.
-    #[error("{}: cannot be read ({reason}), expected the journal of a run", path.display())]
+    #[error("{}: cannot be read ({reason}), expected a journal that squama writes", path.display())]
     Unreadable {
         /// Path of the journal.
         path: PathBuf,
@@ -63,7 +73,7 @@ pub enum JournalError {
         reason: String,
     },
     /// A line before the last is not as it was written.
-    #[error("{}:{line}: damaged line ({problem}), expected it as it was written; remove line {line} to have its design solved again", path.display())]
+    #[error("{}:{line}: damaged line ({problem}), expected it as it was written; remove line {line} to have what it holds solved again", path.display())]
     Damaged {
         /// Path of the journal.
         path: PathBuf,
@@ -81,12 +91,14 @@ pub enum JournalError {
         problem: String,
     },
     /// The journal is of a format that another version of the program writes.
-    #[error("{}:1: a journal of format {found}, this squama reads format {}; expected one of this format; squama run --fresh throws the results away and solves them again, the squama that wrote them still reads them", path.display(), FORMAT)]
+    #[error("{}:1: a journal of format {found}, this squama reads format {}; squama {by} wrote it and still reads it; --fresh or another folder with --out DIR solves everything again", path.display(), FORMAT)]
     OtherFormat {
         /// Path of the journal.
         path: PathBuf,
         /// The format of the journal.
         found: u64,
+        /// The program that wrote it.
+        by: String,
     },
     /// The journal is of another definition, another subset of the designs or another program.
     #[error("{}: {difference}; expected {expected}", path.display())]

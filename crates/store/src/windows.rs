@@ -14,7 +14,7 @@ const LENGTH: u64 = 1 << 16;
 
 /// Windows onto one file.
 #[derive(Debug)]
-pub(super) struct Windows {
+pub struct Windows {
     file: File,
     /// The one that was used last stands at the end.
     windows: Vec<Window>,
@@ -44,6 +44,9 @@ impl Windows {
     }
 
     /// The line at `offset`, with its end if it has one.
+    ///
+    /// # Errors
+    /// If the file cannot be read.
     pub fn line(&mut self, offset: u64) -> io::Result<Vec<u8>> {
         let known = self.windows.iter().position(|window| window.line(offset).is_some());
         let window = match known {

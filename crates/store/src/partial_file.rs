@@ -27,7 +27,7 @@ fn present() -> MutexGuard<'static, Vec<PathBuf>> {
 
 /// A file that is removed unless it is moved to its place.
 #[derive(Debug)]
-pub(super) struct PartialFile {
+pub(crate) struct PartialFile {
     path: PathBuf,
     file: File,
 }

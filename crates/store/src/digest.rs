@@ -14,7 +14,10 @@ pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
 }
 
 /// The SHA-256 of what `source` holds to its end.
-pub(crate) fn sha256_of(mut source: impl Read) -> io::Result<String> {
+///
+/// # Errors
+/// If it cannot be read.
+pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
     let (mut hasher, mut piece) = (Sha256::new(), vec![0; PIECE]);
     loop {
         match source.read(&mut piece) {

@@ -6,7 +6,7 @@ use std::io::{self, BufRead, Read as _};
 const LONGEST: u64 = 1 << 26;
 
 /// The lines of a source, with their ends.
-pub(super) struct Lines<R> {
+pub(crate) struct Lines<R> {
     source: R,
     bytes: Vec<u8>,
     /// Number of the line that was read last, from 1.

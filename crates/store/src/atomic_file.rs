@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest as _, Sha256};
 use sweep::reason;
 
-use super::partial_file::PartialFile;
 use crate::digest::digits;
+use crate::partial_file::{PartialFile, remove_abandoned_files};
 
 /// A file or a folder that cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -29,6 +29,19 @@ impl OutputError {
     /// A file that cannot be written.
     pub fn file(path: &Path, error: &io::Error) -> Self {
         Self { path: path.to_owned(), reason: reason(error), advice: "check free space" }
+    }
+
+    /// A file that squama has not written, and does not write over.
+    pub fn strange(path: &Path) -> Self {
+        let advice = "move the file, or choose another folder with --out DIR";
+        let reason = "there is a file of that name that squama has not written".to_owned();
+        Self { path: path.to_owned(), reason, advice }
+    }
+
+    /// A folder that another process is writing to.
+    pub fn in_use(path: &Path) -> Self {
+        let (reason, advice) = ("another squama is writing there", "wait for it to end");
+        Self { path: path.to_owned(), reason: reason.to_owned(), advice }
     }
 
     /// A journal that cannot be written.
@@ -86,12 +99,26 @@ impl Write for AtomicFile {
     }
 }
 
-/// Makes `folder` and the folders above it.
+/// Makes `folder` and the folders above it, and removes what killed processes have left half-written there.
 ///
 /// # Errors
 /// If it cannot be made.
 pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
-    fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))
+    fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))?;
+    remove_abandoned_files(folder);
+    Ok(())
+}
+
+/// The text of the file at `path`. A pipe or a device in its place is refused: it may never end.
+///
+/// # Errors
+/// If it cannot be read or is no regular file.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    if fs::metadata(path)?.is_file() {
+        fs::read_to_string(path)
+    } else {
+        Err(io::Error::other("it is no regular file"))
+    }
 }
 
 /// Writes `text` as the file `name` in `folder`; returns its SHA-256.

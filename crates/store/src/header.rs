@@ -3,40 +3,49 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use results::sha256;
 use serde::{Deserialize, Serialize};
-use sweep::toml_source::{self, Value};
-use sweep::{Subset, Sweep};
+use sweep::Subset;
+use sweep::toml_source::{self, Value, one_line};
 
-use super::error::JournalError;
-use crate::options::Program;
+use crate::digest::sha256;
+use crate::error::JournalError;
+use crate::reader::Records;
+use crate::seal::Seal;
 
 /// The format of the journals that this program writes: typed results since 2, rows of text in 1.
-pub(super) const FORMAT: u32 = 2;
+pub(crate) const FORMAT: u64 = 2;
+
+/// The program that solves what a journal holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Program {
+    /// The version of the program.
+    pub version: &'static str,
+    /// The revision of its source.
+    pub revision: &'static str,
+}
 
 /// The header of a journal: the definition, the subset of its designs, the program.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JournalHeader {
     /// The format of the lines.
-    pub(crate) format: u32,
+    format: u64,
     /// Version of the program.
-    pub(crate) version: String,
+    version: String,
     /// Revision of its source.
-    pub(crate) revision: String,
+    revision: String,
     /// SHA-256 of the definition.
-    pub(crate) definition_sha256: String,
+    definition_sha256: String,
     /// The designs that are solved.
     #[serde(default)]
-    pub(crate) subset: Subset,
+    subset: Subset,
     /// The definition, complete.
-    pub(crate) definition: String,
+    definition: String,
 }
 
 impl JournalHeader {
-    /// The header of a journal of `subset` of `sweep`.
-    pub fn new(sweep: &Sweep, subset: Subset, program: &Program) -> Self {
-        let definition = sweep.to_toml();
+    /// The header of a journal of `subset` of the designs that `definition` describes.
+    pub fn new(definition: String, subset: Subset, program: &Program) -> Self {
         Self {
             format: FORMAT,
             version: program.version.to_owned(),
@@ -47,8 +56,41 @@ impl JournalHeader {
         }
     }
 
+    /// The first line of a journal, with its end.
+    pub(crate) fn line<R: Records>(&self) -> Vec<u8> {
+        Seal::default().seal(&BTreeMap::from([(R::KEY, self)]))
+    }
+
+    /// The header that the first line of the journal at `path` holds.
+    pub(crate) fn read<R: Records>(bytes: &mut [u8], path: &Path) -> Result<Self, JournalError> {
+        let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
+        let object = Seal::default().open(bytes).map_err(refuse)?;
+        if let Some((found, by)) = other_format::<R>(object) {
+            return Err(JournalError::OtherFormat { path: path.to_owned(), found, by });
+        }
+        let read: Result<BTreeMap<String, Self>, _> = serde_json::from_slice(object);
+        let mut read = read.map_err(|error| refuse(one_line(&error.to_string())))?;
+        let header = read.remove(R::KEY).filter(|header| header.is_sound());
+        header.ok_or_else(|| refuse("squama writes no such line there".to_owned()))
+    }
+
+    /// The seal of the lines behind the first.
+    pub fn seal(&self) -> Seal {
+        Seal::over(&[&self.definition_sha256, &self.version, &self.revision])
+    }
+
+    /// One SHA-256 of definition, designs and program.
+    pub fn digest(&self) -> String {
+        sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
+    }
+
+    /// The definition, complete.
+    pub fn definition(&self) -> &str {
+        &self.definition
+    }
+
     /// Whether its checksum is that of its definition.
-    pub(crate) fn is_sound(&self) -> bool {
+    fn is_sound(&self) -> bool {
         self.definition_sha256 == sha256(&self.definition)
     }
 
@@ -68,14 +110,18 @@ impl JournalHeader {
     }
 
     /// The header of the journal with all designs of all shards.
-    pub(crate) fn of_all_shards(mut self) -> Self {
+    #[must_use]
+    pub fn of_all_shards(mut self) -> Self {
         self.subset.shard = None;
         self
     }
 
     /// Refuses a journal at `path` that has this header where `wanted` is wanted, and says what is
     /// `expected` instead.
-    pub(crate) fn require(
+    ///
+    /// # Errors
+    /// If program, definition or subset is another one.
+    pub fn require(
         &self,
         wanted: &Self,
         path: &Path,
@@ -101,6 +147,18 @@ impl JournalHeader {
         (self.subset != wanted.subset)
             .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
     }
+}
+
+/// The format that the JSON object of a first line names if it is not this program's, and the program that wrote it. Searches
+/// stated their format and program beside each other in format 1.
+fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
+    let line: serde_json::Value = serde_json::from_slice(object).ok()?;
+    let header = line.get(R::KEY)?;
+    let found = header.as_u64().or_else(|| header.get("format")?.as_u64())?;
+    let text = |value: &serde_json::Value| Some(value.as_str()?.to_owned());
+    let both = || Some(format!("{} ({})", text(&header["version"])?, text(&header["revision"])?));
+    let by = text(&line["program"]).or_else(both).unwrap_or_else(|| "unknown".to_owned());
+    (found != FORMAT).then_some((found, by))
 }
 
 /// The keys in which two definitions differ.

@@ -4,7 +4,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, ErrorKind, Seek as _, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use results::OutputError;
+use crate::atomic_file::OutputError;
 
 /// Copies what the journal at `path` holds after its first `length` bytes to a file beside it; returns what is to be said
 /// of it, if there is anything.
