@@ -110,8 +110,6 @@ pub struct Puncture {
     pub measures: PunctureMeasures,
     /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
     pub at_tilts: Vec<Option<TiltMeasures>>,
-    /// How a guided needle came through.
-    pub passage: Passage,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -212,6 +210,7 @@ impl Followed {
         let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, .. } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
+        measures.passage = passage;
         let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
@@ -226,7 +225,6 @@ impl Followed {
             status,
             measures,
             at_tilts,
-            passage,
             path,
             instability,
             events,

@@ -9,13 +9,13 @@ use crate::header::FORMAT;
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// There are results already.
-    #[error("{}: holds results already, expected --resume to go on with them or --fresh to throw them away", folder.display())]
+    #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", folder.display())]
     Exists {
         /// The folder.
         folder: PathBuf,
     },
     /// There are the results of another command.
-    #[error("{}: holds the results of {what}, expected another folder with --out DIR", folder.display())]
+    #[error("{}: holds the results of {what}; choose another folder with --out DIR", folder.display())]
     Holds {
         /// The folder.
         folder: PathBuf,
@@ -23,7 +23,7 @@ pub enum JournalError {
         what: &'static str,
     },
     /// There are tables that no journal stands behind.
-    #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
+    #[error("{}: holds {file} without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results", folder.display())]
     NoJournal {
         /// The folder.
         folder: PathBuf,
@@ -37,7 +37,7 @@ pub enum JournalError {
         folder: PathBuf,
     },
     /// Another process writes it.
-    #[error("{}: another squama is writing there, expected one at a time", folder.display())]
+    #[error("{}: another squama is writing there; wait until it ends", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,

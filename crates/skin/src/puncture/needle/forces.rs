@@ -45,7 +45,7 @@ impl Chain {
             add_balance(&tip, rows, push, &state.z, residual, matrix);
             residual.add(push, tip.gap);
             add_row(push, rows, 1.0, tip.gap_slopes(), matrix);
-            add_law(touch, &tip, rows, push, &state.z, residual, matrix);
+            add_law(needle.friction, touch, &tip, (rows, push), &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // How far the tip has slid: it only counts, and tells the path where it turns back.
                 let (Rub::Slip { from, .. }, true) =
@@ -237,17 +237,22 @@ fn add_balance(
 
 /// The law of the tangential force, in its row.
 fn add_law(
+    friction: f64,
     touch: &Touch,
     tip: &Tip,
-    rows: [usize; COORDINATES],
-    push: usize,
+    (rows, push): ([usize; COORDINATES], usize),
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
     let row = push + 1;
     match touch.rub {
-        Rub::Slip { ratio, .. } | Rub::Held { ratio } => {
+        Rub::Slip { .. } | Rub::Held { .. } => {
+            let ratio = match touch.rub {
+                Rub::Slip { sign, .. } => sign * friction,
+                Rub::Held { ratio } => ratio,
+                Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
+            };
             residual.add(row, z[row]);
             residual.add(row, -ratio * z[push]);
             matrix.add(row, row, 1.0);

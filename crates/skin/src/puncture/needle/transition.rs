@@ -34,7 +34,7 @@ impl Chain {
             (FORWARD | BACKWARD, true) => {
                 let at = self.way(state, slot)?;
                 let sign = if constraint == FORWARD { 1.0 } else { -1.0 };
-                rub(state, slot, Rub::Slip { ratio: sign * needle.friction, from: at })?;
+                rub(state, slot, Rub::Slip { sign, from: at })?;
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
@@ -127,12 +127,8 @@ impl Chain {
                     return Some(inward);
                 }
                 if forward == onward {
-                    let (ratio, sliding) = if onward {
-                        (needle.friction, FORWARD)
-                    } else {
-                        (-needle.friction, BACKWARD)
-                    };
-                    self.move_to(needle, state, slot, next, Rub::Slip { ratio, from: at });
+                    let (sign, sliding) = if onward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+                    self.move_to(needle, state, slot, next, Rub::Slip { sign, from: at });
                     state.active[needle.number(slot, sliding)] = true;
                     return Some(inward);
                 }
@@ -169,7 +165,7 @@ impl Chain {
 impl GuidedNeedle {
     /// How a tip rubs that has come to rest at a place.
     fn resting(&self, at: f64) -> Rub {
-        if self.friction == 0.0 { Rub::Slip { ratio: 0.0, from: at } } else { Rub::Stick { at } }
+        if self.friction == 0.0 { Rub::Slip { sign: 0.0, from: at } } else { Rub::Stick { at } }
     }
 
     /// Takes the ways that a touch has slid out of the active set.
