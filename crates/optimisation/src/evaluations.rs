@@ -76,13 +76,13 @@ impl<'a> Evaluations<'a> {
         scaling.map(|(j, _)| j).collect()
     }
 
-    /// The point under which the result of a design is kept: designs that one of those intervals alone tells apart have one result.
-    fn without_scaling(&self, point: &SpacePoint) -> SpacePoint {
-        let mut point = point.clone();
+    /// The point that stands for all whose designs only scale each other, and have one result.
+    fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
+        let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
-            point.shares[j] = 0.0;
+            unscaled.shares[j] = 0.0;
         }
-        point
+        unscaled
     }
 
     /// The row of the design at `point`, as number `index` of a table.
@@ -105,7 +105,8 @@ impl<'a> Evaluations<'a> {
         differentiated: bool,
     ) -> Result<Arc<DesignResult>, Halt> {
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
-        self.known_or(point, differentiated, None, &self.space.case(point), evaluator)
+        let point = self.unscaled(point);
+        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
     /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
@@ -135,7 +136,6 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let point = if sample.is_none() { &self.without_scaling(point) } else { point };
         let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));

@@ -94,6 +94,11 @@ impl Judge {
         self.measures.contains(&measure)
     }
 
+    /// Whether the peaks of coverage tell regions of the space apart: contacts go with the same lengths, in bending and puncture.
+    pub(crate) fn has_regions(&self) -> bool {
+        !self.measures.is_empty()
+    }
+
     /// The requirements of columns, each with the value that a case and what is known of its result have there.
     pub(crate) fn known(
         &self,

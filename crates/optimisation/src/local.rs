@@ -6,12 +6,9 @@ mod climb;
 mod polish;
 mod problem;
 mod ridge;
-mod room;
 mod samples;
 
 use std::cell::RefCell;
-
-pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};

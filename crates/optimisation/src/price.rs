@@ -12,8 +12,9 @@ use sweep::{Measure, Parameter};
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+use crate::local::{Search, floor_size};
 use crate::looked::{LookedRow, Use};
+use crate::room::{bending_room, bending_room_slopes};
 use crate::slopes::Slopes;
 use crate::worth::Judgement;
 

@@ -8,7 +8,6 @@ use ranking::CriterionEnds;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
-use sweep::Measure;
 
 use crate::answer::{Answer, Plan, answer};
 use crate::best::{Region, region};
@@ -22,9 +21,9 @@ use crate::judge::Judge;
 use crate::local::Search;
 use crate::margin::has_folded;
 use crate::meter::{SearchMeter, SearchPart};
+use crate::peaks::points_on_peaks;
 use crate::sampled::search::Searches;
 use crate::space::SpacePoint;
-use crate::tooth::points_on_peaks;
 use crate::worth::Judgement;
 
 /// How a search is carried out.
@@ -111,7 +110,7 @@ fn find(
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
         judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
-    let on_peaks = if nominal.judge.is_about(Measure::Coverage) {
+    let on_peaks = if nominal.judge.has_regions() {
         points_on_peaks(&goal.space, nominal.judge, goal.seed)
     } else {
         Vec::new()

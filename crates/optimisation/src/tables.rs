@@ -5,7 +5,6 @@ use results::{
     Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
     write_text,
 };
-
 use sweep::Case;
 
 use crate::answer::Answer;

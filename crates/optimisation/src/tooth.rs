@@ -10,34 +10,16 @@
 //! so `λ ≤ 1 − d/p`, with equality at the peaks alone. A requirement on coverage cuts the space into slivers round the peaks, a few per
 //! cent apart, and a search along derivatives stays in the one where it begins.
 
-use std::collections::BTreeMap;
+use results::DesignRow;
+use sweep::{Case, Parameter};
 
-use ranking::Requirement;
-use results::{DesignResult, DesignRow};
-use sweep::{Case, DesignNumber, Parameter};
-
-use crate::fill;
-use crate::judge::Judge;
 use crate::slopes::Slopes;
-use crate::space::{DesignSpace, SpacePoint};
 
 /// A place on the border of two pieces, but for round-off of a step that was to end there, counts as part of both.
 const BORDER: f64 = 1e-7;
 
-/// Points from which peaks are looked for.
-const POINTS: usize = 256;
-
-/// Points on each peak that are solved.
-const EACH: usize = 6;
-
-/// A point that falls this much short of what is known in closed form is not solved.
-const HOPELESS: f64 = 0.25;
-
-/// Points on a peak that are solved are apart by this share of some interval.
-const APART: f64 = 0.05;
-
-/// Bisections that find a peak on an interval, well within [`BORDER`].
-const BISECTIONS: usize = 40;
+/// Columns that are at most `d/p`: a strip that bends is never less stiff than at rest, where its gaps alone bend.
+pub(crate) const COMPLIANCES: [&str; 2] = ["compliance", "initial_compliance"];
 
 /// One side of a peak of coverage.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +97,11 @@ impl Tooth {
     }
 }
 
+/// The place `S/p` of a design among the peaks of coverage, a whole number on each.
+pub(crate) fn place(case: &Case) -> Option<f64> {
+    Lengths::of(case).map(Lengths::place)
+}
+
 /// The part `d/p` of the pitch that the gap takes; `None` of a row that cannot be.
 pub(crate) fn open_share(case: &Case) -> Option<f64> {
     Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
@@ -137,75 +124,6 @@ fn differentiate(row: &mut DesignRow, measure: &str, value: impl Fn(&Case) -> Op
         let slopes = Slopes::between(parameter.size(&row.case), at);
         (of.left, of.right, of.value, of.kink) = (slopes.left, slopes.right, here, None);
     }
-}
-
-/// Points on every peak of coverage that the space has, those first that fall least short of the requirements that are known in closed form.
-pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> Vec<SpacePoint> {
-    let number = space.sweep().grid().number(0);
-    let mut on_peaks: BTreeMap<u32, Vec<(f64, SpacePoint)>> = BTreeMap::new();
-    for point in fill::points(space, POINTS, seed) {
-        for interval in 0..point.shares.len() {
-            for (peak, found) in peaks_along(space, &point, interval) {
-                let shortfall = known_shortfall(judge, &space.case(&found), number);
-                on_peaks.entry(peak).or_default().push((shortfall, found));
-            }
-        }
-    }
-    on_peaks.into_values().flat_map(spread).collect()
-}
-
-/// The points on peaks that are reached from `point` along an interval.
-fn peaks_along(space: &DesignSpace, point: &SpacePoint, interval: usize) -> Vec<(u32, SpacePoint)> {
-    let at = |share: f64| {
-        let mut moved = point.clone();
-        moved.shares[interval] = share;
-        moved
-    };
-    let place = |share| Lengths::of(&space.case(&at(share))).map(Lengths::place);
-    let Some((first, last)) = place(0.0).zip(place(1.0)) else { return Vec::new() };
-    let (low, high) = (first.min(last), first.max(last));
-    // The place `S/p` grows or falls all along an interval, whichever length it is.
-    let on_peak = |peak: u32| {
-        let (mut below, mut above) = if first < last { (0.0, 1.0) } else { (1.0, 0.0) };
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(below, above);
-            let is_below = place(middle)? < f64::from(peak);
-            *(if is_below { &mut below } else { &mut above }) = middle;
-        }
-        Some((peak, at(above)))
-    };
-    (low.floor() as u32 + 1..=high.floor() as u32).filter_map(on_peak).collect()
-}
-
-/// How far a design on a peak falls short of what is known of its requirements without solving it: coverage, parameters, masses, and
-/// that no compliance is above `d/p`.
-fn known_shortfall(judge: &Judge, case: &Case, number: DesignNumber) -> f64 {
-    let Some(open) = open_share(case) else { return f64::INFINITY };
-    let result = DesignResult { coverage: Some(1.0 - open), ..DesignResult::default() };
-    let margin = |(requirement, value): (&Requirement, Option<f64>)| {
-        let is_compliance = COMPLIANCES.contains(&requirement.column.as_str());
-        let bound = || (is_compliance && requirement.direction() > 0.0).then_some(open);
-        value.or_else(bound).map_or(0.0, |value| requirement.margin(value).min(0.0))
-    };
-    -judge.known(case, number, result).into_iter().map(margin).sum::<f64>()
-}
-
-/// Columns that are at most `d/p`: a strip that bends is never less stiff than at rest, where its gaps alone bend.
-pub(crate) const COMPLIANCES: [&str; 2] = ["compliance", "initial_compliance"];
-
-/// The first of some points by their shortfalls that are apart from each other.
-fn spread(mut points: Vec<(f64, SpacePoint)>) -> Vec<SpacePoint> {
-    points.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-    let mut chosen: Vec<SpacePoint> = Vec::new();
-    for (shortfall, point) in points {
-        if shortfall <= HOPELESS
-            && chosen.len() < EACH
-            && chosen.iter().all(|other| other.distance(&point) >= APART)
-        {
-            chosen.push(point);
-        }
-    }
-    chosen
 }
 
 #[cfg(test)]

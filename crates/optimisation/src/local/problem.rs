@@ -7,11 +7,11 @@ use ranking::Worth;
 use results::DesignResult;
 use sweep::{Measure, Parameter};
 
-use super::room::{bending_room, bending_room_slopes};
 use super::{LocalSearch, floor_size};
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 use crate::looked::LookedRow;
+use crate::room::{bending_room, bending_room_slopes};
 use crate::slopes::Slopes;
 use crate::tooth::{Tooth, continue_compliance};
 use crate::worth::Judgement;

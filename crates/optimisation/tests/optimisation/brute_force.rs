@@ -162,10 +162,10 @@ const GOALS: [(&str, &str); 12] = [
     ("minimize = 'bend_radius_mm'", "'coverage >= 0.65', 'critical_force_N >= 0.3'"),
     ("maximize = 'critical_force_N'", "'coverage >= 0.78', 'bend_radius_mm <= 60'"),
     ("minimize = 'penetration'", "'coverage >= 0.58', 'compliance >= 0.3'"),
-    ("maximize = 'coverage'", "'critical_force_N >= 0.6', 'compliance >= 0.2'"),
+    ("maximize = 'coverage'", "'critical_force_N >= 0.4', 'compliance >= 0.2'"),
     (
         "maximize = 'critical_force_N'",
-        "'coverage >= 0.67', 'areal_mass_kg_m2 <= 0.75', 'bend_radius_mm <= 300'",
+        "'coverage >= 0.67', 'areal_mass_kg_m2 <= 0.85', 'bend_radius_mm <= 300'",
     ),
 ];
 
