@@ -34,7 +34,7 @@ use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
 use crate::contacts::SkinPoint;
-use crate::record::{ContactEvent, Iteration, PathFunction, Record};
+use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
 use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
@@ -49,6 +49,9 @@ pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
 pub use tilts::TiltMeasures;
+
+/// Tilt below which a scale under a guided needle is pushed straight down, degrees: round-off of a symmetric row.
+const STRAIGHT_DEG: f64 = 1e-6;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -340,9 +343,14 @@ impl<'a> Problem<'a> {
         let path = growing.path;
         let passage = passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
+        // A scale that is pushed in its middle may go either way from some load on: there its path branches.
+        let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
             _ if !growing.has_room => Status::RowLimit,
             Status::Complete if is_untilted => Status::Untilted,
+            Status::Stopped(Stop::NoConvergence) if is_untilted && is_straight() => {
+                Status::Untilted
+            }
             status => ending::judged(status, &watch.record.path),
         };
         Ok(Followed { watch, passage, path, status })

@@ -74,12 +74,11 @@ impl Chain {
         let values = &mut values[first..];
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
-            match touch {
-                Some(touch) => self.touch_conditions(needle, state, number, touch, of_touch),
-                None => {
-                    let other = state.mode.needle.touches[1 - number].as_ref();
-                    of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
-                }
+            if let Some(touch) = touch {
+                self.touch_conditions(needle, state, number, touch, of_touch);
+            } else {
+                let other = state.mode.needle.touches[1 - number].as_ref();
+                of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
             }
             let tip = touch.as_ref().and_then(|t| self.tip(&state.z, t.scale, t.place));
             let left = match (touch.map(|touch| touch.place), tip) {

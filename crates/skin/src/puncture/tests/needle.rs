@@ -15,7 +15,7 @@ fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
 fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
     let load_position = 1.0 - inside / (2.0 * design.half_base());
     let needle = Needle::Guided { friction };
-    PunctureParameters { needle, load_position, ..PunctureParameters::default() }
+    PunctureParameters { load_position, needle, ..PunctureParameters::default() }
 }
 
 fn springs(design: &Design) -> Springs {
@@ -48,6 +48,22 @@ const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.3, 0.2, 60.0, 0.3, 0.05),
     (0.2, 0.1, 0.0, 0.0, 0.0),
 ];
+
+/// `∫ F du` by the values of both at five places.
+pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
+    let u = values.map(|[_, u]| u);
+    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
+    let slopes = [
+        [-25.0, 48.0, -36.0, 16.0, -3.0],
+        [-3.0, -10.0, 18.0, -6.0, 1.0],
+        [1.0, -8.0, 0.0, 8.0, -1.0],
+        [-1.0, 6.0, -18.0, 10.0, 3.0],
+        [3.0, -16.0, 36.0, -48.0, 25.0],
+    ]
+    .map(slope);
+    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
+    (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
+}
 
 /// Forces that an independent program has found for a needle without friction that stays on its top.
 #[test]
@@ -239,7 +255,7 @@ fn derivatives_of_a_needle_that_slides() {
         (
             |input, h| {
                 if let Needle::Guided { friction } = &mut input.parameters.needle {
-                    *friction += h
+                    *friction += h;
                 }
             },
             2e-6,
