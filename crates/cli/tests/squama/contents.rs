@@ -129,7 +129,7 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
     assert!(!place.list("r").contains("sensitivity.csv"));
     fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
     let message = place.refused("export r --xlsx x.xlsx");
-    assert!(message.starts_with("error: r/sensitivity.csv: is not as it was written"), "{message}");
+    assert!(message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"), "{message}");
     // A stranger's is not written over.
     fs::create_dir(place.path("strange")).expect("a folder");
     fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");
@@ -156,7 +156,7 @@ fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
     lines[content] =
         String::from_utf8(store::Seal::over(&texts).seal(&design)).expect("text").trim().to_owned();
     fs::write(place.path("r/journal.jsonl"), lines.join("\n") + "\n").expect("writable");
-    assert!(place.refused("rank r").contains("is not the journal that the tables beside it"));
+    assert!(place.refused("rank r").contains("is not the journal from which the tables beside it"));
     for command in ["merge r --out r", "run x.toml --resume --out r", "rerun r --design 1"] {
         let message = place.refused(command);
         assert!(message.contains("design 0003 is not what the tables beside it say"), "{message}");
@@ -182,7 +182,7 @@ fn requirements_that_nobody_ranked_by_are_noticed() {
     change(&place, "r/ranking.toml", "coverage >= 0.1", "coverage >= 0.2");
     for reader in ["export r --xlsx x.xlsx", "report r --out page.html"] {
         insta::allow_duplicates! {
-            insta::assert_snapshot!(place.refused(reader), @"error: r/ranking.toml: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+            insta::assert_snapshot!(place.refused(reader), @"error: r/ranking.toml: was changed after squama wrote it; squama rank r writes it again");
         }
     }
     place.prints("rank r --require coverage>=0.2");

@@ -92,7 +92,7 @@ fn a_changed_optimum_is_noticed_and_mended() {
         fs::write(place.path(format!("found/{file}")), sound.replace('1', "2")).expect("writable");
         let message = place.refused("report r --front found");
         assert!(
-            message.starts_with(&format!("error: found/{file}: is not as it was")),
+            message.starts_with(&format!("error: found/{file}: was changed after")),
             "{message}"
         );
         place.prints("optimise my/goal.toml --out found --resume");

@@ -91,7 +91,7 @@ pub enum InvalidFolder {
         file: String,
     },
     /// A file of a search that did not come to its end, or one that was changed.
-    #[error("{}: {problem}, expected the file that squama optimise wrote; the same command with --resume writes it again", folder.join(file).display())]
+    #[error("{}: {problem}; the same command with --resume writes it again", folder.join(file).display())]
     Search {
         /// The folder.
         folder: PathBuf,
@@ -399,7 +399,7 @@ mod tests {
                 self::folder(place.path(), written);
             }
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
-            assert!(refused.to_string().contains("is not as"), "{refused}");
+            assert!(refused.to_string().contains("was changed after"), "{refused}");
             fs::write(folder.file(file.name), "as it was written").expect("writable");
             let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
             assert_eq!(read, "as it was written", "{}", file.name);
