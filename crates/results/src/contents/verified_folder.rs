@@ -386,17 +386,19 @@ mod tests {
             let place = tempfile::tempdir().expect("a folder");
             let folder = folder(place.path(), BTreeMap::new());
             fs::write(folder.file(file.name), "forged").expect("writable");
+            fs::write(folder.file(RunFolder::EVALUATIONS), "").expect("writable");
             let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");
             let written = BTreeMap::from([(file.name.to_owned(), sha256("as it was written"))]);
-            if file.maker == Maker::Ranking {
-                let from = open().expect("a folder").digest().expect("a digest");
-                let (product, command) = ("ranking".to_owned(), "squama rank".to_owned());
-                let made = Derivation { product, command, from, made_from: None, files: written };
-                made.write(&folder, RunFolder::RANKING_RECORD).expect("writable");
-            } else {
+            if file.maker == Maker::Run {
                 self::folder(place.path(), written);
+            } else {
+                let from = open().expect("a folder").digest().expect("a digest");
+                let (product, command) = file.maker.names();
+                let (product, command) = (product.to_owned(), command.to_owned());
+                let made = Derivation { product, command, from, made_from: None, files: written };
+                made.write(&folder, file.maker.key()).expect("writable");
             }
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
             assert!(refused.to_string().contains("was changed after"), "{refused}");
