@@ -66,8 +66,6 @@ impl<'a> FigureFiles<'a> {
 
     /// Writes a page.
     pub fn html(&mut self, name: &str, page: &str) -> anyhow::Result<()> {
-        // A page of some megabytes that a kill has left half-written goes with the next one.
-        results::make_folder(&self.folder)?;
         self.write(format!("{name}.html"), page.as_bytes())
     }
 

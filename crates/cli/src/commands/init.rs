@@ -76,7 +76,8 @@ fn template_and_file(arguments: &Arguments) -> (String, PathBuf) {
 
 /// Whether an argument names a file and no template.
 fn is_file(argument: &str) -> bool {
-    argument.ends_with(".toml") || argument.contains(['/', '\\'])
+    Path::new(argument).extension().is_some_and(|extension| extension == "toml")
+        || argument.contains(['/', '\\'])
 }
 
 /// Reads the name of a template, or that of a file alone.

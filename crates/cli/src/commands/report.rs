@@ -70,6 +70,8 @@ pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
     let name = out.with_extension("html");
     let name = name.file_name().unwrap_or_default().to_string_lossy();
+    // A page of some megabytes that a kill has left half-written goes with the next one.
+    results::make_folder(&folder)?;
     write(&folder, &name, page.html().as_bytes())?;
     derived::note(results.verified(), "page", &folder, &[&name])?;
     print(&format!("{}\n", folder.join(&*name).display()))?;

@@ -129,7 +129,10 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
     assert!(!place.list("r").contains("sensitivity.csv"));
     fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
     let message = place.refused("export r --xlsx x.xlsx");
-    assert!(message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"), "{message}");
+    assert!(
+        message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"),
+        "{message}"
+    );
     // A stranger's is not written over.
     fs::create_dir(place.path("strange")).expect("a folder");
     fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");

@@ -210,7 +210,7 @@ fn points_of_a_front_over_decades_have_equal_ratios() {
     let Answer::Front(front) = &found.answer else { panic!("a front") };
     assert_eq!(front.designs.len(), 9);
     for pair in front.designs.windows(2) {
-        let [one, other] = [&pair[0], &pair[1]].map(|best| objectives(best));
+        let [one, other] = [&pair[0], &pair[1]].map(objectives);
         // The widest gap makes the least mass, ρ t/(1 + d), and the ends are a factor of 100 apart.
         assert!((other[0] / (0.5 * other[1]) - 1.0).abs() < 1e-6, "{other:?}");
         let ratio = (other[1] / one[1]).abs();
@@ -316,12 +316,12 @@ fn what_is_no_journal_is_left_alone() {
     std::os::unix::fs::symlink(&target, &journal).expect("a link");
     for start in [Start::New, Start::Resume, Start::Fresh] {
         let message = refused(folder.path(), &goal, start);
-        assert!(message.contains("is no regular file"), "{message}");
+        assert!(message.contains("is not a regular file"), "{message}");
     }
     assert_eq!(std::fs::read_to_string(&target).expect("text"), "a stranger's");
     std::fs::remove_file(&journal).expect("a link");
     std::os::unix::fs::symlink("/dev/zero", &journal).expect("a link");
-    assert!(refused(folder.path(), &goal, Start::Resume).contains("is no regular file"));
+    assert!(refused(folder.path(), &goal, Start::Resume).contains("is not a regular file"));
 }
 
 /// The strongest of the 720 designs of the reference study that meets the requirements of a goal is not as good as what a search

@@ -1,7 +1,7 @@
 //! The measured values of a design, an entry each: a new one is added here, and nowhere else but where it is measured.
 
 use skin::flexure::FlexureMeasures;
-use skin::puncture::PunctureMeasures;
+use skin::puncture::{CriticalEvent, PunctureMeasures};
 
 use super::cell::Cell;
 use super::entry::{
@@ -98,7 +98,7 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "critical_event",
         BOTH,
         "what ended the path of a guided needle: tilt, a scale that it touches is critically tilted; through, it has come to the soft surface",
-        |r| measured(r, |m| m.passage.critical_event.map(|event| event.name())),
+        |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)),
     ).guided(),
     force(
         "passing_force",
