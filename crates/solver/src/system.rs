@@ -93,6 +93,8 @@ pub trait System {
 
     /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
     /// [`System::conditions`] of its own.
+    ///
+    /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix, its constant part included. Rows and columns of inactive constraints may be left out.
