@@ -1,6 +1,6 @@
 // Requirements, criteria, weights, the ranking that they make, and the address that holds them.
 import assert from "node:assert/strict";
-import { ready, table } from "./browser.mjs";
+import { ready, shown, spots, table } from "./browser.mjs";
 
 export default ({ page, text, texts, run, results, open }) => {
   const slide = (key, value) => page.locator(`#weight-${key}`).fill(String(value));
@@ -54,8 +54,44 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.match(await command(), /--require 'coverage >= 0\.6'/);
       await page.waitForTimeout(300);
       assert.ok((await texts("#tetrahedron-legend button")).every((label) => own.has(label.slice(0, 4))));
-      const colored = await page.evaluate(() => squama.charts[0].make(900).panels.flatMap(({ marks }) => marks.filter(({ silent }) => !silent).map(({ row }) => squama.number(row))));
+      const marks = (await spots(page, "critical-force")).filter(({ silent }) => !silent);
+      const colored = await page.evaluate((rows) => rows.map(squama.number), marks.map(({ row }) => row));
       assert.deepEqual(new Set(colored), own);
+      // The fronts are those of the designs that are left.
+      await shown(page, "pareto");
+      const front = await page.locator('#chart-pareto [data-criteria="coverage critical_force"] use:not([href="#dot"])').evaluateAll((all) => all.map((one) => one.dataset.design));
+      const beaten = (one) => rows.some((other) => ["coverage", "critical_force"].every((name) => Number(other[name]) >= Number(one[name])) && ["coverage", "critical_force"].some((name) => Number(other[name]) > Number(one[name])));
+      assert.deepEqual(front.sort(), rows.filter((row) => row.compliance !== "" && row.penetration !== "" && !beaten(row)).map((row) => row.design).sort());
+    },
+
+    async "limits have a decimal point or comma; what cannot be read is marked and requires nothing"() {
+      const input = page.locator("#requirement-list input"), rows = table(results, "designs.csv");
+      const meeting = (limit) => rows.filter((row) => Number(row.coverage) >= limit - 1e-9).length;
+      const count = async () => Number((await text("#table-count")).match(/^\d+/)[0]);
+      assert.ok(new Set([0.3, 0.7].map(meeting)).size === 2 && meeting(0.7) > 0 && meeting(0.7) < 54);
+      for (const [typed, limit] of [["0,7", 0.7], ["0.7", 0.7], [" ,3", 0.3], ["7e-1", 0.7]]) {
+        await input.fill(typed);
+        assert.equal(await count(), meeting(limit), typed);
+        assert.equal(await input.getAttribute("aria-invalid"), "false", typed);
+      }
+      for (const typed of ["abc", "2,5 N", "0.6..0.8", "", "0,7,1", "1e"]) {
+        await input.fill("0.7");
+        await input.fill(typed);
+        assert.equal(await input.getAttribute("aria-invalid"), "true", typed);
+        assert.equal(await count(), 54, `${typed}: a limit that is not shown acts`);
+        assert.match(await text("#requirement-count"), /A limit that is no number requires nothing/);
+        assert.ok(!(await command()).includes("--require"), typed);
+      }
+      const filter = page.locator('#table input[data-column="coverage"]');
+      await page.locator("#clear-requirements").click();
+      for (const [typed, limits] of [[">=0,7", [0.7, 2]], ["0,3..0,7", [0.3, 0.7]]]) {
+        await filter.fill(typed);
+        assert.equal(await count(), rows.filter((row) => row.coverage >= limits[0] && row.coverage <= limits[1]).length, typed);
+      }
+      await filter.fill(">=0,7x");
+      assert.equal(await filter.getAttribute("aria-invalid"), "true");
+      assert.equal(await count(), 54, "the filter before acts behind one that cannot be read");
+      await filter.fill("");
     },
 
     async "requirements that none meets: the nearest design, and what stands in the way"() {
@@ -107,6 +143,13 @@ export default ({ page, text, texts, run, results, open }) => {
       await sent.reload();
       await ready(sent);
       assert.deepEqual(await sent.evaluate(() => [squama.state.requirements, squama.state.weights, squama.state.scale]), [[], [25, 25, 25, 25], "paper"]);
+      assert.match(await sent.locator("#unread").textContent(), /nonsense; coverage >= x/);
+      // Zeros before a number do not matter.
+      await sent.goto(page.url().split("#")[0] + "#design=33");
+      await sent.reload();
+      await ready(sent);
+      assert.equal(await sent.locator("#detail-title").textContent(), "Design 0033");
+      assert.ok(!await sent.locator("#unread").isVisible());
       await sent.close();
       await page.evaluate(() => { squama.pin(null); squama.require([]); });
       await page.locator("#equal-weights").click();

@@ -17,6 +17,22 @@ export default ({ page, open, folders }) => ({
     }
   },
 
+  async "on a phone the best designs come first, and what is touched is 44 px high"() {
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.reload();
+    await ready(page);
+    // A page that is read again stands where it stood.
+    await page.evaluate(() => scrollTo({ top: 0, behavior: "instant" }));
+    const best = await page.locator("#summary-list dt", { hasText: "largest critical force" }).first().boundingBox();
+    assert.ok(best.y > 0 && best.y < 844, `${best.y}`);
+    const [summary, run] = await page.evaluate(() => ["summary", "run"].map((id) => document.getElementById(id).getBoundingClientRect().y));
+    assert.ok(run > summary + 3000, "the record of the run stands at the end");
+    const small = await page.evaluate(() => [...document.querySelectorAll("button, select, input:not([type=checkbox]), nav a, summary, label:has(input[type=checkbox]), #table tbody tr[data-row], #best tr[data-row]")]
+      .filter((own) => own.checkVisibility()).map((own) => [own, own.getBoundingClientRect()]).filter(([, box]) => box.width > 0 && box.height < 43.9).map(([own, box]) => `${own.outerHTML.slice(0, 80)} ${box.height}`));
+    assert.deepEqual(small, []);
+    await page.setViewportSize(WIDE);
+  },
+
   async "in a narrow window a click shows the design where it is seen"() {
     await page.setViewportSize({ width: 800, height: 900 });
     await page.reload();

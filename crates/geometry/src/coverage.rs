@@ -19,7 +19,8 @@ pub(crate) fn coverage(shift: f64, base: f64, pitch: f64) -> f64 {
     let whole = ((shift + TOUCH) / pitch).floor();
     let partial = shift - (whole + 1.0) * pitch + base;
     let partial = if partial > TOUCH { partial } else { 0.0 };
-    (whole * base + partial) / shift
+    // A scale that the line misses by less than `TOUCH` counts as cut whole, which is more than all of a short line.
+    ((whole * base + partial) / shift).min(1.0)
 }
 
 /// Part of the lengths within which a change of the number of scales that are cut counts as happening here.
@@ -77,6 +78,16 @@ mod tests {
         ) {
             let value = coverage(slant.to_radians().tan(), base, base + gap);
             prop_assert!((0.0..1.0).contains(&value), "{value}");
+        }
+
+        #[test]
+        fn no_line_is_covered_more_than_whole(
+            whole in 1_u32..9, base in 0.001_f64..0.1, gap in 1e-13_f64..1e-11, part in 0.0_f64..1.0,
+        ) {
+            // The line ends just before its last scale does.
+            let pitch = base + gap;
+            let value = coverage(f64::from(whole) * pitch - part * 1e-12, base, pitch);
+            prop_assert!(value <= 1.0, "{value}");
         }
 
         #[test]

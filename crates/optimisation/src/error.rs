@@ -1,8 +1,7 @@
 //! Errors that keep an optimisation from coming to its end.
 
-use std::path::PathBuf;
-
 use results::OutputError;
+use run::JournalError;
 
 /// An error that keeps an optimisation from coming to its end.
 #[derive(Debug, thiserror::Error)]
@@ -10,42 +9,11 @@ pub enum OptimisationError {
     /// The results cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The folder holds the results of an earlier search.
-    #[error("{}: there are results, expected --resume to go on, --fresh to throw them away, or another folder", folder.display())]
-    Exists {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// The folder is that of a run.
-    #[error("{}: holds the results of a run, expected another folder", folder.display())]
-    HoldsRun {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// Another process writes the journal.
-    #[error("{}: another search is writing here, expected another folder", folder.display())]
-    InUse {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// The journal is of something else.
-    #[error("{}: {difference}, expected no difference, or --fresh to throw the results away", path.display())]
-    Different {
-        /// The journal.
-        path: PathBuf,
-        /// The difference, in words.
-        difference: String,
-    },
-    /// The journal cannot be read.
-    #[error("{}: cannot be read ({reason}), expected a journal", path.display())]
-    Unreadable {
-        /// The journal.
-        path: PathBuf,
-        /// The message of the system.
-        reason: String,
-    },
+    /// The journal cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
     /// No design has a value in a column of the goal.
-    #[error("{column}: none of the {designs} designs has a number there, expected another column")]
+    #[error("{column}: none of the {designs} designs has a number in this column")]
     NoValue {
         /// The column.
         column: String,

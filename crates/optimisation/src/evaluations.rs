@@ -1,8 +1,7 @@
-//! Evaluations of points and of skins made of their designs: each solved once, and kept in a journal.
+//! Evaluations of points and of samples of their designs: each solved once, and kept in a journal.
 
 mod journal;
 
-use std::collections::HashMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,16 +9,17 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError};
 use run::{Evaluator, Program};
+use store::Journal;
 use sweep::{Case, DesignNumber, Measure};
 use tolerance::Sampler;
 
 use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
-use crate::made::{MadeJudge, Skins};
+use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, SpacePoint};
-use journal::{EvaluationJournal, JournalLine, SkinsLine, SolvedLine};
+use journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
-/// Skins that no search sees: those that `squama tolerance` makes have numbers from 1 on, and are a test of what a search has chosen.
+/// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
 const BEFORE: u64 = 1 << 32;
 
 /// Why no more is evaluated.
@@ -29,32 +29,8 @@ pub(crate) enum Halt {
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
-}
-
-/// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct EvaluationKey {
-    differentiated: bool,
-    /// The number of the skin whose batch it is; `None` of the design as it is drawn.
-    skin: Option<u64>,
-    point: PointKey,
-}
-
-/// A point, to the last bit.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct PointKey {
-    shares: Vec<u64>,
-    chosen: Vec<usize>,
-}
-
-/// A point, and the first and the count of its skins.
-type SkinsKey = (PointKey, u64, usize);
-
-impl PointKey {
-    fn of(point: &SpacePoint) -> Self {
-        let shares = point.shares.iter().map(|share| share.to_bits()).collect();
-        Self { shares, chosen: point.chosen.clone() }
-    }
+    /// A climb does not move any more.
+    Stalled,
 }
 
 /// Solves points of a space, each once: what an earlier session has solved is read from its journal.
@@ -63,9 +39,7 @@ pub(crate) struct Evaluations<'a> {
     plain: Evaluator,
     differentiating: Evaluator,
     sampler: Sampler,
-    known: Mutex<HashMap<EvaluationKey, Arc<DesignResult>>>,
-    made: Mutex<HashMap<SkinsKey, Arc<Skins>>>,
-    journal: Mutex<EvaluationJournal>,
+    journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
 }
 
@@ -78,41 +52,37 @@ impl<'a> Evaluations<'a> {
         program: &Program,
         stop: &'a AtomicBool,
     ) -> Result<Self, OptimisationError> {
-        let (journal, lines) = EvaluationJournal::begin(folder, goal.to_toml(), program, start)?;
+        let journal = journal::begin(folder, goal.to_toml(), program, start)?;
         let measures: Vec<Measure> = goal.space.sweep().measures().to_vec();
         let measures: Vec<Measure> =
             measures.into_iter().filter(|measure| *measure != Measure::Sensitivity).collect();
         let all = [measures.as_slice(), &[Measure::Sensitivity]].concat();
-        let mut evaluations = Self {
+        Ok(Self {
             space: &goal.space,
             plain: Evaluator::new(&measures),
             differentiating: Evaluator::new(&all),
             sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
-            known: Mutex::default(),
-            made: Mutex::default(),
             journal: Mutex::new(journal),
             stop,
-        };
-        for line in lines {
-            evaluations.recall(line);
-        }
-        Ok(evaluations)
+        })
     }
 
-    /// Takes what a line of the journal holds as solved.
-    fn recall(&mut self, line: JournalLine) {
-        match line {
-            JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, skin, shares, chosen, result } = *line;
-                let point = PointKey::of(&SpacePoint { shares, chosen });
-                let key = EvaluationKey { differentiated, skin, point };
-                lock(&self.known).insert(key, Arc::new(result));
-            }
-            JournalLine::Skins(SkinsLine { first, shares, chosen, values }) => {
-                let key = (PointKey::of(&SpacePoint { shares, chosen }), first, values.len());
-                lock(&self.made).insert(key, Arc::new(Skins(values)));
-            }
+    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    pub fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.space.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.space.intervals().iter().enumerate();
+        let scaling = intervals.filter(|(_, interval)| !is_measured(interval.parameter.section));
+        scaling.map(|(j, _)| j).collect()
+    }
+
+    /// The point that stands for all whose designs only scale each other, and have one result.
+    fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
+        let mut unscaled = point.clone();
+        for j in self.scaling_intervals() {
+            unscaled.shares[j] = 0.0;
         }
+        unscaled
     }
 
     /// The row of the design at `point`, as number `index` of a table.
@@ -135,25 +105,26 @@ impl<'a> Evaluations<'a> {
         differentiated: bool,
     ) -> Result<Arc<DesignResult>, Halt> {
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
-        self.known_or(point, differentiated, None, &self.space.case(point), evaluator)
+        let point = self.unscaled(point);
+        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
-    /// As [`Self::solve`] with derivatives, of the skin of that number that is made of the design, but for its scatter from scale
-    /// to scale; `None` if there is no such skin.
-    pub fn even_skin(
+    /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
+    /// such sample.
+    pub fn even_sample(
         &self,
         point: &SpacePoint,
-        skin: u64,
+        sample: u64,
     ) -> Result<Option<Arc<DesignResult>>, Halt> {
-        let case = self.even_case(&self.space.case(point), skin);
+        let case = self.even_case(&self.space.case(point), sample);
         let solved =
-            case.map(|case| self.known_or(point, true, Some(skin), &case, &self.differentiating));
+            case.map(|case| self.known_or(point, true, Some(sample), &case, &self.differentiating));
         solved.transpose()
     }
 
-    /// The case of the skin of that number that is made of the design of `drawn`, but for its scatter from scale to scale.
-    pub fn even_case(&self, drawn: &Case, skin: u64) -> Option<Case> {
-        self.sampler.even_case(drawn, BEFORE + skin)
+    /// The case of the sample of that number of the design of `nominal`, but for its scatter from scale to scale.
+    pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
+        self.sampler.even_case(nominal, BEFORE + sample)
     }
 
     /// The result of a case that belongs to a point, solved if it is not known.
@@ -161,60 +132,58 @@ impl<'a> Evaluations<'a> {
         &self,
         point: &SpacePoint,
         differentiated: bool,
-        skin: Option<u64>,
+        sample: Option<u64>,
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let key = EvaluationKey { differentiated, skin, point: PointKey::of(point) };
-        if let Some(known) = lock(&self.known).get(&key) {
+        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
+        if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
         let mut result = evaluator.solve(self.number(0), case).row.result;
-        // Where material varies, a skin with another thickness or modulus moves in other parameters, too.
+        // Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        let moves_more = skin.is_some() && has_material;
+        let moves_more = sample.is_some() && has_material;
         result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, skin, shares, chosen, result };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let result = Arc::new(line.result);
-        lock(&self.known).insert(key, Arc::clone(&result));
+        let result = Arc::new(result);
+        let line =
+            SolvedLine { differentiated, sample, shares, chosen, result: Arc::clone(&result) };
+        self.journal().append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
         Ok(result)
     }
 
-    /// The values by which `made` judges `count` skins of the design at `point`, from number `first` on, solved in parallel.
+    /// The values by which `judge` judges `count` samples of the design at `point`, from number `first` on, solved in parallel.
     ///
     /// # Errors
     /// As [`Self::solve`].
-    pub fn skins(
+    pub fn samples(
         &self,
         point: &SpacePoint,
         first: u64,
         count: usize,
-        made: &MadeJudge,
-    ) -> Result<Arc<Skins>, Halt> {
+        judge: &SampleJudge,
+    ) -> Result<Arc<Samples>, Halt> {
         let key = (PointKey::of(point), first, count);
-        if let Some(known) = lock(&self.made).get(&key) {
+        if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
         }
         let (case, last) = (self.space.case(point), first + count as u64);
-        let none = vec![None; made.bounds.len() + made.columns.len()];
-        let values = (first..last).into_par_iter().map(|skin| {
+        let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
-            let skin = self.sampler.solve(self.number(0), &case, BEFORE + skin);
-            Ok(skin.map_or_else(|| none.clone(), |skin| made.values(&skin.row)))
+            let sampled = self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SkinsLine { first, shares, chosen, values };
-        lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let skins = Arc::new(Skins(line.values));
-        lock(&self.made).insert(key, Arc::clone(&skins));
-        Ok(skins)
+        let values = Arc::new(Samples(values));
+        let line = SamplesLine { first, shares, chosen, values: Arc::clone(&values) };
+        self.journal().append(JournalLine::Samples(line)).map_err(Halt::Output)?;
+        Ok(values)
     }
 
     /// Refuses to go on once the process is asked to end.
@@ -224,17 +193,19 @@ impl<'a> Evaluations<'a> {
 
     /// Forces the journal to the disk.
     pub fn sync(&self) -> Result<(), OutputError> {
-        lock(&self.journal).sync()
+        self.journal().sync()
     }
 
-    /// The number of points that were solved, in this session and before, and of skins.
+    /// The number of points that were solved, in this session and before, and of samples.
     pub fn count(&self) -> usize {
-        let skins: usize = lock(&self.made).values().map(|skins| skins.0.len()).sum();
-        lock(&self.known).len() + skins
+        let journal = self.journal();
+        let known = journal.records();
+        let samples: usize = known.sampled.values().map(|samples| samples.0.len()).sum();
+        known.solved.len() + samples
     }
-}
 
-/// The value behind a mutex; nothing that is done under these locks leaves it half-done.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+    /// What is known, and where more is noted; nothing that is done under this lock leaves it half-done.
+    fn journal(&self) -> MutexGuard<'_, Journal<Known>> {
+        self.journal.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }

@@ -15,11 +15,11 @@ pub enum SearchPart {
     Finish,
     /// The points of a front.
     Front,
-    /// The first skins of the best designs as they are drawn.
-    Skins,
-    /// More skins of designs near the best.
+    /// The first samples of the best nominal designs.
+    Samples,
+    /// More samples of designs near the best.
     Refine,
-    /// Other skins of the best designs.
+    /// Other samples of the best designs.
     Check,
 }
 
@@ -29,6 +29,7 @@ pub struct SearchMeter {
     part: Mutex<(SearchPart, usize)>,
     done: AtomicUsize,
     designs: AtomicUsize,
+    starts: AtomicUsize,
 }
 
 impl SearchPart {
@@ -39,9 +40,9 @@ impl SearchPart {
             Self::Climb => "climbing from the best",
             Self::Finish => "finishing",
             Self::Front => "points of the front",
-            Self::Skins => "first skins",
-            Self::Refine => "near the best with more skins",
-            Self::Check => "checking with other skins",
+            Self::Samples => "first samples",
+            Self::Refine => "near the best with more samples",
+            Self::Check => "checking with other samples",
         }
     }
 }
@@ -56,6 +57,16 @@ impl SearchMeter {
     /// Designs that were looked at.
     pub fn designs(&self) -> usize {
         self.designs.load(Ordering::Relaxed)
+    }
+
+    /// Designs from which a local search began.
+    pub fn starts(&self) -> usize {
+        self.starts.load(Ordering::Relaxed)
+    }
+
+    /// A local search begins.
+    pub(crate) fn start(&self) {
+        self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
     /// A part of so many tasks begins.

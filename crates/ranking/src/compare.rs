@@ -9,7 +9,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 use results::columns::parameter_of;
-use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
+use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
 use sweep::Parameter;
 
 use matching::Matching;
@@ -50,8 +50,8 @@ pub enum InvalidComparison {
     Results(#[from] InvalidResults),
     /// Designs that only differ in something that the other run says nothing about.
     #[error(
-        "{file}: designs {first} and {second} differ in nothing that both runs know, expected a \
-         run.toml beside each table"
+        "{file}: designs {first} and {second} differ only in something that one of the runs does not record; \
+         each table needs its run.toml"
     )]
     Ambiguous {
         /// The table.
@@ -274,14 +274,14 @@ impl Comparison<'_> {
     /// If the folder or the disk does not take them.
     fn write(&self, folder: &Path) -> Result<[&'static str; 2], OutputError> {
         let folder = RunFolder::new(folder);
-        folder.make()?;
+        let claim = Claim::take(&folder, Maker::Comparison)?;
         let [by_column, by_cell] = RunFolder::COMPARISON;
         let format = self.first.format();
         write_rows(&folder, by_column, format, comparison_columns(), &self.columns)?;
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
         write_rows(&folder, by_cell, format, &columns, self.differences())?;
-        folder.sync();
+        claim.state()?;
         Ok(RunFolder::COMPARISON)
     }
 }

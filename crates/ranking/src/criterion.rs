@@ -4,24 +4,7 @@ use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
-/// Which values of a column are good.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Goal {
-    /// Large ones.
-    Maximize,
-    /// Small ones.
-    Minimize,
-}
-
-impl Goal {
-    /// The goal as criteria are written.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Maximize => "max",
-            Self::Minimize => "min",
-        }
-    }
-}
+use results::columns::{Goal, plain_goal};
 
 /// A criterion: a column of the tables, and which of its values are good.
 ///
@@ -50,27 +33,6 @@ pub static CRITERIA: [Criterion; 4] = [
     Criterion::known("critical force", "critical_force", Goal::Maximize),
     Criterion::known("penetration resistance", "penetration", Goal::Minimize),
     Criterion::known("flexural compliance", "compliance", Goal::Maximize),
-];
-
-/// Columns of which it is plain which values are good, by the beginnings of their names.
-const PLAIN: [(&str, Goal); 17] = [
-    ("areal_mass", Goal::Minimize),
-    ("bend_radius", Goal::Minimize),
-    ("compliance", Goal::Maximize),
-    ("contact_curvature", Goal::Maximize),
-    ("coverage", Goal::Maximize),
-    ("critical_force", Goal::Maximize),
-    ("engaged_scales", Goal::Maximize),
-    ("first_contact_curvature", Goal::Maximize),
-    ("flexural_rigidity", Goal::Minimize),
-    ("fold_force", Goal::Maximize),
-    ("initial_compliance", Goal::Maximize),
-    ("initial_flexural_rigidity", Goal::Minimize),
-    ("membrane_strain_max", Goal::Minimize),
-    ("peak_force", Goal::Maximize),
-    ("penetration", Goal::Minimize),
-    ("sink", Goal::Minimize),
-    ("sound_force", Goal::Maximize),
 ];
 
 /// A text that is no criterion.
@@ -115,10 +77,7 @@ impl FromStr for Criterion {
 
     fn from_str(text: &str) -> Result<Self, InvalidCriterion> {
         let text = text.trim();
-        let plain = || {
-            let plain = PLAIN.iter().find(|(beginning, _)| text.starts_with(beginning));
-            Some((text, plain?.1))
-        };
+        let plain = || Some((text, plain_goal(text)?));
         let read = |goal: Goal| Some((text.strip_prefix(goal.key())?.strip_prefix(':')?, goal));
         let found = read(Goal::Maximize).or_else(|| read(Goal::Minimize)).or_else(plain);
         let found = found.map(|(column, goal)| (column.trim(), goal));

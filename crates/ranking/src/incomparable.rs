@@ -1,7 +1,7 @@
 //! Designs whose values cannot be compared, because they are not measured alike.
 
-use results::{InvalidResults, Results, YARDSTICKS};
-use sweep::number;
+use results::{InvalidResults, Results, yardsticks};
+use sweep::{PARAMETERS, Parameter, Role, number};
 
 use crate::filter::RequirementFilter;
 use crate::preferences::Preferences;
@@ -30,7 +30,7 @@ fn texts(values: &[f64]) -> Vec<String> {
 }
 
 fn remedy(parameter: &str) -> &'static str {
-    if parameter == "membrane_thickness_over_t" {
+    if Parameter::named(parameter).is_some_and(|parameter| parameter.has(Role::UnitOfBending)) {
         ", e.g. --minimize flexural_rigidity_N_mm2 with a [material]"
     } else {
         ""
@@ -95,12 +95,14 @@ fn differing(
     preferences: &Preferences,
 ) -> Result<Vec<Incomparable>, InvalidResults> {
     let mut found = Vec::new();
-    for yardstick in &YARDSTICKS {
+    for Parameter { key, .. } in PARAMETERS {
         let mut columns = preferences.criteria.iter().map(|criterion| criterion.column.as_ref());
-        let Some(column) = columns.find(|column| yardstick.measures(column)) else { continue };
-        let values = values(results, preferences, yardstick.parameter)?;
+        let Some(column) = columns.find(|column| yardsticks(column).contains(key)) else {
+            continue;
+        };
+        let values = values(results, preferences, key)?;
         if values.len() > 1 {
-            let (column, parameter) = (column.to_owned(), yardstick.parameter.to_owned());
+            let (column, parameter) = (column.to_owned(), (*key).to_owned());
             found.push(Incomparable { file: results.file(), column, parameter, values });
         }
     }

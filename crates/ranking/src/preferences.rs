@@ -1,11 +1,10 @@
 //! The preferences that a ranking goes by: requirements, criteria, their weights and their scale.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
-use results::RunFolder;
+use results::{InvalidFolder, RunFolder, VerifiedFolder};
+use sweep::number;
 use sweep::toml_source::{self, KeyValue, Place, SyntaxError, Value, quoted};
-use sweep::{number, reason};
 
 use crate::criterion::{CRITERIA, Criterion};
 use crate::requirement::Requirement;
@@ -48,19 +47,14 @@ pub enum InvalidPreferences {
         found: usize,
     },
     /// A criterion stands there twice.
-    #[error("{column} is a criterion twice, expected it once")]
+    #[error("{column} is a criterion twice")]
     Twice {
         /// The column.
         column: String,
     },
-    /// The file cannot be read.
-    #[error("{file}: cannot be read ({reason}), expected the file that squama rank writes")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// The message of the system.
-        reason: String,
-    },
+    /// The file cannot be read, or is not as squama rank wrote it.
+    #[error(transparent)]
+    File(#[from] InvalidFolder),
     /// The file is no TOML.
     #[error(transparent)]
     Syntax(#[from] SyntaxError),
@@ -131,18 +125,14 @@ impl Preferences {
     /// The preferences in the file `ranking.toml` of `folder`; `None` if there is none.
     ///
     /// # Errors
-    /// If the file cannot be read, or does not say what `squama rank` writes.
-    pub fn read(folder: &Path) -> Result<Option<Self>, InvalidPreferences> {
-        let folder = RunFolder::new(folder);
+    /// If the file cannot be read, or is not as `squama rank` wrote it.
+    pub fn read(folder: &VerifiedFolder) -> Result<Option<Self>, InvalidPreferences> {
         if !folder.holds(RunFolder::PREFERENCES) {
             return Ok(None);
         }
-        let path = folder.file(RunFolder::PREFERENCES);
-        let file = path.display().to_string();
-        let text = std::fs::read_to_string(&path).map_err(|error| {
-            InvalidPreferences::Unreadable { file: file.clone(), reason: reason(&error) }
-        })?;
-        Self::parse(&text, &file).map(Some)
+        let text = folder.text(RunFolder::PREFERENCES)?;
+        let name = folder.path().join(RunFolder::PREFERENCES);
+        Self::parse(&text, &name.display().to_string()).map(Some)
     }
 
     /// The preferences that `text`, from the file `name`, says. What is left out is as in the paper.
@@ -199,7 +189,7 @@ fn unknown(entry: &KeyValue) -> InvalidPreferences {
     InvalidPreferences::Key {
         place: entry.place.clone(),
         key: entry.key.clone(),
-        problem: "is no key, expected requirements, criteria, weights or scale".to_owned(),
+        problem: "is not a key, expected requirements, criteria, weights or scale".to_owned(),
     }
 }
 
@@ -248,7 +238,7 @@ mod tests {
         insta::assert_snapshot!(message("\nscale = 'cubic'"), @"x.toml:2: scale: cubic is not accepted, expected paper, linear or log");
         insta::assert_snapshot!(message("requirements = ['a']"), @"x.toml:1: requirements: a is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6");
         insta::assert_snapshot!(message("criteria = []"), @"x.toml: criteria: 0 criteria, expected 1 to 8");
-        insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice, expected it once");
-        insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is no key, expected requirements, criteria, weights or scale");
+        insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice");
+        insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is not a key, expected requirements, criteria, weights or scale");
     }
 }

@@ -6,8 +6,9 @@ mod contender;
 use std::path::Path;
 
 use rayon::prelude::*;
+use results::columns::FOLD_FORCE;
 use results::round_off::ROUND_OFF;
-use results::{InvalidResults, OutputError, Results, RunFolder, write_rows};
+use results::{Claim, InvalidResults, Maker, OutputError, Results, RunFolder, write_rows};
 
 use crate::criterion::Criterion;
 use crate::incomparable::Incomparable;
@@ -198,7 +199,7 @@ impl<'r> Ranking<'r> {
     /// The best of the designs under which the surface of the substrate does not fold over, if it does under the best of all; by
     /// the weights of the preferences. `None` also where the table does not tell.
     pub fn best_unfolded(&self) -> Option<RankedDesign<'_>> {
-        let fold = self.results.column("fold_force").ok()?;
+        let fold = self.results.column(FOLD_FORCE).ok()?;
         let is_open = |design: &RankedDesign<'_>| self.results.text(design.row(), fold).is_empty();
         let best = self.winner(self.preferences.weights);
         let others = || self.by_fitness(self.preferences.weights).into_iter().find(is_open);
@@ -322,7 +323,7 @@ pub fn write_ranking(
     ranking: &Ranking<'_>,
 ) -> Result<Vec<&'static str>, OutputError> {
     let folder = RunFolder::new(folder);
-    folder.make()?;
+    let claim = Claim::take(&folder, Maker::Ranking)?;
     let parameters: Vec<_> = ranking.results.parameters().collect();
     let [by_fitness, pareto, winners, quaternary] = RunFolder::RANKING;
     let format = ranking.results.format();
@@ -348,12 +349,8 @@ pub fn write_ranking(
             ranking.quaternary(),
         )?;
         files.splice(2..2, [winners, quaternary]);
-    } else {
-        for file in [winners, quaternary] {
-            folder.remove(file);
-        }
     }
-    folder.sync();
+    claim.state()?;
     Ok(files)
 }
 
@@ -364,10 +361,8 @@ pub fn write_ranking(
 /// If the folder or the disk does not take it.
 pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static str, OutputError> {
     let folder = RunFolder::new(folder);
-    folder.make()?;
-    for file in RunFolder::RANKING {
-        folder.remove(file);
-    }
+    let claim = Claim::take(&folder, Maker::Ranking)?;
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
+    claim.state()?;
     Ok(RunFolder::PREFERENCES)
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::criterion::Goal;
+use results::columns::Goal;
 
 /// How the values of a criterion are rescaled from 0, the worst, to 1, the best, and what the fitness is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

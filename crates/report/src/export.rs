@@ -18,13 +18,14 @@ use std::path::{Path, PathBuf};
 
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Workbook, Worksheet, XlsxError};
 
+use ranking::InvalidPreferences;
 use results::{CsvFormat, InvalidFolder, OutputError, RunFolder, VerifiedFolder, words};
 use sweep::reason;
 
 use measure_chart::MeasureChart;
 use profile::ColumnProfile;
 use sheet::{Guide, Sheet};
-use summary::{BestValues, summary};
+use summary::{BestValues, SummaryFacts, summary};
 
 /// Rows that a sheet takes below its header.
 const ROWS: u32 = 1_048_575;
@@ -42,6 +43,9 @@ pub enum ExportError {
     /// A table is not as its run has written it.
     #[error(transparent)]
     Folder(#[from] InvalidFolder),
+    /// The record of the ranking is none.
+    #[error(transparent)]
+    Preferences(#[from] InvalidPreferences),
     /// The folder has no table of designs.
     #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
     NoDesigns {
@@ -66,7 +70,7 @@ pub enum ExportError {
         file: PathBuf,
     },
     /// The name is not that of a workbook.
-    #[error("{}: is no name of a workbook, expected one that ends in .xlsx", file.display())]
+    #[error("{}: a workbook needs a name that ends in .xlsx", file.display())]
     NoWorkbook {
         /// The file that was asked for.
         file: PathBuf,
@@ -133,7 +137,8 @@ fn write(
     if let Some(held) = results.shortfall() {
         guide.note(&format!("made from {held}")).map_err(failed)?;
     }
-    workbook.push_worksheet(summary(results, &best).map_err(failed)?);
+    let facts = SummaryFacts::read(results)?;
+    workbook.push_worksheet(summary(results, &best, &facts).map_err(failed)?);
     for page in pages {
         workbook.push_worksheet(page);
     }

@@ -2,54 +2,57 @@
 
 pub mod cell;
 mod column;
+mod entry;
 mod failures;
-mod measured_value;
+mod made;
+pub(crate) mod measured_value;
 mod path;
-mod physical;
 mod reruns;
-mod samples;
 mod sensitivity;
 mod tilts;
-mod values;
+pub(crate) mod values;
 
 use std::borrow::Borrow;
 
-use sweep::{Axis, Measure, Parameter, Sweep};
+use sweep::{Axis, Measure, Parameter, Role, Sweep};
 
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
-use measured_value::MeasuredValue;
-use physical::{explain_physical, physical_columns};
-use samples::SAMPLE_VALUES;
+use crate::quantity::Quantity;
+use made::{COLUMNS, ValueColumn};
 use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
 pub use column::{Column, number, parameter_of};
 pub use failures::failure_detail_columns;
+pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH,
-    PunctureEvent, SCALES, STEPS, StabilityPoint,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, GUIDED_PATH,
+    PATH, PunctureEvent, SCALES, STEPS, StabilityPoint,
 };
-pub use physical::{AREAL_MASS, physical_source};
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;
-
-/// The measured values of the designs of `sweep`.
-fn values(sweep: &Sweep) -> impl Iterator<Item = &'static MeasuredValue> {
-    let samples = if sweep.is_imperfect() { SAMPLE_VALUES } else { &[] };
-    VALUES.iter().chain(samples)
-}
+pub use values::{
+    AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MAX, GAP_STRETCH_MIN, MAX_STIFFNESS, SECANT_STIFFNESS,
+    SOUND_FORCE,
+};
 
 /// The measured value of that name.
-fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
-    VALUES.iter().chain(SAMPLE_VALUES).find(|value| value.name == name)
+pub fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
+    VALUES.iter().find(|value| value.name == name)
 }
 
 /// The unit of a measured value and what it is, by its name.
 pub fn explain_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let value = measured_value(name).map(|value| (value.unit, value.meaning));
-    value.or_else(|| explain_tilt_value(name)).or_else(|| explain_physical(name))
+    let column = ValueColumn::named(name).map(|column| (column.unit, column.meaning.as_ref()));
+    column.or_else(|| explain_tilt_value(name))
+}
+
+/// The dimensionless value that a column in physical units is made from, by its name, and how.
+pub fn physical_source(name: &str) -> Option<(&'static str, Quantity)> {
+    let column = ValueColumn::named(name)?;
+    Some((column.dimensionless()?.name.as_ref(), column.quantity?))
 }
 
 /// The value that the column `name` is about: of one in physical units the dimensionless value, of any other itself.
@@ -59,9 +62,31 @@ pub fn measure_name(name: &str) -> &str {
 
 /// The measure that the column `name` belongs to; `None` if it is one of parameters, or of how designs were solved.
 pub fn measure_of(name: &str) -> Option<Measure> {
-    let tables = measured_value(measure_name(name))?.tables;
-    let of = |(table, measure): &(&str, Measure)| tables.contains(table).then_some(*measure);
-    MEASURE_TABLES.iter().find_map(of)
+    ValueColumn::named(name)?.value.measure()
+}
+
+/// The column that one of that name, which may be a quantile or another thing that is made from it, is about.
+pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quantity>)> {
+    let is_made_from = |column: &&ValueColumn| {
+        name.strip_prefix(column.stem())
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
+    };
+    let nearest = || COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len());
+    let column = ValueColumn::named(name).or_else(nearest)?;
+    Some((column.value, column.quantity))
+}
+
+/// Which of the values of a column are good, where that is plain.
+pub fn plain_goal(name: &str) -> Option<Goal> {
+    let (value, quantity) = about(name)?;
+    value.good_as(quantity)
+}
+
+/// The names of the values that the table of a page shows at such a place: those of a table together.
+pub fn shown(place: Shown) -> Vec<&'static str> {
+    let mut values: Vec<_> = VALUES.iter().filter(|value| value.shown == place).collect();
+    values.sort_by_key(|value| value.first_table());
+    values.into_iter().map(|value| value.name).collect()
 }
 
 /// The layout of a table: the name of its file, and its columns.
@@ -79,7 +104,7 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
         vec![TableLayout { file: RunFolder::DESIGNS.to_owned(), columns: design_columns(sweep) }];
     tables.extend(asked.map(|(table, _)| TableLayout {
         file: RunFolder::measure_table(table),
-        columns: measure_columns(sweep, table),
+        columns: columns(sweep, Some(table)),
     }));
     tables
 }
@@ -87,20 +112,26 @@ pub fn tables(sweep: &Sweep) -> Vec<TableLayout> {
 /// The columns of `designs.csv`: the same whatever is measured, but for the axes and those that only
 /// imperfections or several critical tilts have.
 pub fn design_columns(sweep: &Sweep) -> Vec<Column<DesignRow>> {
-    let (leading, others): (Vec<_>, Vec<_>) = values(sweep).partition(|value| value.leads());
-    let mut columns = assemble(sweep, &leading, &others);
-    columns.extend(tilt_columns(sweep, None));
-    columns.extend(physical_columns(sweep, None));
-    columns
+    columns(sweep, None)
 }
 
-fn measure_columns(sweep: &Sweep, table: &str) -> Vec<Column<DesignRow>> {
-    let belongs = |value: &&MeasuredValue| value.tables.contains(&table);
-    let (leading, others): (Vec<_>, Vec<_>) =
-        values(sweep).filter(belongs).partition(|value| value.name == table);
-    let mut columns = assemble(sweep, &leading, &others);
-    columns.extend(tilt_columns(sweep, Some(table)));
-    columns.extend(physical_columns(sweep, Some(table)));
+/// The columns of a table of measures, or of all: number and geometry, what tables are about, the axes that not every sweep
+/// has, the other values, those at several tilts, those in physical units.
+fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
+    let leads = |column: &ValueColumn| match table {
+        Some(table) => column.name == table,
+        None => column.leads(),
+    };
+    let standing = COLUMNS.iter().filter(|column| column.stands(sweep, table));
+    let (physical, values): (Vec<_>, Vec<_>) = standing.partition(|column| column.is_physical());
+    let (leading, others): (Vec<_>, Vec<_>) = values.into_iter().partition(|column| leads(column));
+    let made = |columns: Vec<&'static ValueColumn>| columns.into_iter().map(ValueColumn::column);
+    let mut columns = geometry_columns();
+    columns.extend(made(leading));
+    columns.extend(axis_columns(sweep));
+    columns.extend(made(others));
+    columns.extend(tilt_columns(sweep, table));
+    columns.extend(made(physical));
     columns
 }
 
@@ -112,35 +143,19 @@ pub fn failure_columns(sweep: &Sweep) -> Vec<Column<FailureRow>> {
     columns
 }
 
-/// Number and geometry, the leading values, the axes that not every sweep has, the other values.
-fn assemble(
-    sweep: &Sweep,
-    leading: &[&MeasuredValue],
-    others: &[&MeasuredValue],
-) -> Vec<Column<DesignRow>> {
-    let mut columns = geometry_columns();
-    columns.extend(leading.iter().map(|value| value.column()));
-    columns.extend(axis_columns(sweep));
-    columns.extend(others.iter().map(|value| value.column()));
-    columns
-}
-
-/// The axes that every grid has.
-const GEOMETRY: [&str; 3] = ["gap_over_t", "length_over_t", "slant_deg"];
-
 /// The columns of the number of a design and of its geometry.
 fn geometry_columns<R: Borrow<DesignRow>>() -> Vec<Column<R>> {
     let mut columns = vec![number(|row: &R| row.borrow().number.to_string().into())];
-    columns.extend(GEOMETRY.into_iter().filter_map(Parameter::named).map(parameter_column));
+    columns.extend(Parameter::with(Role::Geometry).map(parameter_column));
     columns
 }
 
 /// The columns of the axes of `sweep` that not every grid has.
 fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Column<R>> {
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
-    axes.filter(|parameter| !GEOMETRY.contains(&parameter.key)).map(parameter_column)
+    axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
 }
 
 fn parameter_column<R: Borrow<DesignRow>>(parameter: &'static Parameter) -> Column<R> {
-    Column::parameter(parameter, |row, parameter| parameter.get(&row.borrow().case).into())
+    Column::parameter(parameter, |row: &R| parameter.get(&row.borrow().case).into())
 }

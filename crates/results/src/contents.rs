@@ -4,6 +4,7 @@
 //! by one, so a run that is killed between two of them leaves a folder that is not as its contents say: every command that
 //! reads a folder finds that out before it uses a number.
 
+pub mod claim;
 pub mod derivation;
 pub mod verified_folder;
 
@@ -13,9 +14,9 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{OutputError, read_text, sha256, sha256_of};
 
-use crate::digest::{sha256, sha256_of};
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 
 /// The line that seals the text before it.
 const SEAL: &str = "sha256_of_the_above = ";
@@ -76,7 +77,7 @@ impl Contents {
 
     /// The contents that are stated in `folder`, if they are there and sound.
     pub fn stated_in(folder: &RunFolder) -> Option<Self> {
-        let text = std::fs::read_to_string(folder.file(RunFolder::CONTENTS)).ok()?;
+        let text = read_text(&folder.file(RunFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
     }
 

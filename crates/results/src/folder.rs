@@ -1,17 +1,10 @@
-//! The folder of a run: the name of every file in it, and how files get there.
-
-mod atomic_file;
-mod partial_file;
+//! The folder of results: every file that squama writes there, an entry each, and how files get there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use store::{AtomicFile, JournalError, OutputError, Start, make_folder, sync_folder, write_text};
 use sweep::Measure;
-
-pub use atomic_file::{AtomicFile, OutputError, make_folder, sync_folder, write_text};
-pub use partial_file::{exit_without_partial_files, remove_abandoned_files};
-
-use crate::contents::derivation::Derivation;
 
 /// The tables of one measure, named by the value that they are about.
 pub const MEASURE_TABLES: [(&str, Measure); 4] = [
@@ -20,6 +13,137 @@ pub const MEASURE_TABLES: [(&str, Measure); 4] = [
     ("penetration", Measure::Puncture),
     ("compliance", Measure::Flexure),
 ];
+
+/// What makes a file of a results folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Maker {
+    /// `squama run`, `rerun` and `merge`.
+    Run,
+    /// `squama rank`.
+    Ranking,
+    /// `squama compare`.
+    Comparison,
+    /// `squama design`.
+    Design,
+    /// `squama optimise`.
+    Search,
+    /// `squama tolerance`.
+    Tolerance,
+    /// `squama sensitivity`.
+    Sensitivity,
+}
+
+impl Maker {
+    /// The name of its record.
+    pub(crate) fn key(self) -> &'static str {
+        self.names().0
+    }
+
+    /// The names of its record and of its command.
+    pub(crate) fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Run => ("run", "squama run"),
+            Self::Ranking => (RunFolder::RANKING_RECORD, "squama rank"),
+            Self::Comparison => ("comparison", "squama compare"),
+            Self::Design => ("design", "squama design"),
+            Self::Search => ("search", "squama optimise"),
+            Self::Tolerance => ("tolerance", "squama tolerance"),
+            Self::Sensitivity => ("sensitivity", "squama sensitivity"),
+        }
+    }
+}
+
+/// What a file of a results folder is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// The lines that everything else of its maker is written from.
+    Journal,
+    /// The statement of what the others are.
+    Statement,
+    /// A table, which stands in workbooks too.
+    Table,
+    /// A text about the tables.
+    Record,
+}
+
+/// A file of a results folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileEntry {
+    /// Its name.
+    pub name: &'static str,
+    /// What makes it.
+    pub maker: Maker,
+    /// What it is for.
+    pub role: Role,
+    /// Whether its maker states its SHA-256, so that it is not read before that is checked.
+    pub is_stated: bool,
+}
+
+/// An entry of a file whose maker states its SHA-256.
+const fn stated(name: &'static str, maker: Maker, role: Role) -> FileEntry {
+    FileEntry { name, maker, role, is_stated: true }
+}
+
+/// An entry of a file of which nobody states anything.
+const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
+    FileEntry { name, maker, role, is_stated: false }
+}
+
+/// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
+pub static FILES: [FileEntry; 40] = [
+    plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
+    stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
+    stated("coverage.csv", Maker::Run, Role::Table),
+    stated("critical_force.csv", Maker::Run, Role::Table),
+    stated("penetration.csv", Maker::Run, Role::Table),
+    stated("compliance.csv", Maker::Run, Role::Table),
+    stated(RunFolder::SENSITIVITY, Maker::Run, Role::Table),
+    stated(RunFolder::FAILURES, Maker::Run, Role::Table),
+    stated(RunFolder::RERUNS, Maker::Run, Role::Table),
+    stated(RunFolder::RUN_INFO, Maker::Run, Role::Record),
+    plain(RunFolder::CONTENTS, Maker::Run, Role::Statement),
+    stated(RunFolder::RANKING[0], Maker::Ranking, Role::Table),
+    stated(RunFolder::RANKING[1], Maker::Ranking, Role::Table),
+    stated(RunFolder::RANKING[2], Maker::Ranking, Role::Table),
+    stated(RunFolder::RANKING[3], Maker::Ranking, Role::Table),
+    stated(RunFolder::PREFERENCES, Maker::Ranking, Role::Record),
+    plain(RunFolder::COMPARISON[0], Maker::Comparison, Role::Table),
+    plain(RunFolder::COMPARISON[1], Maker::Comparison, Role::Table),
+    plain(RunFolder::EVALUATIONS, Maker::Search, Role::Journal),
+    stated("goal.toml", Maker::Search, Role::Record),
+    stated("history.csv", Maker::Search, Role::Record),
+    stated("optimum.csv", Maker::Search, Role::Record),
+    stated("optimum.toml", Maker::Search, Role::Record),
+    stated("nearest.toml", Maker::Search, Role::Record),
+    stated("front.csv", Maker::Search, Role::Record),
+    plain("tolerance.csv", Maker::Tolerance, Role::Record),
+    plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),
+    plain("yield.csv", Maker::Tolerance, Role::Record),
+    plain("sobol.csv", Maker::Sensitivity, Role::Record),
+    plain("design.toml", Maker::Design, Role::Record),
+    plain(RunFolder::MEASURES, Maker::Design, Role::Record),
+    plain(RunFolder::SENSITIVITY, Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[0], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[1], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[2], Maker::Design, Role::Record),
+    plain(RunFolder::PUNCTURE[3], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[0], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[1], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[2], Maker::Design, Role::Record),
+    plain(RunFolder::FLEXURE[3], Maker::Design, Role::Record),
+];
+
+impl FileEntry {
+    /// The entry of the file `name`, if it is one of squama's; of several makers, that of the run.
+    pub fn of(name: &str) -> Option<&'static Self> {
+        FILES.iter().find(|file| file.name == name)
+    }
+
+    /// The files that a maker writes from its journal, and its statement.
+    pub(crate) fn products(maker: Maker) -> impl Iterator<Item = &'static Self> {
+        FILES.iter().filter(move |file| file.maker == maker && file.role != Role::Journal)
+    }
+}
 
 /// The folder of a run. It owns the names of all files that squama writes there and reads back.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -75,11 +199,8 @@ impl RunFolder {
 
     /// The names of all tables that a run, its ranking and its comparison may leave here, in the
     /// order in which people read them.
-    pub fn tables() -> impl Iterator<Item = String> {
-        let measures = MEASURE_TABLES.iter().map(|(value, _)| Self::measure_table(value));
-        let of_runs = [Self::SENSITIVITY, Self::FAILURES, Self::RERUNS].into_iter();
-        let others = of_runs.chain(Self::RANKING).chain(Self::COMPARISON).map(str::to_owned);
-        std::iter::once(Self::DESIGNS.to_owned()).chain(measures).chain(others)
+    pub fn tables() -> impl Iterator<Item = &'static str> {
+        FILES.iter().filter(|file| file.role == Role::Table).map(|file| file.name)
     }
 
     /// The path of the folder.
@@ -102,7 +223,7 @@ impl RunFolder {
         self.file(name).is_file()
     }
 
-    /// Makes the folder and those above it.
+    /// Makes the folder and those above it, and removes what killed processes have left half-written there.
     ///
     /// # Errors
     /// If it cannot be made.
@@ -131,37 +252,41 @@ impl RunFolder {
         sync_folder(&self.path);
     }
 
-    /// The first file of a run that stands here though there is no journal: nobody knows whose it is.
-    pub fn stray_file(&self) -> Option<String> {
-        let mut names = Self::of_runs().chain([Self::CONTENTS.to_owned()]);
-        names.find(|name| fs::symlink_metadata(self.file(name)).is_ok())
+    /// Refuses to write what `maker` makes where another maker's journal stands, or files of its names without a journal: nobody knows
+    /// whose they are. To start afresh is to throw those away.
+    ///
+    /// # Errors
+    /// If there are such files.
+    pub fn require_own(&self, maker: Maker, start: Start) -> Result<(), JournalError> {
+        let folder = || self.path.clone();
+        let is_there = |file: &&FileEntry| fs::symlink_metadata(self.file(file.name)).is_ok();
+        let mut journals = FILES.iter().filter(|file| file.role == Role::Journal).filter(is_there);
+        if let Some(other) = journals.clone().find(|file| file.maker != maker) {
+            let what = if other.maker == Maker::Run { "a run" } else { "a search" };
+            return Err(JournalError::Holds { folder: folder(), what });
+        }
+        // What other makers have written is told by their records, see `Claim`.
+        if maker != Maker::Run || start == Start::Fresh || journals.next().is_some() {
+            return Ok(());
+        }
+        let stray = FileEntry::products(maker).find(is_there);
+        stray.map_or(Ok(()), |stray| {
+            Err(JournalError::NoJournal { folder: folder(), file: stray.name.to_owned() })
+        })
     }
 
     /// Removes the tables of an earlier run, but for those named in `files`: a folder describes one run.
     pub fn remove_tables_but(&self, files: &[String]) {
-        let is_kept = |file: &String| files.contains(file) || file == Self::RUN_INFO;
-        Self::of_runs().filter(|file| !is_kept(file)).for_each(|file| self.remove(&file));
+        let tables = FileEntry::products(Maker::Run).filter(|file| file.role == Role::Table);
+        let gone = tables.filter(|file| files.iter().all(|kept| kept != file.name));
+        gone.for_each(|file| self.remove(file.name));
     }
 
     /// Removes the tables of an earlier run and what it states of itself, but not its journal.
     pub fn remove_results(&self) {
-        // From here on nobody takes the tables for whole.
+        // Where it is gone nobody takes the others for whole.
         self.remove(Self::CONTENTS);
-        Self::of_runs().for_each(|file| self.remove(&file));
-    }
-
-    /// Removes what was made from the tables and is as it was made; returns the names of the files.
-    pub fn remove_derived(&self) -> Vec<String> {
-        let all = Derivation::all(self).into_iter();
-        let removed = all.flat_map(|made| made.remove(self)).collect();
-        // Records, and nothing else, stand in that folder.
-        let _ = fs::remove_dir_all(self.file(Self::DERIVED));
-        removed
-    }
-
-    /// Removes what killed processes left half-written.
-    pub fn remove_abandoned_files(&self) {
-        remove_abandoned_files(&self.path);
+        FileEntry::products(Maker::Run).for_each(|file| self.remove(file.name));
     }
 
     /// Removes the file `name`, if it is there.
@@ -169,11 +294,51 @@ impl RunFolder {
         // Nearly always there is none.
         let _ = fs::remove_file(self.file(name));
     }
+}
 
-    /// The names of the tables and the record of a run. Rankings and comparisons have commands of their own.
-    pub(crate) fn of_runs() -> impl Iterator<Item = String> {
-        let measures = MEASURE_TABLES.iter().map(|(value, _)| Self::measure_table(value));
-        let others = [Self::DESIGNS, Self::FAILURES, Self::RERUNS, Self::RUN_INFO];
-        measures.chain(others.map(str::to_owned))
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_file_has_one_entry() {
+        let names: BTreeSet<_> = FILES.iter().map(|file| (file.maker.key(), file.name)).collect();
+        assert_eq!(names.len(), FILES.len());
+        for (value, _) in MEASURE_TABLES {
+            let file = FileEntry::of(&RunFolder::measure_table(value)).expect("an entry");
+            assert_eq!((file.maker, file.role), (Maker::Run, Role::Table));
+        }
+        for name in RunFolder::RANKING.into_iter().chain([RunFolder::PREFERENCES]) {
+            assert!(FileEntry::of(name).is_some_and(|file| file.maker == Maker::Ranking));
+        }
+    }
+
+    #[test]
+    fn no_run_writes_over_a_file_of_a_stranger() {
+        for file in FileEntry::products(Maker::Run) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            fs::write(folder.file(file.name), "a stranger's").expect("writable");
+            let refused = folder.require_own(Maker::Run, Start::Resume).expect_err(file.name);
+            assert!(refused.to_string().contains(file.name), "{refused}");
+            folder.require_own(Maker::Run, Start::Fresh).expect("what was asked for");
+            folder.remove_results();
+            assert!(!folder.holds(file.name), "{}", file.name);
+        }
+    }
+
+    #[test]
+    fn a_folder_has_one_maker() {
+        for (maker, journal) in
+            [(Maker::Run, RunFolder::EVALUATIONS), (Maker::Search, RunFolder::JOURNAL)]
+        {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            fs::write(folder.file(journal), "").expect("writable");
+            let refused = folder.require_own(maker, Start::Fresh).expect_err("another's");
+            assert!(refused.to_string().contains("holds the results of a"), "{refused}");
+        }
     }
 }

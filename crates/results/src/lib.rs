@@ -18,13 +18,13 @@
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
 //! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
-//! | [`RunFolder`], [`AtomicFile`] | the names of all files, and how files get into a folder |
+//! | [`RunFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
 //! | [`write_measures`] | writes the measures of one design, a row each |
 //! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
-//! | [`Derivation`] | what was made from the tables, and from which |
+//! | [`Derivation`], [`Claim`] | what was made from the tables, and from which; the right of a command to write its files |
 //!
 //! ```
 //! use results::columns::design_columns;
@@ -48,7 +48,6 @@
 pub mod columns;
 mod contents;
 mod design;
-mod digest;
 mod folder;
 mod measure_table;
 mod path_tables;
@@ -63,6 +62,7 @@ pub use columns::cell::Cell;
 pub use columns::{
     Column, DERIVATIVE_COLUMNS, RERUN_COLUMNS, failure_columns, failure_detail_columns,
 };
+pub use contents::claim::Claim;
 pub use contents::derivation::Derivation;
 pub use contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder, verify_record};
 pub use contents::{Contents, JournalExtent};
@@ -76,16 +76,16 @@ pub use design::row::{DerivativeRow, DesignRow, FailureRow, SolvedDesign};
 pub use design::sample_statistics::{
     QUANTILES, SampleStatistics, Statistics, quantile, quantile_places,
 };
-pub use digest::sha256;
-pub use folder::{
-    AtomicFile, MEASURE_TABLES, OutputError, RunFolder, exit_without_partial_files, make_folder,
-    remove_abandoned_files, sync_folder, write_text,
-};
+pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, Role, RunFolder};
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::write_path_tables;
 pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
+pub use store::{
+    AtomicFile, OutputError, exit_without_partial_files, make_folder, sha256, sync_folder,
+    write_text,
+};
 pub use tables::csv_file::{CsvFile, write_rows};
 pub use tables::csv_format::{CsvFormat, UnknownCsvFormat};
-pub use yardstick::{YARDSTICKS, Yardstick, incomparable_by, yardsticks};
+pub use yardstick::{incomparable_by, yardsticks};

@@ -1,10 +1,11 @@
 //! The measures of one design: a row each, to be read from top to bottom.
 
 use std::borrow::Cow;
+use store::OutputError;
 
 use crate::columns::{Cell, Column};
 use crate::design::row::DesignRow;
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
 

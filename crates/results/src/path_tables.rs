@@ -2,18 +2,19 @@
 
 use skin::flexure::Flexure;
 use skin::puncture::Puncture;
+use store::OutputError;
 
 use crate::columns::{
     BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
-    FLEXURE_STEPS, PATH, PunctureEvent, SCALES, STEPS,
+    FLEXURE_STEPS, GUIDED_PATH, PATH, PunctureEvent, SCALES, STEPS,
 };
 use crate::design::row::SolvedDesign;
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
 
 /// Writes the path tables of a design to `folder` and returns the names of the files: those of what
-/// was solved. Files of an earlier time of what was not solved are removed.
+/// was solved.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
@@ -21,24 +22,18 @@ pub fn write_path_tables(
     folder: &RunFolder,
     solved: &SolvedDesign,
 ) -> Result<Vec<&'static str>, OutputError> {
-    folder.make()?;
     let mut files = Vec::new();
-    match &solved.puncture {
-        Some(puncture) => files.extend(write_puncture(folder, puncture)?),
-        None => remove(folder, RunFolder::PUNCTURE),
+    if let Some(puncture) = &solved.puncture {
+        files.extend(write_puncture(folder, puncture)?);
     }
-    match &solved.flexure {
-        Some(flexure) => files.extend(write_flexure(folder, flexure)?),
-        None => remove(folder, RunFolder::FLEXURE),
+    if let Some(flexure) = &solved.flexure {
+        files.extend(write_flexure(folder, flexure)?);
     }
-    if solved.row.result.sensitivity.is_empty() {
-        remove(folder, [RunFolder::SENSITIVITY]);
-    } else {
+    if !solved.row.result.sensitivity.is_empty() {
         let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
         write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;
         files.push(name);
     }
-    folder.sync();
     Ok(files)
 }
 
@@ -48,7 +43,9 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    write_rows(folder, path, Plain, PATH, points.collect::<Vec<_>>())?;
+    // A free needle has no lateral force, and its table no column for it.
+    let columns = if puncture.measures.passage.is_none() { PATH } else { GUIDED_PATH };
+    write_rows(folder, path, Plain, columns, points.collect::<Vec<_>>())?;
     write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
@@ -64,10 +61,4 @@ fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str;
     write_rows(folder, scales, Plain, FLEXURE_SCALES, &shape)?;
     write_rows(folder, steps, Plain, FLEXURE_STEPS, &flexure.history)?;
     Ok(RunFolder::FLEXURE)
-}
-
-fn remove<const N: usize>(folder: &RunFolder, files: [&str; N]) {
-    for file in files {
-        folder.remove(file);
-    }
 }

@@ -1,7 +1,7 @@
 //! From dimensionless values to millimetres, newtons and kilograms.
 
 use skin::Design;
-use sweep::{Case, Sweep};
+use sweep::{Case, Sweep, key};
 
 /// The kind of a dimensionless value, which says what one unit of it is worth (`docs/theory.md`, U1–U7).
 ///
@@ -59,14 +59,29 @@ impl Quantity {
         }
     }
 
+    /// The unit as names of columns end.
+    pub(crate) fn suffix(self) -> &'static str {
+        match self {
+            Self::Length | Self::Radius => "mm",
+            Self::Force => "N",
+            Self::ForcePerWidth | Self::Stiffness | Self::Moment => "N_mm",
+            Self::Rigidity => "N_mm2",
+        }
+    }
+
+    /// Whether it is large where the dimensionless value is small.
+    pub(crate) fn is_inverse(self) -> bool {
+        matches!(self, Self::Rigidity | Self::Radius)
+    }
+
     /// The keys of the material that it needs.
     pub fn needs(self) -> &'static [&'static str] {
         match self {
-            Self::Length | Self::Radius => &["thickness_mm"],
+            Self::Length | Self::Radius => &[key::THICKNESS],
             Self::Force | Self::ForcePerWidth | Self::Stiffness => {
-                &["thickness_mm", "substrate_modulus_MPa"]
+                &[key::THICKNESS, key::SUBSTRATE_MODULUS]
             }
-            Self::Moment | Self::Rigidity => &["thickness_mm", "membrane_modulus_MPa"],
+            Self::Moment | Self::Rigidity => &[key::THICKNESS, key::MEMBRANE_MODULUS],
         }
     }
 
@@ -122,7 +137,7 @@ fn bending_stiffness(case: &Case) -> Option<f64> {
 }
 
 /// The keys of the material that the areal mass needs.
-pub(crate) const MASS_NEEDS: [&str; 2] = ["thickness_mm", "scale_density_kg_m3"];
+pub(crate) const MASS_NEEDS: [&str; 2] = [key::THICKNESS, key::DENSITY];
 
 /// The mass of the scales over the area of the skin that they stand on, kg/m²: the density times the area of a parallelogram
 /// (base times thickness) over the pitch, `ρ 2a t/p` (U8). `None` if thickness or density is not given.

@@ -1,47 +1,14 @@
 //! Parameters that say how something is measured: designs in which they differ cannot be compared.
 
-use sweep::Sweep;
+use sweep::{PARAMETERS, Sweep};
 
-/// A parameter that says how something is measured, and the columns that can be compared only where it is the same.
-#[derive(Debug)]
-pub struct Yardstick {
-    /// The key of the parameter.
-    pub parameter: &'static str,
-    /// Beginnings of the names of the columns.
-    columns: &'static [&'static str],
-}
-
-const PUNCTURE: &[&str] = &[
-    "critical_force",
-    "penetration",
-    "critical_displacement",
-    "sink",
-    "secant_stiffness",
-    "peak_force",
-    "sound_force",
-];
-const BENDING: &[&str] = &["compliance", "max_moment", "flexural_rigidity", "axial_energy_share"];
-
-/// The parameters that say how something is measured. The dimensionless compliances are those of one membrane: `C_f*`
-/// counts in `1/(E_m I_m)`, which another thickness changes.
-pub const YARDSTICKS: [Yardstick; 5] = [
-    Yardstick { parameter: "critical_tilt_deg", columns: PUNCTURE },
-    Yardstick { parameter: "needle_friction", columns: PUNCTURE },
-    Yardstick {
-        parameter: "membrane_thickness_over_t",
-        columns: &["compliance", "initial_compliance", "max_moment"],
-    },
-    Yardstick { parameter: "max_end_rotation_deg", columns: BENDING },
-    Yardstick { parameter: "membrane_length_over_t", columns: BENDING },
-];
-
-/// Columns in physical units end so. They can be compared whatever the membrane.
-const PHYSICAL: [&str; 3] = ["_N", "_N_mm", "_N_mm2"];
+use crate::columns::about;
 
 /// The parameters that say how a column is measured: only designs of the same values can be compared by it.
 pub fn yardsticks(column: &str) -> Vec<&'static str> {
-    let measuring = YARDSTICKS.iter().filter(|yardstick| yardstick.measures(column));
-    measuring.map(|yardstick| yardstick.parameter).collect()
+    let Some((value, quantity)) = about(column) else { return Vec::new() };
+    let measuring = PARAMETERS.iter().filter(|parameter| value.is_measured_by(parameter, quantity));
+    measuring.map(|parameter| parameter.key).collect()
 }
 
 /// The parameter in which the designs of a sweep differ so that they cannot be compared by a column, if there is one.
@@ -49,15 +16,6 @@ pub fn incomparable_by(sweep: &Sweep, column: &str) -> Option<&'static str> {
     let differs =
         |parameter: &&str| sweep.grid().axis(parameter).is_some_and(|axis| axis.len() > 1);
     yardsticks(column).into_iter().find(differs)
-}
-
-impl Yardstick {
-    /// Whether the values of a column depend on it in a way that leaves nothing to compare.
-    pub fn measures(&self, column: &str) -> bool {
-        let is_physical = PHYSICAL.iter().any(|unit| column.ends_with(unit));
-        let is_free = is_physical && self.parameter == "membrane_thickness_over_t";
-        !is_free && self.columns.iter().any(|beginning| column.starts_with(beginning))
-    }
 }
 
 #[cfg(test)]
@@ -77,5 +35,47 @@ mod tests {
         let membranes = sweep("membrane_thickness_over_t = [0.1, 0.2]");
         assert_eq!(incomparable_by(&membranes, "compliance"), Some("membrane_thickness_over_t"));
         assert_eq!(incomparable_by(&membranes, "flexural_rigidity_N_mm2"), None);
+    }
+
+    /// What is measured where a path ends depends on where that is, and nothing else does.
+    #[test]
+    fn whatever_depends_on_the_end_of_a_puncture_is_measured_by_its_tilt() {
+        let at_the_end = [
+            "critical_force",
+            "peak_force",
+            "sound_force",
+            "penetration",
+            "sink",
+            "contacts",
+            "engaged_scales",
+            "critical_displacement",
+            "secant_stiffness",
+            "max_stiffness",
+            "peak_displacement",
+            "peak_tilt_deg",
+            "gap_stretch_min",
+            "gap_stretch_max",
+            "snaps",
+            "max_stiffness_N_mm",
+            "critical_force_p05_N",
+        ];
+        for column in at_the_end {
+            let by = ["needle", "critical_tilt_deg", "needle_friction"];
+            assert_eq!(yardsticks(column), by, "{column}");
+        }
+        for column in [
+            "initial_stiffness",
+            "first_contact_displacement",
+            "fold_force",
+            "coverage",
+            "contact_curvature",
+        ] {
+            assert!(yardsticks(column).is_empty(), "{column}");
+        }
+        let bending = ["membrane_length_over_t", "max_end_rotation_deg"];
+        assert_eq!(yardsticks("membrane_strain_max"), bending);
+        assert_eq!(yardsticks("flexural_rigidity_N_mm2"), bending);
+        assert_eq!(yardsticks("max_moment_N_mm"), bending);
+        assert_eq!(yardsticks("initial_compliance"), ["membrane_thickness_over_t"]);
     }
 }

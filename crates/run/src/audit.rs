@@ -18,15 +18,18 @@ use crate::solve::groups::Groups;
 use crate::solve::workers;
 
 /// How many times smaller the steps of the second computation are.
+// Ten and not two: an error of first order shows at once, one of second order by a factor of a hundred.
 const SMALLER: f64 = 10.0;
 
 /// Values that vanish but for round-off have no digits to compare.
+// Measures are of the order of one; what is left where symmetry makes them vanish is rounding.
 const NOTHING: f64 = 1e-9;
 
 /// The larger part of the golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Gaps of the longest chain that an audit solves.
+// A longer chain is no other problem, and takes as much longer.
 const LONGEST_CHAIN: usize = 1000;
 
 /// The second way in which a design was solved.
@@ -81,6 +84,7 @@ impl Audit {
         let archive = Archive::open(&RunFolder::new(folder))?;
         let sweep = archive.sweep();
         let columns = design_columns(sweep);
+        // The designs are known before the threads begin: groups must see neighbours, of which a share is far apart.
         let chosen: Vec<_> = every(share, archive.held()).collect();
         let mut entries = archive.entries()?;
         let mut audit = Self::default();
@@ -115,10 +119,12 @@ impl Audit {
             let design = rows[0].number;
             match rows.map(|row| column.cell(row)) {
                 [Cell::Number(first), Cell::Number(second)] => {
+                    // Both are numbers: how far apart they are is told, whatever they are of.
                     let relative = relative(first, second);
                     let (column, values) = (column.name.to_string(), [first, second]);
                     self.note(LargestDifference { column, way, relative, design, values });
                 }
+                // A status or a reason that differs has no size: it is told as it is.
                 cells if cells[0] != cells[1] => {
                     let texts = cells.map(|cell| cell.to_string());
                     self.contradictions.push((column.name.to_string(), design, texts));
@@ -130,6 +136,7 @@ impl Audit {
 
     /// Keeps a difference if it is the largest of its column and way.
     fn note(&mut self, new: LargestDifference) {
+        // Some twenty columns and two ways: a list is searched faster than a map is built.
         let same = |old: &&mut LargestDifference| old.column == new.column && old.way == new.way;
         match self.differences.iter_mut().find(same) {
             Some(old) if new.relative > old.relative => *old = new,
@@ -168,6 +175,7 @@ fn finer(mut case: Case) -> Case {
     solver.first_step /= SMALLER;
     solver.max_step /= SMALLER;
     solver.min_step /= SMALLER;
+    // Without this a path of smaller steps would end at the limit and differ by its status.
     solver.max_points = solver.max_points.saturating_mul(SMALLER as usize);
     case
 }
@@ -175,6 +183,7 @@ fn finer(mut case: Case) -> Case {
 /// The case with a whole number of gaps, as a unit cell and as a chain.
 fn whole(mut case: Case) -> Option<[Case; 2]> {
     let gaps = flexure::whole_gaps(&case.design.row().ok()?, &case.flexure);
+    // The unit cell knows no unequal gaps, so only the perfect strip is one problem in two ways.
     case.imperfection = skin::Imperfection::default();
     case.flexure.gaps = Some(gaps);
     let by = |method| {
@@ -193,6 +202,7 @@ fn every(share: f64, designs: impl Iterator<Item = u64>) -> impl Iterator<Item =
 
 /// Whether a column holds a property of the design, and not of the way in which it was solved.
 fn is_physical(column: &str) -> bool {
+    // Steps and iterations are what the second way changes, not what it must keep.
     let of_the_way = ["_points", "_iterations", "_error"];
     !of_the_way.iter().any(|end| column.ends_with(end)) && column != "scales"
 }

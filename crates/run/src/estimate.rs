@@ -4,12 +4,14 @@ use std::time::{Duration, Instant};
 
 use results::DesignRow;
 use results::columns::tables;
+use store::Seal;
 use sweep::Sweep;
 
-use crate::journal::{JournalEntry, Line, Seal};
+use crate::journal::{JournalEntry, Line};
 use crate::solve::evaluator::Evaluator;
 
 /// Places of the grid at which designs are solved, and how many neighbours at each: neighbours share their springs.
+// Several places, as designs are quick in one part of a grid and slow in another; neighbours, as those share their springs.
 const PLACES: u64 = 8;
 const NEIGHBOURS: u64 = 6;
 
@@ -17,6 +19,7 @@ const NEIGHBOURS: u64 = 6;
 const ORDER: [u64; PLACES as usize] = [0, 4, 2, 6, 1, 5, 3, 7];
 
 /// An estimate takes no longer than this, and the design in hand.
+// Longer than this nobody waits for a guess.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The time and the room that a sweep takes, about.
@@ -35,6 +38,7 @@ impl Estimate {
     pub fn of(sweep: &Sweep) -> Self {
         let (evaluator, grid) = (Evaluator::new(sweep.measures()), sweep.grid());
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
+        // On one thread: how threads share springs and memory is not guessed, `--threads` divides what is told.
         for index in spread(grid.len()) {
             let row = evaluator.solve(grid.number(index), &grid.case(index)).row;
             bytes += room(sweep, &row);
@@ -59,10 +63,12 @@ fn spread(designs: u64) -> impl Iterator<Item = u64> {
 /// Bytes of a design in journal and tables.
 fn room(sweep: &Sweep, row: &DesignRow) -> usize {
     let (design, result) = (row.number.index() + 1, row.result.clone());
+    // Times of six digits, as most have.
     let entry = JournalEntry { design, rerun: 0, at: 0.123_456, seconds: 0.123_456, result };
-    let journal = Seal::default().write(&Line::Design(Box::new(entry))).len();
+    let journal = Seal::default().seal(&Line::Design(Box::new(entry))).len();
     let layouts = tables(sweep);
     let columns = layouts.iter().flat_map(|layout| &layout.columns);
+    // Every cell and the comma or line end behind it.
     journal + columns.map(|column| column.cell(row).to_string().len() + 1).sum::<usize>()
 }
 

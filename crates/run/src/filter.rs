@@ -4,9 +4,10 @@ use std::str::FromStr;
 
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
+use store::JournalError;
 use sweep::{NoSuchDesign, nearest};
 
-use crate::journal::{Archive, JournalEntry, JournalError};
+use crate::journal::{Archive, JournalEntry};
 
 /// A filter of the designs of a run: those pass for which everything holds that is set.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +29,7 @@ pub struct ColumnFilter {
 
 /// A text that is no condition on a column.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
+#[error("{0:?} is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
 pub struct InvalidColumnFilter(String);
 
 /// A filter that makes no sense for a run.
@@ -38,9 +39,7 @@ pub enum InvalidFilter {
     #[error("--design: {0}")]
     Number(NoSuchDesign),
     /// A design that is not done.
-    #[error(
-        "--design {0}: the design is not done yet, expected one that is; squama run --resume solves it"
-    )]
+    #[error("--design {0}: the design is not solved yet; squama run --resume solves it")]
     NotDone(String),
     /// A column that does not exist.
     #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
@@ -75,6 +74,7 @@ impl ColumnFilter {
         let found = columns.iter().find(|column| column.name == self.column);
         found.ok_or_else(|| {
             let known: Vec<_> = columns.iter().map(|column| column.name.as_ref()).collect();
+            // A near name is a slip of the pen; with none near, all that there are help more.
             let suggestion = match nearest(&self.column, &known) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("expected one of {}", known.join(", ")),
@@ -87,6 +87,7 @@ impl ColumnFilter {
     fn passes(&self, cell: &Cell) -> bool {
         let cell = cell.to_string();
         let number = |text: &str| text.parse::<f64>().ok();
+        // As text first: `0010` is a number of a design, and not the tenth value.
         cell == self.value || number(&cell).is_some_and(|cell| Some(cell) == number(&self.value))
     }
 }
@@ -110,6 +111,7 @@ impl Filter {
             designs.extend(passes(&row).then(|| row.number.index()));
         };
         match &self.numbers {
+            // A few numbered designs are read where they stand, without a look at all others.
             Some(numbers) => numbered(archive, numbers)?.into_iter().for_each(visit),
             None => archive.entries()?.in_order().try_for_each(|entry| entry.map(&mut visit))?,
         }
@@ -123,6 +125,7 @@ fn numbered(archive: &Archive, numbers: &[String]) -> Result<Vec<JournalEntry>, 
     let range = |text: &String| grid.parse_numbers(text.trim()).map_err(InvalidFilter::Number);
     let ranges = numbers.iter().map(range).collect::<Result<Vec<_>, _>>()?;
     let mut indices: Vec<_> = ranges.into_iter().flatten().collect();
+    // In the order of the designs, whatever the order on the command line: reruns are told in it.
     indices.sort_unstable();
     indices.dedup();
     let mut entries = archive.entries()?;
@@ -145,6 +148,6 @@ mod tests {
         assert!("x=75.0".parse::<ColumnFilter>().expect("a condition").passes(&75.0.into()));
         assert!("base=2L".parse::<ColumnFilter>().expect("a condition").passes(&"2L".into()));
         let text = "=3".parse::<ColumnFilter>().expect_err("none").to_string();
-        assert_eq!(text, "\"=3\" is no condition, expected COLUMN=VALUE, e.g. slant_deg=75");
+        assert_eq!(text, "\"=3\" is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75");
     }
 }

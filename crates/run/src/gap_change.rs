@@ -10,6 +10,7 @@ use crate::solve::evaluator::Evaluator;
 use crate::solve::work::work_of;
 
 /// The gap of a design that comes out smaller and larger, over the gap that was meant.
+// Both ways: a cliff stands on one side of a design, and which is not known before.
 const PARTS: [f64; 2] = [0.9, 1.1];
 
 /// The paths that a design may take, in puncture and bending: more would have people wait.
@@ -44,9 +45,12 @@ impl GapChange {
         let grid = sweep.grid();
         let index = grid.parse_number(number).ok()?;
         let mut case = grid.case(index);
+        // Random samples take hundreds of paths, and hide the cliff of the design itself.
         case.imperfection = Imperfection::default();
+        // A ranking asks this of its best designs while somebody waits.
         is_quick(sweep, &case).then_some(())?;
         let meant = case.design.gap;
+        // One evaluator for the three: a gap changes no footprint, so they share their springs.
         let evaluator = Evaluator::new(&without_derivatives(sweep));
         let solved = [1.0, PARTS[0], PARTS[1]].map(|part| {
             let mut case = case;

@@ -16,9 +16,7 @@
 //! | [`Evaluator`] | solves one design |
 //! | [`WorkMeter`] | how much of the work is done, within designs too |
 //! | [`Start`] | what a run does with results that are there, and what it trusts of them |
-//! | [`Journal`], [`JournalEntry`], [`JournalHeader`] | every finished design, a line each |
-//! | [`Seal`] | the checksums that make the lines of one journal differ from those of others |
-//! | [`Archive`] | a journal that was read |
+//! | [`Archive`], [`JournalEntry`], [`Line`] | every finished design, a line each in a journal |
 //! | [`Rerun`], [`Filter`], [`ColumnFilter`] | some designs solved again, with other settings |
 //! | [`RunStatus`] | how far a run is |
 //! | [`merge()`] | puts shards together |
@@ -73,16 +71,14 @@ pub use audit::{Audit, LargestDifference, SecondWay};
 pub use estimate::Estimate;
 pub use filter::{ColumnFilter, Filter, InvalidColumnFilter, InvalidFilter};
 pub use gap_change::{GapChange, MeasureChange};
-pub use journal::{
-    Archive, Journal, JournalEntry, JournalError, JournalHeader, LatestSession, Seal, SessionStart,
-    Start,
-};
+pub use journal::{Archive, JournalEntry, LatestSession, Line, SessionStart};
 pub use merge::{MergeError, Merged, merge};
-pub use options::{Options, Program};
+pub use options::Options;
 pub use progress::{Finished, Progress, RunError};
 pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
 pub use solve::evaluator::Evaluator;
 pub use solve::work::WorkMeter;
 pub use status::RunStatus;
+pub use store::{JournalError, JournalHeader, Program, Start};
 pub use tables::summary::{Best, Summary};

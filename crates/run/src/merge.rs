@@ -7,12 +7,11 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use results::{CsvFormat, RunFolder};
+use store::{JournalError, Program, Start};
 use sweep::{SubsetDesigns, Sweep};
 
-use crate::journal::{
-    self, Archive, Entries, Journal, JournalEntry, JournalError, SessionStart, Start,
-};
-use crate::options::{Options, Program};
+use crate::journal::{self, Archive, Entries, Journal, JournalEntry, Line, SessionStart};
+use crate::options::Options;
 use crate::progress::{Finished, RunError};
 use crate::run::Run;
 use crate::solve::work::WorkMeter;
@@ -25,7 +24,7 @@ const ALIKE: &str = "shards of one sweep by one program";
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// No folder of a shard was given.
-    #[error("there is nothing to merge, expected the folders of shards")]
+    #[error("there is nothing to merge; give the folders of shards")]
     Nothing,
     /// A journal cannot be used.
     #[error(transparent)]
@@ -34,7 +33,7 @@ pub enum MergeError {
     #[error(transparent)]
     Run(#[from] RunError),
     /// Two shards have different results for the same design.
-    #[error("{}: design {design} is not what it is in {}, expected the same result; solve it again in one of them with squama rerun", second.display(), first.display())]
+    #[error("{}: design {design} differs from that in {}; solve it again in one of them with squama rerun", second.display(), first.display())]
     Conflict {
         /// Number of the design.
         design: u64,
@@ -81,11 +80,13 @@ pub fn merge(
             written_again(out, format, program)
         };
     }
+    // All sources are of one sweep, so any of them names it.
     let header = sources[0].archive.header().clone().of_all_shards();
     out.make().map_err(RunError::from)?;
-    let mut journal = Journal::begin(&out, header, Start::Resume)?;
-    out.remove_abandoned_files();
-    let formats = [journal.archive(), &sources[0].archive].map(Archive::format);
+    // Resumed, not new: merging twice is merging once, and a merger that was killed goes on.
+    let mut journal = journal::begin(&out, header, Start::Resume)?;
+    // What is asked for, else what the folder has, else what the shards have.
+    let formats = [journal.records(), &sources[0].archive].map(Archive::format);
     let format = formats.into_iter().fold(format, Option::or);
     let added = gather(&mut journal, &sources, &out, format.unwrap_or_default())?;
     finish(journal, out, format, added, program, clock)
@@ -97,8 +98,8 @@ fn written_again(
     format: Option<CsvFormat>,
     program: &Program,
 ) -> Result<Merged, MergeError> {
-    let journal = Journal::resume(&out)?;
-    out.remove_abandoned_files();
+    let journal = journal::resume(&out)?;
+    out.make().map_err(RunError::from)?;
     finish(journal, out, format, 0, program, Instant::now())
 }
 
@@ -110,7 +111,7 @@ fn finish(
     program: &Program,
     clock: Instant,
 ) -> Result<Merged, MergeError> {
-    let archive = journal.archive();
+    let archive = journal.records();
     let (sweep, missing) =
         (archive.sweep().clone(), numbers(archive.designs(), &archive.missing()));
     let (stop, work) = (AtomicBool::new(false), WorkMeter::default());
@@ -136,15 +137,18 @@ struct ShardResults {
 /// Opens the folders other than `out`, all of one sweep.
 fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, MergeError> {
     let same = |folder: &&PathBuf| match (folder.canonicalize(), out.path().canonicalize()) {
+        // By their real paths, as `results/x` and `./results/x/` are one folder.
         (Ok(folder), Ok(out)) => folder == out,
         _ => false,
     };
     let mut sources: Vec<ShardResults> = Vec::new();
     for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
-        if journal::in_use(&folder) {
+        // A shard that is still being solved would be merged short of its last designs, and nobody would notice.
+        if store::in_use(&folder.journal()) {
             return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
         }
         let archive = Archive::open(&folder)?;
+        // A copy that was cut short looks like a shard with less to do.
         archive.require_all_lines(&folder)?;
         if let Some(first) = sources.first() {
             let wanted = first.archive.header().clone().of_all_shards();
@@ -163,25 +167,29 @@ fn gather(
     out: &RunFolder,
     format: CsvFormat,
 ) -> Result<u64, MergeError> {
-    let designs = journal.archive().designs().clone();
+    let designs = journal.records().designs().clone();
     let mut readers = Vec::new();
     for source in sources {
         readers.push((source, source.archive.entries()?));
     }
     // As it was: what is appended now belongs to other designs.
     let before = Archive::open(out)?;
+    // Read beside the journal that grows: entries are found by where they stand, and what is appended stands behind.
     let mut there = before.entries()?;
     let mut added = 0;
     for (design, holders) in Held::by(sources.iter().map(|source| source.archive.held())) {
+        // A shard of the whole grid may hold designs that a sample leaves out.
         let Some(position) = designs.position(design) else { continue };
         let known = there.last(position)?;
         let best = choose(design, known, &mut readers, &holders, out)?;
+        // A merger that brings nothing leaves no trace in the journal.
         if added == 0 && !best.is_empty() {
-            journal.begin_session(SessionStart::now(1, format)).map_err(RunError::from)?;
+            let session = Line::Session(SessionStart::now(1, format));
+            journal.append(session).map_err(RunError::from)?;
         }
         added += u64::from(!best.is_empty());
         for entry in best {
-            journal.append(entry).map_err(RunError::from)?;
+            journal.append(Line::Design(Box::new(entry))).map_err(RunError::from)?;
         }
     }
     Ok(added)
@@ -244,17 +252,20 @@ fn choose(
         let Some(position) = source.archive.designs().position(index) else { continue };
         let Some(entry) = entries.last(position)? else { continue };
         match &best {
+            // Equal reruns of one program must agree to the last bit: if they do not, neither is to be believed.
             Some((other, first)) if other.rerun == entry.rerun && other.result != entry.result => {
                 let (first, second) = (first.to_path_buf(), source.folder.path().to_owned());
                 return Err(MergeError::Conflict { design: entry.design, first, second });
             }
             Some((other, _)) if other.rerun >= entry.rerun => {}
             _ => {
+                // With all its reruns, so that `reruns.csv` tells of them after the merger too.
                 added = entries.history(position)?;
                 best = Some((entry, source.folder.path()));
             }
         }
     }
+    // What the folder has is not written a second time.
     added.retain(|entry| known.is_none_or(|known| entry.rerun > known));
     Ok(added)
 }
@@ -282,6 +293,7 @@ fn consecutive(
     let number = |position| designs.design(position) + 1;
     let Some(last) = positions.clone().next_back() else { return Vec::new() };
     let (first, last) = (number(positions.start), number(last));
+    // The whole range at once: a grid may have 10⁹ designs, and a list of them takes all memory.
     if last - first == positions.end - positions.start - 1 {
         return vec![first..=last];
     }

@@ -7,15 +7,6 @@ use results::CsvFormat;
 
 use crate::solve::work::WorkMeter;
 
-/// The program that runs a sweep.
-#[derive(Clone, Copy, Debug)]
-pub struct Program {
-    /// The version of the program.
-    pub version: &'static str,
-    /// The revision of its source.
-    pub revision: &'static str,
-}
-
 /// The options of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Options<'a> {

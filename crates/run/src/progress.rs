@@ -2,10 +2,9 @@
 
 use std::time::Duration;
 
-use results::OutputError;
+use store::{JournalError, OutputError};
 use sweep::{InvalidDefinition, SampleTooLarge};
 
-use crate::journal::JournalError;
 use crate::tables::summary::Summary;
 
 /// An error that keeps a sweep from running to its end.

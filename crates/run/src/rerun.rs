@@ -4,11 +4,12 @@ use std::path::Path;
 use std::time::Instant;
 
 use results::{RunFolder, SEPARATOR};
+use store::{JournalError, Program};
 use sweep::{DesignNumber, PARAMETERS, Setting, Sweep};
 
 use crate::filter::{Filter, InvalidFilter};
-use crate::journal::{Archive, Journal, JournalError, JournalHeader};
-use crate::options::{Options, Program};
+use crate::journal::{self, Archive};
+use crate::options::Options;
 use crate::progress::{Finished, Progress, RunError};
 use crate::run::Run;
 use crate::solve::task::Task;
@@ -37,12 +38,12 @@ pub enum InvalidRerun {
     Definition(#[from] sweep::InvalidDefinition),
     /// A setting that would make another design of it.
     #[error(
-        "{0}: designs keep their places in the grid, expected a key that is no axis, e.g. solver.max_step=0.01"
+        "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
     )]
     Axis(String),
     /// Settings that would give the tables other columns.
     #[error(
-        "imperfections are {before} in the run and {after} in the settings, expected the same: a run keeps its columns"
+        "imperfections are {before} in the run and {after} in the settings; they must be the same, because a run keeps its columns"
     )]
     Imperfection {
         /// Whether the run has them: on or off.
@@ -66,6 +67,7 @@ impl Rerun {
     ) -> Result<Self, InvalidRerun> {
         let folder = RunFolder::new(folder);
         let archive = Archive::open(&folder)?;
+        // Two programs in one table would differ for reasons that no setting explains.
         require_program(&archive, &folder, program)?;
         let (sweep, settings) = changed(archive.sweep(), settings)?;
         let designs = filter.designs(&archive)?;
@@ -95,11 +97,13 @@ impl Rerun {
     ) -> Result<Finished, RunError> {
         let clock = Instant::now();
         let folder = self.folder.clone();
-        let journal = Journal::resume(&folder)?;
-        require_program(journal.archive(), &folder, program)?;
-        folder.remove_abandoned_files();
+        // Locked from here on; what was planned may have changed since, which only adds designs and reruns.
+        let journal = journal::resume(&folder)?;
+        require_program(journal.records(), &folder, program)?;
+        folder.make()?;
         progress(Progress::Begun { designs: self.designs.len() as u64, done: 0 });
-        let rerun = journal.archive().reruns() + 1;
+        // One number for all designs of this rerun, so that the table of changes tells which belong together.
+        let rerun = journal.records().reruns() + 1;
         let settings = self.settings.clone();
         let task = Task::new(&self.sweep, settings, rerun, clock, options.work);
         let mut run = Run::new(journal, folder, options, RunInfo::new(program, options, clock));
@@ -114,7 +118,7 @@ fn require_program(
     program: &Program,
 ) -> Result<(), JournalError> {
     let header = archive.header();
-    let wanted = JournalHeader::new(archive.sweep(), header.subset(), program);
+    let wanted = journal::header(archive.sweep(), header.subset(), program);
     header.require(&wanted, &folder.journal(), "the program that solved the others")
 }
 
@@ -123,6 +127,7 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
     let changed = Sweep::parse(&sweep.to_toml(), "definition", settings)?;
     for setting in settings {
         let is_shared = |parameter: &sweep::Parameter| {
+            // An axis that is set would give every design another place in the grid.
             sweep.grid().axis(parameter.key).is_none()
                 && changed.grid().axis(parameter.key).is_none()
         };
@@ -131,11 +136,13 @@ fn changed(sweep: &Sweep, settings: &[Setting]) -> Result<(Sweep, String), Inval
         }
     }
     let on_or_off = |sweep: &Sweep| if sweep.is_imperfect() { "on" } else { "off" };
+    // Imperfections bring columns of their own, and a table has one header.
     let (before, after) = (on_or_off(sweep), on_or_off(&changed));
     if before != after {
         return Err(InvalidRerun::Imperfection { before, after });
     }
     let (old, new) = (sweep.grid().base(), changed.grid().base());
+    // Only what differs is noted: a setting to the value that the sweep has anyway is none.
     let different = PARAMETERS.iter().filter(|p| p.get(old) != p.get(new));
     let texts: Vec<_> = different.map(|p| format!("{}={}", p.path(), p.get(new))).collect();
     Ok((changed, texts.join(&SEPARATOR.to_string())))

@@ -4,11 +4,12 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use results::{CsvFormat, RunFolder};
+use results::{CsvFormat, Derivation, RunFolder};
+use store::{Program, Start};
 use sweep::{Subset, SubsetDesigns, Sweep};
 
-use crate::journal::{Journal, JournalEntry, JournalHeader, SessionStart, Start};
-use crate::options::{Options, Program};
+use crate::journal::{self, Journal, JournalEntry, Line, SessionStart};
+use crate::options::Options;
 use crate::progress::{Finished, Progress, RunError};
 use crate::solve::groups::Groups;
 use crate::solve::task::Task;
@@ -39,12 +40,12 @@ pub fn run(
     SubsetDesigns::new(sweep.grid().len(), subset)?;
     let folder = RunFolder::new(folder);
     folder.make()?;
-    let journal = Journal::begin(&folder, JournalHeader::new(sweep, subset, program), start)?;
-    folder.remove_abandoned_files();
-    let removed = if start == Start::Fresh { folder.remove_derived() } else { Vec::new() };
-    let archive = journal.archive();
+    let journal = journal::begin(&folder, journal::header(sweep, subset, program), start)?;
+    let removed = if start == Start::Fresh { Derivation::remove_all(&folder) } else { Vec::new() };
+    let archive = journal.records();
     let (subset, missing) = (archive.designs().clone(), archive.missing());
     progress(Progress::Begun { designs: subset.len(), done: archive.done() });
+    // Tables of an earlier run must not stand beside a journal that knows nothing of them.
     if archive.done() == 0 {
         folder.remove_results();
     }
@@ -82,7 +83,8 @@ impl<'a> Run<'a> {
         options: &'a Options<'a>,
         info: RunInfo<'a>,
     ) -> Self {
-        let format = options.format.or(journal.archive().format()).unwrap_or_default();
+        // A run that goes on keeps the format of its tables, unless it is told another one.
+        let format = options.format.or(journal.records().format()).unwrap_or_default();
         let tables = TableWriter::new(folder, format, options, info);
         Self { journal, options, format, tables }
     }
@@ -95,7 +97,7 @@ impl<'a> Run<'a> {
         mut progress: impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let Options { threads, stop, .. } = *self.options;
-        self.journal.begin_session(SessionStart::now(threads, self.format))?;
+        self.journal.append(Line::Session(SessionStart::now(threads, self.format)))?;
         task.measure(designs.clone());
         let groups = Groups::new(task.grid(), designs);
         workers::solve(
@@ -114,9 +116,11 @@ impl<'a> Run<'a> {
         progress: &mut impl FnMut(Progress),
     ) -> Result<(), RunError> {
         let failed = entry.result.failed();
-        self.journal.append(entry)?;
+        // In the journal first: what is told as done survives a kill.
+        self.journal.append(Line::Design(Box::new(entry)))?;
         progress(Progress::Done { failed });
         if failed && self.options.fail_fast {
+            // Designs in hand are finished, as after a signal.
             self.options.stop.store(true, Ordering::Relaxed);
         }
         if self.tables.are_due() {

@@ -5,9 +5,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 use std::path::Path;
 
 use results::{Completeness, Derivation, RunFolder, VerifiedFolder};
+use store::JournalError;
 use sweep::DesignNumber;
 
-use crate::journal::{self, Archive, JournalEntry, JournalError};
+use crate::journal::{Archive, JournalEntry};
 
 /// The number of slowest designs that are listed.
 const SLOWEST: usize = 5;
@@ -46,7 +47,8 @@ impl RunStatus {
     /// If there is no run, or its journal is damaged.
     pub fn of(folder: &Path) -> Result<Self, JournalError> {
         let folder = RunFolder::new(folder);
-        let in_use = journal::in_use(&folder);
+        // Asked before the journal is read: a run that ends in between is told as going on, and not as short of designs.
+        let in_use = store::in_use(&folder.journal());
         let archive = Archive::open(&folder)?;
         let mut status = Self {
             in_use,
@@ -65,6 +67,7 @@ impl RunStatus {
 
     /// Checks the tables against what the run states of them, if nobody is writing them.
     fn check(&mut self, folder: &RunFolder) {
+        // Tables lag behind the journal while a run goes on; that is no fault.
         if self.in_use {
             return;
         }
@@ -88,6 +91,7 @@ impl RunStatus {
                 let reason = (failure.measure.key(), failure.outcome.text());
                 *self.reasons.entry(reason).or_default() += 1;
             }
+            // The quickest of six goes: memory stays the same for any number of designs.
             slowest.extend(Timed::new(&entry));
             if slowest.len() > SLOWEST {
                 slowest.pop();
@@ -101,6 +105,7 @@ impl RunStatus {
 
     /// Designs that are being solved: at most one for each thread of a run that goes on.
     pub fn running(&self) -> u64 {
+        // How many designs are in hand is not written anywhere; no thread has more than one.
         let threads = self.archive.sessions().last().map_or(1, |session| session.threads as u64);
         if self.in_use { threads.min(self.not_done()) } else { 0 }
     }

@@ -3,15 +3,18 @@
 mod audit;
 mod change;
 mod closed;
+mod mode;
 mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
+pub(crate) use mode::SkinMode;
 
 use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
     Force, Level, Pair, Pose,
 };
+use geometry::Parallelogram;
 use solver::{Change, Residual, Tangent};
 
 use crate::arrangement::Arrangement;
@@ -26,11 +29,11 @@ pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
 /// for.
 const HOLDS: f64 = 1.0;
 
-/// A state of a skin: its mode is the state of every contact.
-pub(crate) type SkinState = solver::State<Vec<CornerContact>>;
+/// A state of a skin.
+pub(crate) type SkinState = solver::State<SkinMode>;
 
 /// An equilibrium of a skin on its path.
-pub(crate) type SkinPoint = solver::Point<Vec<CornerContact>>;
+pub(crate) type SkinPoint = solver::Point<SkinMode>;
 
 /// The contacts between the neighbours of a row, and where their unknowns stand.
 ///
@@ -79,14 +82,25 @@ impl Contacts {
         self.arrangement.gap(scale)
     }
 
+    /// A scale at rest.
+    pub(crate) fn scale(&self, scale: usize) -> Parallelogram {
+        self.arrangement.scale(scale)
+    }
+
+    /// Distance of the node of a scale from that of the first, at rest.
+    pub(crate) fn place(&self, scale: usize) -> f64 {
+        self.arrangement.place(scale)
+    }
+
     /// Unknowns of the forces, which are the constraints of the system.
     pub(crate) fn forces(&self) -> &[usize] {
         &self.forces
     }
 
     /// The state of rest of all contacts.
-    pub(crate) fn open(&self) -> Vec<CornerContact> {
-        vec![CornerContact::Open; self.forces.len() / FORCES]
+    pub(crate) fn open(&self) -> SkinMode {
+        let contacts = vec![CornerContact::Open; self.forces.len() / FORCES];
+        SkinMode { contacts, ..SkinMode::default() }
     }
 
     /// The left scale of the pair that a constraint belongs to.

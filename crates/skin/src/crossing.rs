@@ -1,6 +1,6 @@
 //! Equilibria at chosen values of a quantity, solved for between the points of a path.
 
-use solver::{Path, Point, State, System};
+use solver::{Bracket, Path, Point, State, System};
 
 /// A quantity counts as at its value where it is off by less than this, relative to one plus its size.
 const CLOSE: f64 = 1e-12;
@@ -9,85 +9,78 @@ const CLOSE: f64 = 1e-12;
 const EVALUATIONS: usize = 100;
 
 /// A place of a path: where a quantity first takes a value.
-pub(crate) struct Crossing<Q> {
+pub(crate) struct Crossing<S: System> {
     /// The quantity, a function of system and state.
-    pub(crate) quantity: Q,
+    pub(crate) quantity: fn(&S, &State<S::Mode>) -> f64,
     /// The value that the quantity takes there.
     pub(crate) value: f64,
 }
 
-/// Follows `path` until every crossing is found or the path ends, and returns the equilibrium of each.
-pub(crate) fn follow<S, Q>(
-    path: &mut Path<S>,
-    crossings: &[Crossing<Q>],
-) -> Vec<Option<State<S::Mode>>>
-where
-    S: System,
-    Q: Fn(&S, &State<S::Mode>) -> f64,
-{
-    let start = &path.point().state;
-    let at_start =
-        |crossing: &Crossing<Q>| crossing.is_at(path.system(), start).then(|| start.clone());
-    let mut found: Vec<_> = crossings.iter().map(at_start).collect();
-    while found.contains(&None) {
-        let from = path.point().clone();
-        let Some(to) = path.next() else { break };
-        for (crossing, found) in crossings.iter().zip(&mut found).filter(|(_, f)| f.is_none()) {
-            *found = crossing.between(path, &from, &to);
-        }
-    }
-    found
-}
-
-impl<Q> Crossing<Q> {
-    fn off<S: System>(&self, system: &S, state: &State<S::Mode>) -> f64
-    where
-        Q: Fn(&S, &State<S::Mode>) -> f64,
-    {
+impl<S: System> Crossing<S> {
+    fn off(&self, system: &S, state: &State<S::Mode>) -> f64 {
         (self.quantity)(system, state) - self.value
     }
 
-    fn is_at<S: System>(&self, system: &S, state: &State<S::Mode>) -> bool
-    where
-        Q: Fn(&S, &State<S::Mode>) -> f64,
-    {
+    fn is_at(&self, system: &S, state: &State<S::Mode>) -> bool {
         self.off(system, state).abs() <= CLOSE * (1.0 + self.value.abs())
     }
 
-    /// The equilibrium between two neighbouring points at which the quantity has its value: by
-    /// the secant through the ends of a bracket, with the Illinois rule.
-    pub(crate) fn between<S: System>(
+    /// The equilibrium between two neighbouring points at which the quantity has its value.
+    pub(crate) fn between(
         &self,
         path: &mut Path<S>,
         from: &Point<S::Mode>,
         to: &Point<S::Mode>,
-    ) -> Option<State<S::Mode>>
-    where
-        Q: Fn(&S, &State<S::Mode>) -> f64,
-    {
-        let mut low = (0.0, self.off(path.system(), &from.state));
-        let mut high = (1.0, self.off(path.system(), &to.state));
+    ) -> Option<Point<S::Mode>> {
+        let low = (0.0, self.off(path.system(), &from.state));
+        let high = (1.0, self.off(path.system(), &to.state));
         if self.is_at(path.system(), &to.state) {
-            return Some(to.state.clone());
+            return Some(to.clone());
         }
         if low.1.signum() == high.1.signum() {
             return None;
         }
+        let mut bracket = Bracket::new(low, high);
         for _ in 0..EVALUATIONS {
-            let fraction = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            let state = path.between(from, to, fraction)?.state;
-            let off = self.off(path.system(), &state);
-            if self.is_at(path.system(), &state) || (high.0 - low.0).abs() < f64::EPSILON {
-                return Some(state);
+            let fraction = bracket.secant();
+            let point = path.between(from, to, fraction)?;
+            if self.is_at(path.system(), &point.state) || bracket.width() < f64::EPSILON {
+                return Some(point);
             }
-            if off.signum() == high.1.signum() {
-                high = (fraction, off);
-                low.1 *= 0.5;
-            } else {
-                low = (fraction, off);
-                high.1 *= 0.5;
-            }
+            bracket.narrow(fraction, self.off(path.system(), &point.state));
         }
         None
+    }
+}
+
+/// Looks along a path for the equilibria at which it first comes to some places.
+pub(crate) struct PlaceWatch<S: System> {
+    places: Vec<Crossing<S>>,
+    /// `None` where the path has not got there.
+    pub(crate) found: Vec<Option<Point<S::Mode>>>,
+}
+
+impl<S: System> PlaceWatch<S> {
+    /// Begins at the start of a path.
+    pub(crate) fn new(path: &Path<S>, places: impl IntoIterator<Item = Crossing<S>>) -> Self {
+        let places: Vec<_> = places.into_iter().collect();
+        let start = path.point();
+        let is_start = |place: &Crossing<S>| place.is_at(path.system(), &start.state);
+        let found = places.iter().map(|place| is_start(place).then(|| start.clone())).collect();
+        Self { places, found }
+    }
+
+    /// Looks between two points of the path.
+    pub(crate) fn follow(
+        &mut self,
+        path: &mut Path<S>,
+        from: &Point<S::Mode>,
+        to: &Point<S::Mode>,
+    ) {
+        for (place, found) in self.places.iter().zip(&mut self.found) {
+            if found.is_none() {
+                *found = place.between(path, from, to);
+            }
+        }
     }
 }

@@ -3,7 +3,9 @@
 mod bars;
 mod ending;
 mod fold;
+mod growing;
 mod measures;
+mod needle;
 mod number_list;
 mod odd_scale;
 mod point;
@@ -17,25 +19,28 @@ mod system;
 mod tests;
 mod tilts;
 mod watch;
-mod window;
 
 use contact::ContactLaw;
 use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
+use growing::GrowingPath;
+use needle::{NEEDLE_UNKNOWNS, PassageWatch};
 use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
-use surroundings::{Beyond, Reach, Surroundings};
+use surroundings::{Beyond, Surroundings};
 use system::{Chain, Layout};
 use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
-use crate::contacts::{SkinPoint, SkinState};
-use crate::record::{ContactEvent, Iteration, PathFunction, Record};
+use crate::contacts::SkinPoint;
+use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
 use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
+pub(crate) use needle::NeedleMode;
+pub use needle::{CriticalEvent, Needle, Passage};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
@@ -44,6 +49,9 @@ pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
 pub use tilts::TiltMeasures;
+
+/// Tilt below which a scale under a guided needle is pushed straight down, degrees: round-off of a symmetric row.
+const STRAIGHT_DEG: f64 = 1e-6;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -76,6 +84,8 @@ pub struct PunctureParameters {
     pub substrate_law: SubstrateLaw,
     /// Tilts at which measures are taken on the way, degrees.
     pub tilts_deg: NumberList,
+    /// How the needle is held.
+    pub needle: Needle,
 }
 
 impl Default for PunctureParameters {
@@ -89,6 +99,7 @@ impl Default for PunctureParameters {
             critical_tilt_deg: 10.0,
             substrate_law: SubstrateLaw::Linear,
             tilts_deg: NumberList::default(),
+            needle: Needle::Free,
         }
     }
 }
@@ -190,6 +201,7 @@ impl PunctureParameters {
 /// A path that was followed to its end.
 struct Followed {
     watch: PathWatch,
+    passage: Passage,
     path: Path<Chain>,
     status: Status,
 }
@@ -197,21 +209,25 @@ struct Followed {
 impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
-        let Self { watch, mut path, status } = self;
-        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts } = watch;
+        let Self { watch, passage, mut path, status } = self;
+        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, .. } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
+        measures.passage = passage;
         let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
         };
-        let scales = scales(path.system(), &path.point().state);
+        let chain = path.system();
+        let scales = scales(chain, &path.point().state);
+        let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
+        let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
         let Record { path, events, history, .. } = record;
         Puncture {
             status,
             measures,
-            at_tilts: tilts.finish(),
+            at_tilts,
             path,
             instability,
             events,
@@ -270,13 +286,16 @@ impl<'a> Problem<'a> {
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
         let (start, longest) = self.start()?;
-        Ok(self.follow(start, longest, &[])?.puncture())
+        Ok(self.follow(start, longest, &[], &[])?.puncture())
     }
 
     /// The system with which the path begins, and the longest row that it may grow to.
     fn start(&self) -> Result<(Chain, usize), OutOfRange> {
         let law = self.parameters.substrate_law;
-        let first = |far: &FarField| Layout::first(far, self.stiffness.neighbours.len(), law);
+        let first = |far: &FarField| {
+            let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
+            Layout { needle: self.needle_unknowns(), ..layout }
+        };
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(first);
             return Ok((self.part(first.unwrap_or_default())?, LONGEST_ROW));
@@ -287,78 +306,54 @@ impl<'a> Problem<'a> {
         Ok((self.part(layout)?, whole.scales()))
     }
 
+    /// Unknowns of the needle behind the load.
+    fn needle_unknowns(&self) -> usize {
+        if self.parameters.needle.is_guided() { NEEDLE_UNKNOWNS } else { 0 }
+    }
+
     /// All of a row that ends.
     fn whole(&self) -> Option<Layout> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                Some(Layout { left, right: scales - 1 - left })
+                Some(Layout { left, right: scales - 1 - left, needle: self.needle_unknowns() })
             }
             RowLength::Auto => None,
         }
     }
 
-    /// Follows the path on as much of an endless row as the deformation reaches, at most the `longest`.
-    #[cfg(test)]
-    fn grow(&self, longest: usize) -> Result<Puncture, OutOfRange> {
-        Ok(self.follow(self.start()?.0, longest, &[])?.puncture())
-    }
-
-    /// Follows the path of a row until it ends. A part of a longer row may grow up to the `longest`.
+    /// Follows the path of a row until it ends, and notes where it comes to `places`. A part of a longer row may grow up to the
+    /// `longest`.
     fn follow(
         &self,
         chain: Chain,
         longest: usize,
         functions: &[PathFunction<Chain>],
+        places: &[At],
     ) -> Result<Followed, OutOfRange> {
-        let rest = SkinState::at_rest(&chain);
-        let mut path = Path::new(chain, rest, self.settings);
-        let mut watch = PathWatch::new(&path, self.parameters.tilts_deg, functions);
-        let mut has_room = true;
-        while has_room {
-            let before = path.point_shared();
-            let Some(point) = path.next() else { break };
-            let reach = path.system().reach(&point.state);
-            let is_beyond = reach.contains(&Reach::Beyond);
-            if !is_beyond {
-                watch.follow(&mut path, &before, &point);
-            }
-            if reach != [Reach::Short; 2] {
-                // What lies beyond may have touched within the step: it is taken again.
-                let from = if is_beyond { &before } else { &point };
-                has_room = self.lengthen(&mut path, &mut watch, from, reach, longest)?;
-            }
+        let mut growing = GrowingPath::new(self, chain, longest);
+        let mut watch = PathWatch::new(&growing.path, self.parameters.tilts_deg, functions, places);
+        let mut passage = PassageWatch::default();
+        while let Some(segment) = growing.next()? {
+            watch.follow(&mut growing.path, &segment);
+            passage.follow(growing.path.system(), &segment);
         }
-        let status = if has_room {
-            let status = Status::of(&path, path.stop().unwrap_or(Stop::Reached));
-            ending::judged(status, &watch.record.path)
-        } else {
-            Status::RowLimit
+        // What was kept of shorter rows is looked at, from here on, on the row as it is in the end.
+        watch.lengthen(&growing);
+        let path = growing.path;
+        let passage = passage.finish(path.system(), &path.point().state);
+        let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
+        // A scale that is pushed in its middle may go either way from some load on: there its path branches.
+        let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
+        let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
+            _ if !growing.has_room => Status::RowLimit,
+            Status::Complete if is_untilted => Status::Untilted,
+            Status::Stopped(Stop::NoConvergence) if is_untilted && is_straight() => {
+                Status::Untilted
+            }
+            status => ending::judged(status, &watch.record.path),
         };
-        Ok(Followed { watch, path, status })
-    }
-
-    /// Lets the path go on from a point on a longer row. `false` if the row may not grow any more.
-    fn lengthen(
-        &self,
-        path: &mut Path<Chain>,
-        watch: &mut PathWatch,
-        from: &SkinPoint,
-        reach: [Reach; 2],
-        longest: usize,
-    ) -> Result<bool, OutOfRange> {
-        let layout = path.system().layout;
-        let longer = layout.grown(reach, longest);
-        let longer = self.whole().map_or(longer, |whole| longer.within(whole));
-        if longer == layout {
-            return Ok(false);
-        }
-        let chain = self.part(longer)?;
-        let from = chain.extended(path.system(), from);
-        let longer = |point: &SkinPoint| chain.extended(path.system(), point);
-        watch.replace_points(longer, &from);
-        path.go_on(chain, from);
-        Ok(true)
+        Ok(Followed { watch, passage, path, status })
     }
 
     /// The system of a part of the row.
@@ -373,7 +368,9 @@ impl<'a> Problem<'a> {
             }
         });
         let surroundings = Surroundings::new(self.rows, layout, beyond)?;
-        Ok(self.chain(layout)?.within(surroundings))
+        let (row, length) = (self.rows.row(layout)?, self.design.length);
+        let Self { stiffness, law, parameters, .. } = self;
+        Ok(Chain::new(row, stiffness, *law, layout, surroundings, parameters, length))
     }
 
     /// The effect of so many scales beyond an end, or of a row without end.
@@ -382,18 +379,6 @@ impl<'a> Problem<'a> {
             None => self.endless.clone(),
             _ => far_field(self.design, &self.stiffness, scales),
         }
-    }
-
-    /// The system of a row with nothing beyond it.
-    fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
-        let Self { stiffness, law, parameters, .. } = self;
-        let row = self.rows.row(layout)?;
-        let tilt = parameters.critical_tilt_deg.to_radians();
-        let length = self.design.length;
-        let position = parameters.load_position;
-        let mut chain = Chain::new(row, stiffness, *law, layout, position, tilt, length);
-        chain.plane_modulus = 1.0 / (1.0 - parameters.poisson_ratio.powi(2));
-        Ok(chain.with_law(parameters.substrate_law))
     }
 }
 

@@ -1,11 +1,12 @@
 //! The record of a path, of a row that is punctured or of a strip that is bent.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
-use contact::{CornerContact, CornerEdge};
+use contact::CornerEdge;
 use solver::{Change, Path, Peak, Summit, System};
 
-use crate::contacts::{ContactChange, Contacts, SkinPoint, SkinState};
+use crate::contacts::{ContactChange, Contacts, SkinMode, SkinPoint, SkinState};
 
 /// A contact that changes its state: it opens, closes or passes a corner.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +36,7 @@ pub struct Iteration {
 }
 
 /// A row or a strip of scales whose path is recorded.
-pub(crate) trait Skin: System<Mode = Vec<CornerContact>> {
+pub(crate) trait Skin: System<Mode = SkinMode> {
     /// The numbers that are recorded of an equilibrium.
     type PathPoint: Copy;
 
@@ -67,15 +68,13 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
     initial_stiffness: f64,
-    stiffness: Peak<Vec<CornerContact>>,
+    stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
-    stiffness_summit: OnceCell<Option<Summit<Vec<CornerContact>>>>,
+    stiffness_summit: OnceCell<Option<Summit<SkinMode>>>,
     /// Further functions of which the largest value is searched.
-    followed: Vec<(PathFunction<S>, Peak<Vec<CornerContact>>)>,
+    followed: Vec<(PathFunction<S>, Peak<SkinMode>)>,
     /// The equilibrium at which the first contact closes.
-    touching: Option<SkinPoint>,
-    /// The contacts of the last point.
-    before: Vec<CornerContact>,
+    pub(crate) touching: Option<SkinPoint>,
 }
 
 impl<S: Skin> Record<S> {
@@ -91,14 +90,13 @@ impl<S: Skin> Record<S> {
             stiffness_summit: OnceCell::new(),
             followed: functions.iter().map(|&f| (f, Peak::default())).collect(),
             touching: None,
-            before: start.state.mode.clone(),
         };
-        record.visit_peaks(path);
+        record.visit_peaks(path, None);
         record
     }
 
-    /// Records the point that the path has come to.
-    pub(crate) fn visit(&mut self, path: &mut Path<S>, point: &SkinPoint) {
+    /// Records the `point` that the path has come to, `from` the one before.
+    pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
         let skin = path.system();
         let (here, step) = (skin.path_point(point), self.path.len());
@@ -106,7 +104,8 @@ impl<S: Skin> Record<S> {
         let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
         self.history.extend(residuals.into_iter().enumerate().map(iteration));
         if let Some(solver::Event::Changed(changes)) = &point.event {
-            let event = |&change: &Change| self.event(skin, &point.state, here, change);
+            let event =
+                |&change: &Change| Self::event(skin, [&from.state, &point.state], here, change);
             let events: Vec<_> = changes.iter().filter_map(event).collect();
             if self.touching.is_none()
                 && events.iter().any(|event| event.change == ContactChange::Closed)
@@ -116,47 +115,43 @@ impl<S: Skin> Record<S> {
             self.events.extend(events);
         }
         self.path.push(here);
-        self.visit_peaks(path);
-        self.before.clone_from(&point.state.mode);
+        self.visit_peaks(path, Some(from));
     }
 
-    fn visit_peaks(&mut self, path: &Path<S>) {
+    fn visit_peaks(&mut self, path: &Path<S>, from: Option<&Arc<SkinPoint>>) {
         self.stiffness_summit.take();
-        self.stiffness.visit(path, S::stiffness);
+        self.stiffness.visit(path, from, S::stiffness);
         for (f, peak) in &mut self.followed {
-            peak.visit(path, *f);
+            peak.visit(path, from, *f);
         }
     }
 
-    /// Takes the points that are kept to those of a longer row, where the path goes on from `here`.
-    pub(crate) fn replace_points(
-        &mut self,
-        new: impl Fn(&SkinPoint) -> SkinPoint,
-        here: &SkinPoint,
-    ) {
-        self.touching = self.touching.as_ref().map(&new);
+    /// Takes the points that are kept for maxima to those of a longer row.
+    pub(crate) fn replace_points(&mut self, new: impl Fn(&SkinPoint) -> SkinPoint) {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
         }
         self.stiffness_summit.take();
         self.stiffness.replace_points(new);
-        self.before.clone_from(&here.state.mode);
     }
 
-    /// The event of a force that has changed sides, in the state after it.
+    /// The event of a force that has changed sides between two states.
     fn event(
-        &self,
         skin: &S,
-        after: &SkinState,
+        [before, after]: [&SkinState; 2],
         point: S::PathPoint,
         change: Change,
     ) -> Option<ContactEvent<S::PathPoint>> {
+        if change.constraint >= skin.contacts().forces().len() {
+            // A guided needle has changes of its own.
+            return None;
+        }
         let corner_edge = |mode| Contacts::corner_edge(mode, change.constraint);
         Some(ContactEvent {
             point,
             left_scale: skin.number(Contacts::left_of(change.constraint)),
             // A contact that has opened had its corner and edge before.
-            corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&self.before))?,
+            corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
             change: ContactChange::of(after, change),
         })
     }

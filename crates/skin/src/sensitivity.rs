@@ -7,7 +7,7 @@
 
 mod places;
 
-use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings, System};
+use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
 
 use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
@@ -165,8 +165,12 @@ struct Linearised<'a, S: Skin> {
     turns: bool,
 }
 
-/// How a place moves on the left of a parameter and, unless alike, on the right.
-type BothSides<S> = (SideMotion<<S as System>::Mode>, Option<SideMotion<<S as System>::Mode>>);
+/// How a place moves on both sides of a parameter.
+struct Sides<M> {
+    left: SideMotion<M>,
+    /// `None` where the place moves on the right as on the left.
+    right: Option<SideMotion<M>>,
+}
 
 /// How a place moves on one side of a parameter.
 struct SideMotion<M> {
@@ -177,28 +181,23 @@ struct SideMotion<M> {
 }
 
 impl<S: Skin> Linearised<'_, S> {
-    /// How the place moves on both sides of a parameter. The right side is `None` where it moves as on the left.
-    fn sides(&mut self, variation: &Variation<S>) -> BothSides<S> {
-        let neighbours = &variation.neighbours;
+    /// How the place moves on both sides of a parameter.
+    fn sides(&mut self, Variation { neighbours, right }: &Variation<S>) -> Sides<S::Mode> {
         let moved = self.here.moved(self.system, neighbours, self.turns);
-        let [left, right] = [&neighbours.below, &neighbours.above]
-            .into_iter()
-            .zip(&moved)
-            .map(|(system, moved)| self.here.violated(system, moved))
-            .collect::<Vec<_>>()
-            .try_into()
-            .unwrap_or([None; 2]);
-        if let Some((neighbours, _)) = &variation.right {
-            let beyond = self.here.moved(self.system, neighbours, self.turns);
-            let right = self.here.violated(&neighbours.above, &beyond[1]);
-            let right = self.side(neighbours, 1, beyond, right);
-            return (self.side(&variation.neighbours, 0, moved, left), Some(right));
+        let on_left = self.here.violated(&neighbours.below, &moved[0]);
+        if let Some((beyond, _)) = right {
+            // The problem itself has a kink here: the right side has neighbours of its own.
+            let moved_beyond = self.here.moved(self.system, beyond, self.turns);
+            let on_right = self.here.violated(&beyond.above, &moved_beyond[1]);
+            let right = self.side(beyond, 1, moved_beyond, on_right);
+            return Sides { left: self.side(neighbours, 0, moved, on_left), right: Some(right) };
         }
-        if (left, right) == (None, None) {
-            return (SideMotion { moved: Some(moved), change: None }, None);
+        let on_right = self.here.violated(&neighbours.above, &moved[1]);
+        if (on_left, on_right) == (None, None) {
+            return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
         }
-        let right = self.side(neighbours, 1, moved.clone(), right);
-        (self.side(neighbours, 0, moved, left), Some(right))
+        let right = self.side(neighbours, 1, moved.clone(), on_right);
+        Sides { left: self.side(neighbours, 0, moved, on_left), right: Some(right) }
     }
 
     /// How the place moves on one side, where `violated` is the first contact that has to change.
@@ -228,6 +227,9 @@ impl<S: Skin> Linearised<'_, S> {
 
     /// The change of a contact in words.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
+        if change.constraint >= self.system.contacts().forces().len() {
+            return "the needle moves otherwise".to_owned();
+        }
         let edge = |state: &SkinState| Contacts::corner_edge(&state.mode, change.constraint);
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
         let scale = self.system.number(Contacts::left_of(change.constraint));
@@ -237,6 +239,11 @@ impl<S: Skin> Linearised<'_, S> {
 }
 
 impl<S: Skin> MeasuredQuantity<S> {
+    /// The value at a place.
+    pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
+        self.value_at(system, place).value
+    }
+
     /// The value at a place, and those of several that may be the extreme one beside it.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> Contenders {
         let count = match self.extreme {
@@ -261,27 +268,28 @@ impl<S: Skin> MeasuredQuantity<S> {
     fn derivative(
         &self,
         variation: &Variation<S>,
-        (left, right): &BothSides<S>,
+        Sides { left, right }: &Sides<S::Mode>,
         Contenders { value, numbers }: &Contenders,
     ) -> SidedDerivative {
-        let beyond = variation.right.as_ref();
-        let of_right = beyond.map_or(&variation.neighbours, |(neighbours, _)| neighbours);
-        let left_rate = self.rate(&variation.neighbours, left, 0, numbers);
-        let right_rate = match right {
-            None if numbers.len() == 1 => left_rate,
-            right => self.rate(of_right, right.as_ref().unwrap_or(left), 1, numbers),
+        let Variation { neighbours, right: beyond } = variation;
+        let left_rate = self.rate(neighbours, left, 0, numbers);
+        let right_rate = if right.is_none() && numbers.len() == 1 {
+            left_rate
+        } else {
+            let neighbours = beyond.as_ref().map_or(neighbours, |(neighbours, _)| neighbours);
+            self.rate(neighbours, right.as_ref().unwrap_or(left), 1, numbers)
         };
-        let named = right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
-        let kink = || match (named, beyond) {
+        let change =
+            right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
+        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
+        let jumps = self.turns && change.is_some();
+        let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
+        let rates = [left_rate, right_rate].map(known);
+        SidedDerivative::new(rates, *value, neighbours.step, || match (change, beyond) {
             (Some(change), _) => change.clone(),
             (None, Some((_, name))) => (*name).to_owned(),
             (None, None) => "another scale takes over".to_owned(),
-        };
-        // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
-        let jumps = self.turns && named.is_some();
-        let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
-        let rates = [left_rate, right_rate].map(known);
-        SidedDerivative::new(rates, *value, variation.neighbours.step, kink)
+        })
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.

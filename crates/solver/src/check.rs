@@ -76,12 +76,12 @@ pub fn check_tangent<S: System>(
 fn used<S: System>(system: &S, state: &State<S::Mode>) -> Vec<usize> {
     let constraints = system.constraints().iter().zip(&state.active);
     let vanish: Vec<usize> = constraints.filter(|(_, active)| !**active).map(|(&c, _)| c).collect();
-    (0..system.size()).filter(|index| vanish.binary_search(index).is_err()).collect()
+    (0..system.size()).filter(|index| !vanish.contains(index)).collect()
 }
 
 /// Derivatives of all equations with respect to an unknown, by central differences.
 fn difference<S: System>(system: &S, state: &State<S::Mode>, column: usize) -> Vec<f64> {
-    let is_constraint = system.constraints().binary_search(&column).is_ok();
+    let is_constraint = system.constraints().contains(&column);
     let size = state.z[column].abs();
     let step = STEP * if is_constraint { size } else { size.max(SMALL) };
     let at = |step: f64| {

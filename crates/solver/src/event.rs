@@ -1,5 +1,6 @@
 //! Events on the path: where they are.
 
+use crate::bracket::Bracket;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure, guard_slope};
 use crate::path::{Candidate, Path, Point};
 use crate::system::{State, System};
@@ -63,8 +64,8 @@ impl<S: System> Path<S> {
         let located = self.locate_from(from, state, constraint).ok()?;
         let condition = self.condition(from);
         let reached = condition.of(&located.state.z) - condition.value;
-        let within =
-            (0.0..=FARTHER * distance).contains(&reached) && self.progress(&located.state.z) <= 1.0;
+        let within = (0.0..=FARTHER * distance).contains(&reached)
+            && self.progress(&located.state.z) <= self.system.target();
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
@@ -150,9 +151,12 @@ impl<S: System> Path<S> {
         mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        if from.event.as_ref().is_some_and(|event| event.changes(constraint)) {
-            // It has just changed sides, and the path leaves in the direction in which it stays
-            // valid: a step that ends otherwise was too long.
+        let changed = from.event.as_ref().is_some_and(|event| event.changes(constraint));
+        let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
+        if changed || rises {
+            // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the
+            // direction in which it stays valid: a step that ends otherwise was too long. To look for its zero would lead back
+            // to where the path is, and from there the way that it came.
             return Err(NewtonFailure::TooManyIterations);
         }
         // Each round finds an event before the last one, so as many rounds as constraints do.
@@ -195,14 +199,11 @@ impl<S: System> Path<S> {
         mut state: State<S::Mode>,
         constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let direction = self.newton.locate(
-            &self.system,
-            &mut state,
-            &self.condition(from),
-            constraint,
-            &self.settings,
-        )?;
-        Ok(Candidate { state, direction: self.normalised(direction), event: None })
+        let condition = self.condition(from);
+        let direction =
+            self.newton.locate(&self.system, &mut state, &condition, constraint, &self.settings)?;
+        let is_positive = self.newton.is_positive(&condition, &direction);
+        Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
     /// The candidate as an event: one constraint changes sides, others may do so with it.
@@ -212,7 +213,7 @@ impl<S: System> Path<S> {
         constraint: usize,
         guards: &[f64],
     ) -> Candidate<S::Mode> {
-        let Candidate { state, direction, .. } = located;
+        let Candidate { state, direction, is_positive, .. } = located;
         let closing = |c: usize| {
             guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
@@ -221,42 +222,54 @@ impl<S: System> Path<S> {
             .chain(others)
             .map(|constraint| Change { constraint, activated: !state.active[constraint] })
             .collect();
-        Candidate { state, direction, event: Some(Event::Changed(changes)) }
+        Candidate { state, direction, event: Some(Event::Changed(changes)), is_positive }
     }
 
-    /// Whether the load has an extremum between the point and the candidate.
-    pub(crate) fn turns(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+    /// Cuts a step short where a rate vanishes within it: that of the load, or that of a constraint whose unknown only grows.
+    pub(crate) fn up_to_turn(
+        &mut self,
+        from: &Point<S::Mode>,
+        mut candidate: Candidate<S::Mode>,
+    ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        from.event != Some(Event::LoadExtremum)
-            && from.leaving[load] * candidate.direction[load] < 0.0
+        let turns = from.leaving[load] * candidate.direction[load] < 0.0;
+        if turns && from.event != Some(Event::LoadExtremum) {
+            candidate = self.extremum(from, &candidate, load)?;
+            candidate.event = Some(Event::LoadExtremum);
+        }
+        for number in 0..self.system.growing().len() {
+            let constraint = self.system.growing()[number];
+            let unknown = self.system.constraints()[constraint];
+            let grows = from.state.active[constraint] && from.leaving[unknown] > 0.0;
+            if grows && candidate.direction[unknown] < 0.0 {
+                candidate = self.extremum(from, &candidate, unknown)?;
+                candidate.event =
+                    Some(Event::Changed(vec![Change { constraint, activated: false }]));
+            }
+        }
+        Ok(candidate)
     }
 
-    /// The point where the load turns, by the Illinois variant of the false position
-    /// (Dowell & Jarratt 1971, doi 10.1007/BF01934364).
-    pub(crate) fn extremum(
+    /// The point where an unknown turns.
+    fn extremum(
         &mut self,
         from: &Point<S::Mode>,
         beyond: &Candidate<S::Mode>,
+        unknown: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let load = self.system.load();
         let condition = self.condition(from);
-        let (mut low, mut high) = (0.0, condition.of(&beyond.state.z) - condition.value);
-        let (mut f_low, mut f_high) = (from.leaving[load], beyond.direction[load]);
-        let span = high;
+        let span = condition.of(&beyond.state.z) - condition.value;
+        let start = from.leaving[unknown];
+        // Not halved every time: extrema of the load are kept to the last digit of what they were with this rule.
+        let mut bracket = Bracket::patient((0.0, start), (span, beyond.direction[unknown]));
         for _ in 0..MAX_ROUNDS {
-            let distance = (low * f_high - high * f_low) / (f_high - f_low);
-            let mut candidate = self.trial(from, distance)?;
-            let f = candidate.direction[load];
-            if (high - low).abs() <= CLOSE * span || f.abs() <= CLOSE * from.leaving[load].abs() {
-                candidate.event = Some(Event::LoadExtremum);
+            let distance = bracket.secant();
+            let candidate = self.trial(from, distance)?;
+            let rate = candidate.direction[unknown];
+            if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }
-            if f * f_high < 0.0 {
-                (low, f_low) = (high, f_high);
-            } else {
-                f_low *= 0.5;
-            }
-            (high, f_high) = (distance, f);
+            bracket.narrow(distance, rate);
         }
         Err(NewtonFailure::TooManyIterations)
     }
@@ -264,6 +277,15 @@ impl<S: System> Path<S> {
     /// Whether a load that only pushes would have to pull at the candidate.
     pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
         self.system.load_only_pushes() && candidate.state.z[self.system.load()] < 0.0
+    }
+
+    /// Whether what carries the load lets go of it at the candidate, to round-off: the path ends there as where it pulls.
+    pub(crate) fn lets_go(&self, candidate: &Candidate<S::Mode>) -> bool {
+        let load = self.system.load();
+        self.system.load_only_pushes()
+            && matches!(candidate.event, Some(Event::Changed(_)))
+            && candidate.state.z[load].abs() <= FLOOR
+            && candidate.direction[load] < 0.0
     }
 
     /// The point before `beyond` where the load comes back to zero.
@@ -276,8 +298,7 @@ impl<S: System> Path<S> {
         let (start, end) = (from.state.z[load].max(0.0), beyond.state.z[load]);
         let state = from.state.interpolated(&beyond.state, start / (start - end));
         // The load falls as the path goes on.
-        let mut candidate =
-            self.correct(state, &Condition { row: vec![(load, -1.0)], value: 0.0 })?;
+        let mut candidate = self.correct(state, &Condition::new(vec![(load, -1.0)], 0.0))?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }

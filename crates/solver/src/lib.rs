@@ -23,6 +23,7 @@
 //! | [`BandMatrix`], [`BandLu`] | linear solves where blocks are not safe, or are not stated |
 //! | [`Linearisation`], [`AnchoredPoint`], [`PathAnchor`], [`Neighbours`], [`Moved`] | derivatives of an equilibrium with respect to a parameter of the system |
 //! | [`SkylineMatrix`], [`SkylineFactors`] | symmetric matrices, and how many negative eigenvalues they have |
+//! | [`Bracket`] | a root between two places, by the false position |
 //! | [`check_tangent`] | derivatives of a system against differences of its residual |
 //!
 //! ```
@@ -65,6 +66,7 @@
 
 mod block_elimination;
 mod block_matrix;
+mod bracket;
 mod check;
 mod event;
 mod linear;
@@ -82,6 +84,7 @@ mod tangent_solver;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, LINK};
+pub use bracket::Bracket;
 pub use check::{WrongDerivative, check_tangent};
 pub use event::{Change, Event, dip};
 pub use linear::{BandLu, BandMatrix, SingularMatrix};

@@ -31,7 +31,6 @@ const PROMISING: f64 = 0.95;
 #[derive(Clone, Debug)]
 pub struct Peak<M = ()> {
     best: Option<Best<M>>,
-    last: Option<Arc<Point<M>>>,
     /// Promising segments between kinks.
     kinks: Vec<KinkSegment<M>>,
 }
@@ -56,31 +55,34 @@ struct Best<M> {
 
 impl<M> Default for Peak<M> {
     fn default() -> Self {
-        Self { best: None, last: None, kinks: Vec::new() }
+        Self { best: None, kinks: Vec::new() }
     }
 }
 
 impl<M> Peak<M> {
-    /// Takes the point that `path` has come to into account.
-    pub fn visit<S>(&mut self, path: &Path<S>, f: impl Fn(&S, &State<M>, &[f64]) -> f64)
-    where
+    /// Takes the point that `path` has come to into account, which came `from` the point before, if there is one.
+    pub fn visit<S>(
+        &mut self,
+        path: &Path<S>,
+        from: Option<&Arc<Point<M>>>,
+        f: impl Fn(&S, &State<M>, &[f64]) -> f64,
+    ) where
         S: System<Mode = M>,
     {
         let here = Arc::clone(&path.point);
         let at = |direction: &[f64]| f(&path.system, &here.state, direction);
         let value = at(&here.arriving).max(at(&here.leaving));
-        let kink = self.last.as_ref().filter(|last| last.event.is_some() || here.event.is_some());
+        let kink = from.filter(|from| from.event.is_some() || here.event.is_some());
         if let Some(from) = kink.map(Arc::clone) {
             let value = at(&here.arriving).max(f(&path.system, &from.state, &from.leaving));
             self.kinks.push(KinkSegment { from, to: Arc::clone(&here), value });
         }
         if self.best.as_ref().is_none_or(|best| value > best.value) {
-            let (before, point) = (self.last.take(), Arc::clone(&here));
+            let (before, point) = (from.cloned(), Arc::clone(&here));
             self.best = Some(Best { value, before, point, after: None });
         } else if let Some(best) = &mut self.best {
             best.after.get_or_insert_with(|| Arc::clone(&here));
         }
-        self.last = Some(here);
         let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
         self.kinks.retain(|segment| segment.value >= least);
     }
@@ -90,29 +92,15 @@ impl<M> Peak<M> {
         self.best.as_ref().map(|best| &*best.point)
     }
 
-    /// Replaces the points that are kept, where the path has gone on with another system.
+    /// Replaces the points that are kept, where the path has gone on with another system, before maxima are looked for on it.
     pub fn replace_points(&mut self, new: impl Fn(&Point<M>) -> Point<M>) {
         let best = self.best.iter_mut().flat_map(|best| {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
         let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
-        for point in best.chain(&mut self.last).chain(kinks) {
+        for point in best.chain(kinks) {
             *point = Arc::new(new(point));
         }
-    }
-
-    /// The largest value on the path, the segments next to the best of the points visited, and promising ones next to
-    /// kinks, included. `None` if none was visited. Away from kinks, steps must be small enough for the highest maximum to
-    /// show at a point beside it.
-    pub fn refined<S>(
-        &self,
-        path: &mut Path<S>,
-        f: impl Fn(&S, &State<M>, &[f64]) -> f64,
-    ) -> Option<f64>
-    where
-        S: System<Mode = M>,
-    {
-        Some(self.summit(path, f)?.value)
     }
 
     /// The largest value at the points visited, with its place. `None` if none was.
@@ -122,7 +110,9 @@ impl<M> Peak<M> {
         Some(Summit { value: *value, point, before, is_inside: false })
     }
 
-    /// The largest value as [`Peak::refined`] finds it, with its place.
+    /// The largest value on the path, the segments next to the best of the points visited, and promising ones next to
+    /// kinks, included, with its place. `None` if none was visited. Away from kinks, steps must be small enough for the highest
+    /// maximum to show at a point beside it.
     pub fn summit<S>(
         &self,
         path: &mut Path<S>,
@@ -204,6 +194,14 @@ where
     /// The cubic through the values and slopes at both ends of a bracket tells whether it has a maximum inside, and where to
     /// look next. A force that has just begun to act may raise the function within a small part of a segment: the slope near
     /// its end shows that.
+    ///
+    /// ```text
+    ///            top of the cubic
+    ///               ,-·-.
+    ///    low ,-'     |     `-.          The sample at the top takes the place of the end on whose side
+    ///      ·'        |        `·. high  of the maximum it lies: low while f rises there, else high.
+    ///   ───┼─────────┼──────────┼───
+    /// ```
     fn maximum(mut self, least: f64) -> Option<Summit<S::Mode>> {
         let bracket = [self.start(least)?, self.end(least)?];
         self.search(bracket, least)?;

@@ -37,6 +37,12 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         changes: &mut Vec<Change>,
     ) -> Result<Vec<f64>, Stop> {
+        if let [change] = changes[..]
+            && !change.activated
+            && self.system.growing().contains(&change.constraint)
+        {
+            return self.stop_growing(state, arriving, change);
+        }
         if changes.len() > 1
             && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
         {
@@ -44,6 +50,22 @@ impl<S: System> Path<S> {
             return Ok(leaving);
         }
         self.pivot_in_turn(state, arriving, changes)
+    }
+
+    /// Stops what only grows where it turns back. Its rate vanishes there, so the path goes on as it came: on both sides of the event
+    /// the direction is the same, and the condition of the constraint, whose slope is zero along it, says nothing about its sign.
+    fn stop_growing(
+        &mut self,
+        state: &mut State<S::Mode>,
+        arriving: &[f64],
+        change: Change,
+    ) -> Result<Vec<f64>, Stop> {
+        self.pivot(state, change).ok_or(Stop::Singular)?;
+        let controls = self.system.controls();
+        let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
+        let condition = Condition::through(row, &state.z);
+        let direction = self.newton.solve(&self.system, state, &condition, &self.settings)?;
+        Ok(self.normalised(direction))
     }
 
     /// State and direction after all of `changes`. `None` if the direction violates one of them.
@@ -115,6 +137,7 @@ impl<S: System> Path<S> {
             if slope < 0.0 {
                 direction = direction.into_iter().map(|x| -x).collect();
             }
+            self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
         }
@@ -141,10 +164,12 @@ impl<S: System> Path<S> {
         let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
-        slopes
-            .filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(c, _)| c)
+        let meeting = slopes.filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART);
+        // What only grows may not turn back at a kink either, however far it has come.
+        let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
+        let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
+        let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
+        meeting.chain(turned).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, _)| c)
     }
 
     /// More pivots than this do not happen at one place.

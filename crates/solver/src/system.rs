@@ -25,9 +25,11 @@ const ALONG: f64 = 1e-7;
 /// Unknowns are numbered so that the tangent `∂r/∂z` is a band matrix, the column of the load included.
 ///
 /// Where a constraint changes sides the equations may take another form, such as those of a contact that passes a
-/// corner. Which form holds is the *mode*. It is a part of the [`State`]; the system itself never changes.
+/// corner. Which form holds is the *mode*. It is a part of the [`State`]; the system itself never changes. What the equations keep of
+/// the way to a state is in the mode too: the place at which something sticks, say. It changes at events only.
 pub trait System {
-    /// Which of several forms the equations have; `()` for a system whose equations have one form.
+    /// Which of several forms the equations have, with the history that they keep; `()` for a system whose equations have one form
+    /// and no history.
     type Mode: Clone + Debug + PartialEq;
 
     /// Number of unknowns, the load included.
@@ -42,6 +44,11 @@ pub trait System {
         None
     }
 
+    /// Whether the equations in this state couple unknowns within the blocks only.
+    fn is_in_blocks(&self, _state: &State<Self::Mode>) -> bool {
+        true
+    }
+
     /// Index of the load among the unknowns, and of the row without an equation.
     fn load(&self) -> usize;
 
@@ -50,12 +57,34 @@ pub trait System {
         false
     }
 
+    /// The control parameter, over its scale, at which the path ends; infinite if a constraint alone ends it.
+    fn target(&self) -> f64 {
+        1.0
+    }
+
+    /// Whether the path ends where this constraint would change sides.
+    fn ends(&self, _constraint: usize) -> bool {
+        false
+    }
+
     /// The coordinates that measure progress along the path; the first is the control parameter. All lie within a
     /// half-bandwidth of the load.
     fn controls(&self) -> &[Control];
 
+    /// The unknowns of one unit in all of which the path is measured besides: how far it turns, and its arc length where
+    /// something gives way of which the controls show next to nothing. None unless the system knows better.
+    fn coordinates(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
     /// Indices of the constraints among the unknowns, in ascending order. An active set is a flag for each.
     fn constraints(&self) -> &[usize] {
+        &[]
+    }
+
+    /// Numbers of the constraints whose unknown, once active, only grows, such as the way that something has slid with friction. Where
+    /// it turns back the constraint becomes inactive, and its transition keeps in the mode how far it has come.
+    fn growing(&self) -> &[usize] {
         &[]
     }
 
@@ -64,6 +93,8 @@ pub trait System {
 
     /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
     /// [`System::conditions`] of its own.
+    ///
+    /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix, its constant part included. Rows and columns of inactive constraints may be left out.
@@ -189,7 +220,7 @@ pub struct State<M = ()> {
     pub z: Vec<f64>,
     /// A flag for each constraint.
     pub active: Vec<bool>,
-    /// Which form the equations have.
+    /// Which form the equations have, and their history.
     pub mode: M,
 }
 

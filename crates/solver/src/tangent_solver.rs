@@ -59,8 +59,12 @@ impl TangentSolver {
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
         self.inactive.extend(inactive(system, state));
+        if !self.inactive.is_sorted() {
+            self.inactive.sort_unstable();
+        }
         self.is_in_blocks = false;
-        if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, system.blocks()) {
+        let blocks = system.blocks().filter(|_| system.is_in_blocks(state));
+        if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.matrix);
             self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();
@@ -81,6 +85,15 @@ impl TangentSolver {
             (_, Some(band)) => band.lu.solve(x),
             // Nothing has been factorised.
             _ => x.fill(f64::NAN),
+        }
+    }
+
+    /// Whether the determinant of the last tangent is negative.
+    pub(crate) fn is_negative(&self) -> bool {
+        match (&self.blocks, &self.band) {
+            (Some(blocks), _) if self.is_in_blocks => blocks.elimination.negative_blocks() % 2 == 1,
+            (_, Some(band)) => band.lu.is_negative(),
+            _ => false,
         }
     }
 

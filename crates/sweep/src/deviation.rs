@@ -2,7 +2,7 @@
 
 use crate::case::Case;
 use crate::number;
-use crate::parameter::{PARAMETERS, Parameter};
+use crate::parameter::{Parameter, Role, key};
 
 /// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,29 +37,12 @@ impl BatchDeviation {
 const OVER_T: &str = "_over_t";
 const IN_MM: &str = "_mm";
 
-/// The parameters that may differ from scale to scale.
-const SCATTER: [&str; 2] = ["gap_over_t", "slant_deg"];
-
-/// The parameters that say where a puncture ends: criteria of a study, which nobody makes.
-const CRITERIA: [&str; 2] = ["critical_tilt_deg", "needle_friction"];
-
 impl Deviation {
     /// The parameter of `key`, and whether the key asks for mm.
     pub(crate) fn parameter_of(key: &str) -> Option<(&'static Parameter, bool)> {
-        let of = |key: &str| Parameter::named(key).filter(|p| Self::is_possible(p));
+        let of = |key: &str| Parameter::named(key).filter(|p| p.has(Role::Made));
         let in_mm = || of(&format!("{}{OVER_T}", key.strip_suffix(IN_MM)?));
         of(key).map(|parameter| (parameter, false)).or_else(|| Some((in_mm()?, true)))
-    }
-
-    /// Whether a parameter may deviate: a number that describes the skin or its material.
-    pub(crate) fn is_possible(parameter: &Parameter) -> bool {
-        let is_made = parameter.is_continuous() && !CRITERIA.contains(&parameter.key);
-        is_made || parameter.section == "material"
-    }
-
-    /// Whether a parameter may differ from scale to scale.
-    pub(crate) fn scatters(parameter: &Parameter) -> bool {
-        SCATTER.contains(&parameter.key)
     }
 
     /// The parameter.
@@ -78,7 +61,7 @@ impl Deviation {
     /// The key of the material without which the deviation has no meaning.
     pub(crate) fn needs(&self) -> Option<&'static str> {
         let material = (self.parameter.section == "material").then_some(self.parameter.key);
-        material.or_else(|| self.in_mm.then_some("thickness_mm"))
+        material.or_else(|| self.in_mm.then_some(key::THICKNESS))
     }
 
     /// The deviation that all scales of a batch share.
@@ -97,25 +80,25 @@ impl Deviation {
     /// scales stays.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
-            "thickness_mm" => {
+            key::THICKNESS => {
                 let thickness = case.material.thickness_mm?;
                 let mut moved = with_lengths_times(case, thickness / (thickness + by))?;
                 moved.material.thickness_mm = Some(thickness + by);
                 Some(moved)
             }
-            "substrate_modulus_MPa" => {
+            key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
                 moved.puncture.contact_modulus_over_substrate *= modulus / (modulus + by);
                 Some(moved)
             }
-            "membrane_modulus_MPa" => {
+            key::MEMBRANE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.membrane_modulus_mpa?);
                 moved.material.membrane_modulus_mpa = Some(modulus + by);
                 moved.flexure.contact_modulus_over_membrane *= modulus / (modulus + by);
                 Some(moved)
             }
-            "scale_density_kg_m3" => {
+            key::DENSITY => {
                 let (mut moved, density) = (*case, case.material.scale_density_kg_m3?);
                 moved.material.scale_density_kg_m3 = Some(density + by);
                 Some(moved)
@@ -127,8 +110,9 @@ impl Deviation {
     /// As [`Self::moved`]; `None` if a parameter then leaves its bounds, so that there is no such skin.
     pub fn made(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
-        let mut possible = PARAMETERS.iter().filter(|parameter| Self::is_possible(parameter));
-        possible.all(|parameter| parameter.contains(parameter.get(&moved))).then_some(moved)
+        Parameter::with(Role::Made)
+            .all(|parameter| parameter.contains(parameter.get(&moved)))
+            .then_some(moved)
     }
 
     /// One unit of the parameter in the unit of the deviation.
@@ -150,7 +134,7 @@ impl Deviation {
 
 /// The case with every length over `t` so many times as long.
 fn with_lengths_times(case: &Case, factor: f64) -> Option<Case> {
-    let mut lengths = PARAMETERS.iter().filter(|p| p.is_continuous() && p.key.ends_with(OVER_T));
+    let mut lengths = Parameter::with(Role::Continuous).filter(|p| p.key.ends_with(OVER_T));
     lengths.try_fold(*case, |case, parameter| {
         let length = parameter.get(&case).number()?;
         parameter.moved(&case, (factor - 1.0) * length)

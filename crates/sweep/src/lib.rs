@@ -13,6 +13,7 @@
 //! | [`toml_source`] | a definition as it is written: keys, values and their places |
 //! | [`Setting`] | a key set from outside, in place of what is written |
 //! | [`PARAMETERS`], [`Parameter`], [`Scalar`] | the list of everything that may be set, with what is right; a value |
+//! | [`Role`], [`key`] | what a parameter is to the skin; the keys that code names |
 //! | [`Measure`] | what is measured: coverage, puncture, flexure, and the derivatives of these |
 //! | [`Sweep`] | the validated definition |
 //! | [`Grid`], [`Axis`], [`DesignNumber`] | the designs, by number |
@@ -63,7 +64,7 @@ pub use definition::{Sweep, entries, read_entries};
 pub use deviation::{BatchDeviation, Deviation};
 pub use grid::{Axis, DesignNumber, Grid, NoSuchDesign, TooManyDesigns};
 pub use material::Material;
-pub use parameter::{PARAMETERS, Parameter, Scalar, WrongValue};
+pub use parameter::{PARAMETERS, Parameter, Role, Scalar, WrongValue, key};
 pub use subset::{NoShard, RandomSample, SampleTooLarge, Shard, Subset, SubsetDesigns};
 pub use variable::{Variable, VariableValues};
 pub use visible::{shortened, visible};

@@ -1,7 +1,9 @@
 //! A parameter of a sweep: the values that it takes, and the field of a case that it sets.
 
 mod continuous;
+pub mod key;
 mod list;
+mod role;
 mod scalar;
 
 use std::fmt;
@@ -14,6 +16,7 @@ use crate::number;
 use crate::toml_source::Value;
 
 pub use list::PARAMETERS;
+pub use role::Role;
 pub use scalar::Scalar;
 
 /// A scalar that a sweep definition may set, in its section or as an axis of the grid.
@@ -27,6 +30,8 @@ pub struct Parameter {
     pub unit: &'static str,
     /// The meaning, in half a sentence.
     pub meaning: &'static str,
+    /// What it is to the skin, beyond its value.
+    pub(crate) roles: &'static [Role],
     /// The values that the parameter takes, and the field of a case that it sets.
     pub(crate) kind: ParameterKind,
 }
@@ -109,10 +114,6 @@ const AUTO: &str = "auto";
 /// The word of a number that is not given. No definition has it.
 const NOT_GIVEN: &str = "not given";
 
-/// Two ways each to say how long a strip is, and at which tilt a needle slips. The first of two may leave it to the other, by a word.
-const ALTERNATIVES: [[&str; 2]; 2] =
-    [["gaps", "membrane_length_over_t"], ["needle_friction", "critical_tilt_deg"]];
-
 /// A value that a parameter does not take.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WrongValue {
@@ -123,6 +124,12 @@ pub enum WrongValue {
         found: String,
         /// The values that would be right.
         expected: String,
+    },
+    /// A key that changes nothing.
+    #[error("has no effect: {reason}")]
+    NoEffect {
+        /// Why not.
+        reason: String,
     },
     /// Not what this key takes.
     #[error("{found} is not accepted, expected {expected}")]
@@ -138,16 +145,6 @@ impl Parameter {
     /// The parameter of that name.
     pub fn named(key: &str) -> Option<&'static Self> {
         PARAMETERS.iter().find(|parameter| parameter.key == key)
-    }
-
-    /// The parameter that says the same in another way: a definition has one of the two.
-    pub(crate) fn alternative(&self) -> Option<&'static Self> {
-        let other = ALTERNATIVES.iter().find_map(|&[first, second]| match self.key {
-            key if key == first => Some(second),
-            key if key == second => Some(first),
-            _ => None,
-        });
-        other.and_then(Self::named)
     }
 
     /// `section.key`.

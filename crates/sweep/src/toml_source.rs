@@ -29,6 +29,9 @@ impl fmt::Display for Place {
     }
 }
 
+/// The values that a document may hold: as many as a sweep has designs along its longest axis, and some.
+const MOST_VALUES: usize = 1_200_000;
+
 /// A key with its value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeyValue {
@@ -100,9 +103,15 @@ struct SyntaxMistake {
 /// The keys and values of the TOML document `text`, which stands in the file `name`.
 ///
 /// # Errors
-/// If it is no TOML; all lines that cannot be read are told.
+/// If it is no TOML, where all lines that cannot be read are told, or holds more values than a definition may.
 pub fn parse(text: &str, name: &str) -> Result<KeyValues, SyntaxError> {
     let source = Document::new(text, name);
+    // Before anything is read: each value takes some 200 bytes for the two or three that it has in the file.
+    if let Some((offset, _)) = text.match_indices(',').nth(MOST_VALUES) {
+        let message = format!("more than {MOST_VALUES} values");
+        let (place, line) = (source.place(Some(offset)), source.line(offset));
+        return Err(SyntaxError(vec![SyntaxMistake { place, line, message }]));
+    }
     let (table, mut errors) = DeTable::parse_recoverable(text);
     errors.sort_by_key(|error| error.span().map(|span| span.start));
     let mut mistakes: Vec<_> = errors.iter().map(|error| source.mistake(error)).collect();

@@ -6,7 +6,7 @@ use results::columns::parameter_of;
 use run::{Evaluator, Program};
 use sweep::{Case, Sweep};
 
-use crate::analysis::identity;
+use crate::analysis::header;
 use crate::draw;
 use crate::measured::MeasuredColumns;
 use crate::no_analysis::NoAnalysis;
@@ -61,6 +61,7 @@ impl GlobalAnalysis<'_> {
     pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, NoAnalysis> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
+        // Tells which columns hold text; its values are not used.
         let middle = evaluator.solve(number, &case).row;
         let measured = MeasuredColumns::of(self.sweep, &middle);
         let names: Vec<String> = measured.iter().map(|column| column.name.to_string()).collect();
@@ -76,8 +77,8 @@ impl GlobalAnalysis<'_> {
             };
             points.iter().flat_map(point).collect()
         };
-        let of = identity(self.program, self.sweep);
-        let samples = store.samples((LABEL, &of), &columns, self.samples, self.stop, solve)?;
+        let label = (LABEL, header(self.program, self.sweep));
+        let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
         let is_measure = |(_, name): &(usize, String)| parameter_of(name).is_none();
         let measures = names.iter().cloned().enumerate().filter(is_measure);
         let measures = measures.filter_map(|(k, name)| indices(name, k, names.len(), &samples));

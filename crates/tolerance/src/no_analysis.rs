@@ -1,6 +1,7 @@
 //! Why there is no analysis.
 
 use results::OutputError;
+use run::JournalError;
 
 use crate::measured::NoSuchColumn;
 
@@ -18,6 +19,9 @@ pub enum NoAnalysis {
     /// A requirement is about a column that does not exist.
     #[error(transparent)]
     NoSuchColumn(#[from] NoSuchColumn),
+    /// The samples that are kept cannot be used.
+    #[error(transparent)]
+    Journal(#[from] JournalError),
     /// The disk does not take the samples.
     #[error(transparent)]
     Output(#[from] OutputError),

@@ -1,21 +1,26 @@
 //! Samples that were solved, kept so that none is solved twice.
 
-use std::fs;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
-use results::{Cell, Column, CsvFormat, OutputError, RunFolder, finite, sha256, write_rows};
+use results::{Cell, Column, CsvFormat, OutputError, RunFolder, write_rows};
+use run::{JournalError, JournalHeader, Start};
 use serde::{Deserialize, Serialize};
+use store::{Journal, Records};
 
 use crate::no_analysis::NoAnalysis;
 
-/// Samples that are solved between two looks at whether to stop, at least, and as a part of those that are done.
-const BLOCK: usize = 100;
-const BLOCK_PART: usize = 4;
+/// Digits of a digest that tell the journals of one label apart: two of ten thousand definitions share them once in a hundred
+/// times, and are then refused.
+const DIGITS: usize = 8;
 
 /// A solved sample.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct SolvedSample {
     /// Number of the sample, from 1.
     pub number: u64,
@@ -23,22 +28,40 @@ pub struct SolvedSample {
     pub values: Vec<Option<f64>>,
 }
 
-/// A folder of samples, with two files under each label: the table of the samples, and a record of what they are samples of.
-///
-/// The table is written as it grows, whole or not at all, and the record after it. A table is taken up again if its record names
-/// the same definition, program and table; otherwise the samples are solved again.
+/// A folder of samples: under each label a journal for each definition, to which every sample is added as it is solved, and the
+/// table of the samples that were asked for last.
 #[derive(Clone, Debug)]
 pub struct SampleStore {
     folder: RunFolder,
 }
 
-/// The origin of a table of samples, and its digest.
-#[derive(Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Record {
-    /// Digest of the definition and of the program.
-    of: String,
-    /// SHA-256 of the table.
-    sha256: String,
+/// The samples of one definition that are kept, by their numbers.
+struct KeptSamples {
+    header: JournalHeader,
+    values: BTreeMap<u64, Vec<Option<f64>>>,
+}
+
+impl Records for KeptSamples {
+    type Line = SolvedSample;
+
+    const KEY: &'static str = "samples";
+
+    fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {
+        Ok(Self { header, values: BTreeMap::new() })
+    }
+
+    fn take(&mut self, line: SolvedSample, _bytes: Range<u64>) -> Result<(), String> {
+        self.values.insert(line.number, line.values);
+        Ok(())
+    }
+
+    fn header(&self) -> &JournalHeader {
+        &self.header
+    }
+
+    fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
 }
 
 impl SampleStore {
@@ -47,77 +70,77 @@ impl SampleStore {
         Self { folder: RunFolder::new(folder) }
     }
 
-    /// The first `count` samples under a label: those that are kept, if they are `of` the same definition, and behind them those
-    /// that `solve` makes of their numbers, in parallel. They are kept again and again as they come, until `stop` is set.
+    /// The first `count` samples under a label of what `header` describes: those that are kept, and those that `solve` makes of the
+    /// other numbers, in parallel until `stop` is set. Each is kept as soon as it is solved.
     ///
     /// # Errors
-    /// If the work is to stop, or the disk does not take the samples.
+    /// If the work is to stop, or the samples cannot be kept.
     pub(crate) fn samples(
         &self,
-        (label, of): (&str, &str),
+        (label, header): (&str, JournalHeader),
         columns: &[String],
         count: usize,
         stop: &AtomicBool,
         solve: impl Fn(u64) -> Vec<Option<f64>> + Sync,
     ) -> Result<Vec<SolvedSample>, NoAnalysis> {
-        let mut samples = self.kept(label, of, columns).unwrap_or_default();
-        while samples.len() < count {
-            let done = samples.len();
-            if stop.load(Ordering::Relaxed) {
-                return Err(NoAnalysis::Stopped { done, of: count });
-            }
-            let block = BLOCK.max(done / BLOCK_PART).min(count - done);
-            let numbers: Vec<u64> = (done as u64 + 1..).take(block).collect();
-            let sample = |number: u64| SolvedSample { number, values: solve(number) };
-            samples.par_extend(numbers.into_par_iter().map(sample));
-            self.write(label, of, columns, &samples)?;
+        if count == 0 {
+            return Ok(Vec::new());
         }
-        samples.truncate(count);
+        let journal = Mutex::new(self.open(label, header)?);
+        let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut missing: Vec<u64> = (1..=count as u64).collect();
+        missing.retain(|number| !lock().records().values.contains_key(number));
+        missing.into_par_iter().try_for_each(|number| {
+            if stop.load(Ordering::Relaxed) {
+                return Ok(());
+            }
+            let values = solve(number);
+            lock().append(SolvedSample { number, values })
+        })?;
+        let mut journal = lock();
+        journal.sync()?;
+        let kept = journal.records().values.range(..=count as u64);
+        let samples = kept.map(|(&number, values)| SolvedSample { number, values: values.clone() });
+        let samples: Vec<SolvedSample> = samples.collect();
+        if samples.len() < count {
+            return Err(NoAnalysis::Stopped { done: samples.len(), of: count });
+        }
+        self.write(label, columns, &samples)?;
         Ok(samples)
     }
 
-    /// The samples under a label that are kept, if they are `of` the same definition.
-    fn kept(&self, label: &str, of: &str, columns: &[String]) -> Option<Vec<SolvedSample>> {
-        let record = fs::read_to_string(self.folder.file(&format!("{label}.toml"))).ok()?;
-        let record: Record = toml::from_str(&record).ok()?;
-        let table = fs::read(self.folder.file(&format!("{label}.csv"))).ok()?;
-        let is_it = record.of == of && record.sha256 == sha256(&table);
-        let mut reader = CsvFormat::Plain.reader(table.as_slice());
-        let header: Vec<String> =
-            reader.headers().ok()?.iter().skip(1).map(str::to_owned).collect();
-        if !is_it || header != columns {
-            return None;
+    /// The journal of what `header` describes, one that is there or a new one.
+    fn open(&self, label: &str, header: JournalHeader) -> Result<Journal<KeptSamples>, NoAnalysis> {
+        // Samples of format 1 had a record of this name beside their table.
+        let record = self.folder.file(&format!("{label}.toml"));
+        if record.exists() {
+            let by = "0.1.0 of an earlier revision".to_owned();
+            return Err(JournalError::OtherFormat { path: record, found: 1, by }.into());
         }
-        let cell = |text: &str| text.parse().ok().and_then(finite);
-        let mut samples = Vec::new();
-        for (row, number) in reader.records().zip(1..) {
-            let values = row.ok()?.iter().skip(1).map(cell).collect();
-            samples.push(SolvedSample { number, values });
-        }
-        Some(samples)
+        self.folder.make()?;
+        // Another definition or program has a journal of its own: who comes back to the first finds its samples.
+        let digest = header.digest();
+        let name = format!("{label}-{}.jsonl", &digest[..DIGITS]);
+        Ok(Journal::begin(&self.folder.file(&name), header, Start::Resume)?)
     }
 
-    /// Keeps samples under a label.
+    /// Writes the table of the samples under a label.
     fn write(
         &self,
         label: &str,
-        of: &str,
         columns: &[String],
         samples: &[SolvedSample],
     ) -> Result<(), OutputError> {
-        self.folder.make()?;
         let number = Column::new("sample", "-", "number of the sample", |sample: &SolvedSample| {
             Cell::Count(sample.number as i64)
         });
         let others = columns.iter().enumerate().map(|(index, name)| {
-            Column::indexed(name.clone(), "", "", index, |sample: &SolvedSample, index| {
+            Column::made(name.clone().into(), "", "", move |sample: &SolvedSample| {
                 sample.values[index].into()
             })
         });
         let columns: Vec<_> = std::iter::once(number).chain(others).collect();
         let name = format!("{label}.csv");
-        let sha256 = write_rows(&self.folder, &name, CsvFormat::Plain, &columns, samples)?;
-        let record = format!("of = \"{of}\"\nsha256 = \"{sha256}\"\n");
-        self.folder.write_text(&format!("{label}.toml"), &record).map(|_| ())
+        write_rows(&self.folder, &name, CsvFormat::Plain, &columns, samples).map(|_| ())
     }
 }

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use results::columns::{FOLD_FORCE, GAP_STRETCH_MAX, GAP_STRETCH_MIN, MAX_STIFFNESS, SOUND_FORCE};
 use results::{InvalidResults, Results};
 use run::{Options, Program, Start, WorkMeter};
 use sweep::{Axis, Case, Parameter, Subset, Sweep};
@@ -55,11 +56,13 @@ impl Study {
     /// If the temporary folder cannot be written.
     pub(crate) fn run(sweep: Sweep) -> Result<Self, ValidationError> {
         let folder = tempfile::tempdir()?;
+        // The folder is temporary: no later run has to know this one.
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
             format: None,
             fail_fast: false,
+            // Nobody reads the tables before the end.
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
             work: &WorkMeter::default(),
@@ -138,11 +141,11 @@ fn designs(results: &Results) -> Result<Vec<MeasuredDesign>, InvalidResults> {
             bends_to_contact: results.text(row, results.column("flexure_contact")?) == "yes",
             first_contact: number(row, "first_contact_displacement")?,
             initial_stiffness: number(row, "initial_stiffness")?,
-            max_stiffness: number(row, "max_stiffness")?,
-            gap_stretch_min: number(row, "gap_stretch_min")?,
-            gap_stretch_max: number(row, "gap_stretch_max")?,
-            fold_force: number(row, "fold_force")?,
-            sound_force: number(row, "sound_force")?,
+            max_stiffness: number(row, MAX_STIFFNESS)?,
+            gap_stretch_min: number(row, GAP_STRETCH_MIN)?,
+            gap_stretch_max: number(row, GAP_STRETCH_MAX)?,
+            fold_force: number(row, FOLD_FORCE)?,
+            sound_force: number(row, SOUND_FORCE)?,
         })
     };
     (0..results.len()).map(design).collect()

@@ -1,8 +1,7 @@
 //! A record of each thing that a command makes from the tables of a folder, kept there so that `squama status` can tell when it is out of date.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use anyhow::Context as _;
 use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};
@@ -35,7 +34,8 @@ pub fn note(
 
 /// The command that this process is, as a shell takes it.
 fn command() -> String {
-    let words = std::env::args().skip(1).map(|word| shell_word(&word));
+    // A name that is no text is told as it is shown.
+    let words = std::env::args_os().skip(1).map(|word| shell_word(&word.to_string_lossy()));
     std::iter::once("squama".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }
 

@@ -17,6 +17,7 @@ mod materials;
 mod optimising;
 mod output;
 mod process;
+mod promises;
 mod rankings;
 mod reruns;
 mod runs;

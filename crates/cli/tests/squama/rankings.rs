@@ -31,7 +31,7 @@ fn the_best_designs_are_printed() {
     insta::assert_snapshot!(place.prints("rank a --top 3 --resolution 10"));
     assert_eq!(
         place.list("a"),
-        "designs.csv pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv"
+        "derived designs.csv pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv"
     );
     insta::assert_snapshot!(place.read("a/ranking.csv"));
     insta::assert_snapshot!(place.read("a/winners.csv"));
@@ -50,8 +50,15 @@ fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
     let place = Place::new();
     put(&place, "a", FOLDED);
     let printed = place.prints("rank a --weights 0,1,0,0");
-    let (_, others) = printed.split_once("folds over under the best design").expect("a fold");
+    let (_, others) = printed.split_once("folds under the best design").expect("a fold");
     assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
+    // Wherever it is named, it is marked.
+    let named = printed.lines().filter(|line| line.contains("0001"));
+    assert!(
+        named.clone().count() > 1 && named.clone().all(|line| line.contains("0001⚠")),
+        "{printed}"
+    );
+    assert!(!printed.contains("0002⚠") && printed.contains("⚠ the surface"), "{printed}");
     let sound = place.prints("rank a --weights 0,1,0,0 --sound");
     assert!(!sound.contains("folds over"), "{sound}");
     let table = place.read("a/ranking.csv");
@@ -65,7 +72,10 @@ fn the_tables_may_go_elsewhere() {
     let place = place();
     place.prints("rank a --weights 0.4,0.3,0.2,0.1 --out b");
     assert_eq!(place.list("a"), "designs.csv");
-    assert_eq!(place.list("b"), "pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv");
+    assert_eq!(
+        place.list("b"),
+        "derived pareto.csv quaternary.csv ranking.csv ranking.toml winners.csv"
+    );
 }
 
 #[test]
@@ -126,7 +136,7 @@ fn the_design_that_meets_all_requirements_is_found() {
     insta::assert_snapshot!(place.read("a/ranking.toml"));
     let text = place.prints("rank a --require coverage>=0.3 --minimize penetration --scale log");
     assert!(text.contains("\nBest by penetration resistance, log scale\n"), "{text}");
-    assert_eq!(place.list("a"), "designs.csv pareto.csv ranking.csv ranking.toml");
+    assert_eq!(place.list("a"), "derived designs.csv pareto.csv ranking.csv ranking.toml");
 }
 
 #[test]
@@ -136,7 +146,7 @@ fn where_none_meets_the_requirements_the_nearest_one_is_told() {
     let arguments = "rank a --require coverage>=0.8 --require critical_force>3";
     let output = place.squama(arguments).assert().code(1).get_output().stdout.clone();
     insta::assert_snapshot!(String::from_utf8(output).expect("text"));
-    assert_eq!(place.list("a"), "designs.csv ranking.toml", "the ranking before is gone");
+    assert_eq!(place.list("a"), "derived designs.csv ranking.toml", "the ranking before is gone");
 }
 
 #[test]
@@ -147,7 +157,7 @@ fn differences_are_printed() {
     insta::assert_snapshot!(place.prints("compare a b"));
     assert_eq!(place.list("."), "a b", "nothing is written");
     place.prints("compare a b --out c");
-    assert_eq!(place.list("c"), "compare.csv differences.csv");
+    assert_eq!(place.list("c"), "compare.csv derived differences.csv");
     place.squama("compare a b --exit-code").assert().code(1);
     place.squama("compare a a --exit-code").assert().code(0);
 }
@@ -174,7 +184,7 @@ fn tables_that_a_spreadsheet_has_saved_are_ranked() {
     place.squama("run x.toml -q --out r").assert().code(0);
     let ranked = place.prints("rank r");
     // A table alone has no definition by which designs could be solved again.
-    let (before, gaps) = ranked.split_once("\nWhere the gap comes out").expect("gaps");
+    let (before, gaps) = ranked.split_once("\nChange if the gap is").expect("gaps");
     let (_, after) = gaps.split_once("\n\n").expect("more");
     let ranked = format!("{before}\n{after}");
     let table = place.read("r/designs.csv");

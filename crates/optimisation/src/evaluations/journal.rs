@@ -1,216 +1,167 @@
-//! The journal of an optimisation: every point that was solved, a sealed line each.
+//! The journal of an optimisation: every point that was solved, a line each.
 //!
 //! The search itself is not written down: it does the same again, and finds what it asks for in the journal until it comes to
-//! points that nobody has solved yet. The file is forced to the disk once a second and at the end, as the journal of a run is.
+//! points that nobody has solved yet.
 
-use std::fs::{File, OpenOptions};
-use std::io::{BufRead as _, BufReader, Write as _};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::collections::HashMap;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
 
-use results::{DesignResult, OutputError, RunFolder, make_folder, sha256};
-use run::{Program, Seal, Start};
+use results::{Claim, DesignResult, Maker, RunFolder};
+use run::{JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
+use store::{Journal, Records};
+use sweep::Subset;
 
 use crate::error::OptimisationError;
-
-/// The interval at which it is forced to the disk.
-const SYNC: Duration = Duration::from_secs(1);
-
-/// The format of its lines.
-const FORMAT: u32 = 1;
-
-/// The first line: what is searched for, by which program.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SearchHeader {
-    optimisation: u32,
-    program: String,
-    goal_sha256: String,
-}
+use crate::sample::Samples;
+use crate::space::SpacePoint;
 
 /// A line of the journal behind the first.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(super) enum JournalLine {
     Solved(Box<SolvedLine>),
-    Skins(SkinsLine),
+    Samples(SamplesLine),
 }
 
 /// A point that was solved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SolvedLine {
     /// Whether its measures have derivatives.
     pub differentiated: bool,
-    /// The number of the skin made of its design, with the deviations of the batch; none of the design as it is drawn.
+    /// The number of the sample of its design, with the deviations of the batch; none of the nominal design.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub skin: Option<u64>,
+    pub sample: Option<u64>,
     /// Shares of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
     /// The result.
-    pub result: DesignResult,
+    #[serde(with = "shared")]
+    pub result: Arc<DesignResult>,
 }
 
-/// Skins made of the design of a point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// Samples of the design of a point.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct SkinsLine {
-    /// The number of the first skin.
+pub(super) struct SamplesLine {
+    /// The number of the first sample.
     pub first: u64,
     /// Shares of the intervals.
     pub shares: Vec<f64>,
     /// Indices of the choices.
     pub chosen: Vec<usize>,
-    /// The values of each skin in the columns that it is judged by.
-    pub values: Vec<Vec<Option<f64>>>,
+    /// The values of each sample in the columns that it is judged by.
+    #[serde(with = "shared")]
+    pub values: Arc<Samples>,
 }
 
-/// A journal that is being written.
-pub(super) struct EvaluationJournal {
-    path: PathBuf,
-    file: File,
-    seal: Seal,
-    length: u64,
-    synced: Instant,
-}
+/// Values that the journal shares with who asked for them, written as they are.
+mod shared {
+    use std::sync::Arc;
 
-impl EvaluationJournal {
-    /// The journal in `folder` of the search for `goal`, and the lines that it has.
-    pub fn begin(
-        folder: &Path,
-        goal: &str,
-        program: &Program,
-        start: Start,
-    ) -> Result<(Self, Vec<JournalLine>), OptimisationError> {
-        if RunFolder::new(folder).journal().exists() {
-            return Err(OptimisationError::HoldsRun { folder: folder.to_owned() });
-        }
-        make_folder(folder)?;
-        let path = folder.join(RunFolder::EVALUATIONS);
-        let header = SearchHeader {
-            optimisation: FORMAT,
-            program: format!("{} ({})", program.version, program.revision),
-            goal_sha256: sha256(goal),
-        };
-        let seal = Seal::over(&[&header.goal_sha256, &header.program]);
-        let found = if start == Start::Fresh { None } else { read(&path, &header, &seal)? };
-        if let Some(found) = &found
-            && start == Start::New
-            && !found.lines.is_empty()
-        {
-            return Err(OptimisationError::Exists { folder: folder.to_owned() });
-        }
-        let opened = OpenOptions::new().append(true).create(true).open(&path);
-        let file = opened.map_err(|error| OutputError::folder(folder, &error))?;
-        lock(&file, folder)?;
-        let found = found.unwrap_or_default();
-        file.set_len(found.length).map_err(|error| OutputError::file(&path, &error))?;
-        let synced = Instant::now();
-        let mut journal = Self { path, file, seal, length: found.length, synced };
-        if journal.length == 0 {
-            journal.write(&Seal::default().seal(&header))?;
-        }
-        Ok((journal, found.lines))
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<T: Serialize, S: Serializer>(
+        value: &Arc<T>,
+        to: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.as_ref().serialize(to)
     }
 
-    /// Adds a line, which then counts as solved.
-    pub fn append(&mut self, line: &impl Serialize) -> Result<(), OutputError> {
-        let bytes = self.seal.seal(line);
-        self.write(&bytes)
-    }
-
-    fn write(&mut self, bytes: &[u8]) -> Result<(), OutputError> {
-        if let Err(error) = self.file.write_all(bytes) {
-            // Half a line would be cut off by whoever goes on; it is cleaner not to leave it.
-            let _ = self.file.set_len(self.length);
-            return Err(OutputError::journal(&self.path, &error));
-        }
-        self.length += bytes.len() as u64;
-        if self.synced.elapsed() > SYNC { self.sync() } else { Ok(()) }
-    }
-
-    /// Forces it to the disk.
-    pub fn sync(&mut self) -> Result<(), OutputError> {
-        self.synced = Instant::now();
-        self.file.sync_data().map_err(|error| OutputError::journal(&self.path, &error))
+    pub fn deserialize<'d, T: Deserialize<'d>, D: Deserializer<'d>>(
+        from: D,
+    ) -> Result<Arc<T>, D::Error> {
+        T::deserialize(from).map(Arc::new)
     }
 }
 
-/// Refuses a journal that another process writes.
-fn lock(file: &File, folder: &Path) -> Result<(), OptimisationError> {
-    match file.try_lock() {
-        Err(std::fs::TryLockError::WouldBlock) => {
-            Err(OptimisationError::InUse { folder: folder.to_owned() })
-        }
-        // A file system without locks cannot tell.
-        Ok(()) | Err(std::fs::TryLockError::Error(_)) => Ok(()),
+/// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct EvaluationKey {
+    pub differentiated: bool,
+    /// The number of the sample whose batch it is; `None` of the nominal design.
+    pub sample: Option<u64>,
+    pub point: PointKey,
+}
+
+/// A point, to the last bit.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct PointKey {
+    shares: Vec<u64>,
+    chosen: Vec<usize>,
+}
+
+/// A point, and the first and the count of its samples.
+type SamplesKey = (PointKey, u64, usize);
+
+impl PointKey {
+    pub fn of(point: &SpacePoint) -> Self {
+        let shares = point.shares.iter().map(|share| share.to_bits()).collect();
+        Self { shares, chosen: point.chosen.clone() }
     }
 }
 
-/// The evaluations that a journal holds.
-#[derive(Default)]
-struct Found {
-    lines: Vec<JournalLine>,
-    /// The bytes up to the end of its last whole line.
-    length: u64,
+/// What was solved.
+pub(super) struct Known {
+    header: JournalHeader,
+    pub solved: HashMap<EvaluationKey, Arc<DesignResult>>,
+    pub sampled: HashMap<SamplesKey, Arc<Samples>>,
 }
 
-/// The lines of the journal at `path` up to the first that is torn; `None` if there is no journal.
-fn read(
-    path: &Path,
-    wanted: &SearchHeader,
-    seal: &Seal,
-) -> Result<Option<Found>, OptimisationError> {
-    let Ok(file) = File::open(path) else { return Ok(None) };
-    let mut source = BufReader::new(file);
-    let mut found = Found::default();
-    loop {
-        let mut bytes = Vec::new();
-        let unreadable = |error| OptimisationError::Unreadable {
-            path: path.to_owned(),
-            reason: sweep::reason(&error),
-        };
-        let read = source.read_until(b'\n', &mut bytes).map_err(unreadable)?;
-        if found.length == 0 {
-            let header: Option<SearchHeader> = opened(&Seal::default(), &mut bytes);
-            let Some(header) = header else { return Ok(None) };
-            require(path, &header, wanted)?;
-        } else if let Some(line) = line(seal, &mut bytes) {
-            found.lines.push(line);
-        } else {
-            return Ok(Some(found));
+impl Records for Known {
+    type Line = JournalLine;
+
+    const KEY: &'static str = "optimisation";
+
+    fn begin(header: JournalHeader, _length: u64, _path: &Path) -> Result<Self, String> {
+        Ok(Self { header, solved: HashMap::new(), sampled: HashMap::new() })
+    }
+
+    fn take(&mut self, line: JournalLine, _bytes: Range<u64>) -> Result<(), String> {
+        match line {
+            JournalLine::Solved(line) => {
+                let SolvedLine { differentiated, sample, shares, chosen, result } = *line;
+                let point = PointKey::of(&SpacePoint { shares, chosen });
+                self.solved.insert(EvaluationKey { differentiated, sample, point }, result);
+            }
+            JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
+                let point = PointKey::of(&SpacePoint { shares, chosen });
+                self.sampled.insert((point, first, values.0.len()), values);
+            }
         }
-        found.length += read as u64;
+        Ok(())
+    }
+
+    fn header(&self) -> &JournalHeader {
+        &self.header
+    }
+
+    fn is_empty(&self) -> bool {
+        self.solved.is_empty() && self.sampled.is_empty()
     }
 }
 
-/// The point or the skins that a sealed line holds; `None` if it is torn.
-fn line(seal: &Seal, bytes: &mut [u8]) -> Option<JournalLine> {
-    let text = seal.open(bytes).ok()?;
-    let skins = || serde_json::from_slice(text).ok().map(JournalLine::Skins);
-    serde_json::from_slice(text).ok().map(|line| JournalLine::Solved(Box::new(line))).or_else(skins)
-}
-
-/// The object that a sealed line holds; `None` if it is torn.
-fn opened<T: for<'d> Deserialize<'d>>(seal: &Seal, bytes: &mut [u8]) -> Option<T> {
-    serde_json::from_slice(seal.open(bytes).ok()?).ok()
-}
-
-/// Refuses a journal of another goal or program.
-fn require(
-    path: &Path,
-    found: &SearchHeader,
-    wanted: &SearchHeader,
-) -> Result<(), OptimisationError> {
-    let difference = if found.optimisation != wanted.optimisation || found.program != wanted.program
-    {
-        format!("is by squama {}, this is squama {}", found.program, wanted.program)
-    } else if found.goal_sha256 != wanted.goal_sha256 {
-        "is of another goal".to_owned()
-    } else {
-        return Ok(());
-    };
-    Err(OptimisationError::Different { path: path.to_owned(), difference })
+/// The journal in `folder` of the search for `goal`.
+pub(super) fn begin(
+    folder: &Path,
+    goal: &str,
+    program: &Program,
+    start: Start,
+) -> Result<Journal<Known>, OptimisationError> {
+    let folder = RunFolder::new(folder);
+    folder.require_own(Maker::Search, start)?;
+    // A file of our names that no search has written here may be the very goal that is searched for.
+    Claim::check(&folder, Maker::Search)?;
+    folder.make()?;
+    let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
+    let journal = Journal::begin(&folder.file(RunFolder::EVALUATIONS), header, start)?;
+    if start == Start::Fresh {
+        // An optimum of another goal must not stand beside the journal of this one.
+        Claim::release(&folder, Maker::Search);
+    }
+    Ok(journal)
 }

@@ -65,9 +65,7 @@ pub fn comparison_columns() -> &'static [Column<ColumnDifference>] {
 /// The columns of `differences.csv` for designs with these parameters.
 pub fn difference_columns<'a>(parameters: &[&'static Parameter]) -> Vec<Column<Difference<'a>>> {
     let parameter = |parameter: &&'static Parameter| {
-        Column::parameter(parameter, |d: &Difference<'a>, parameter| {
-            d.parameter(parameter).to_owned().into()
-        })
+        Column::parameter(parameter, |d: &Difference<'a>| d.parameter(parameter).to_owned().into())
     };
     let mut columns = vec![
         number(|d: &Difference<'a>| d.designs()[0].to_owned().into()),

@@ -70,7 +70,7 @@ pub fn quaternary_columns<'a>(
 ) -> RankedColumns<'a> {
     let weight = |(c, criterion): (usize, &Criterion)| {
         let name = format!("{}_weight", criterion.column);
-        Column::indexed(name, "-", "weight of the criterion", c, |s: &RankedDesign<'a>, c| {
+        Column::made(name.into(), "-", "weight of the criterion", move |s: &RankedDesign<'a>| {
             s.weights.values()[c].into()
         })
     };
@@ -86,7 +86,7 @@ pub fn quaternary_columns<'a>(
 fn design<'a>(parameters: &[&'static Parameter]) -> RankedColumns<'a> {
     let mut columns = vec![number(|s: &RankedDesign<'a>| s.design().to_owned().into())];
     let parameter = |parameter: &&'static Parameter| {
-        Column::parameter(parameter, |s: &RankedDesign<'a>, parameter| {
+        Column::parameter(parameter, |s: &RankedDesign<'a>| {
             s.results.parameter(s.row(), parameter).to_owned().into()
         })
     };
@@ -110,7 +110,7 @@ fn criteria<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
         let (unit, meaning) = explain_value(&criterion.column).unwrap_or(("-", ""));
         let name = criterion.column.clone().into_owned();
-        Column::indexed(name, unit, meaning, c, |s: &RankedDesign<'a>, c| s.values()[c].into())
+        Column::made(name.into(), unit, meaning, move |s: &RankedDesign<'a>| s.values()[c].into())
     };
     preferences.criteria.iter().enumerate().filter(is_measured).map(column).collect()
 }
@@ -119,7 +119,7 @@ fn rescaled<'a>(preferences: &Preferences) -> RankedColumns<'a> {
     let column = |(c, criterion): (usize, &Criterion)| {
         let name = format!("{}_rescaled", criterion.key());
         let meaning = "criterion from 0, the worst of all ranked designs, to 1, the best";
-        Column::indexed(name, "-", meaning, c, |s: &RankedDesign<'a>, c| s.rescaled()[c].into())
+        Column::made(name.into(), "-", meaning, move |s: &RankedDesign<'a>| s.rescaled()[c].into())
     };
     preferences.criteria.iter().enumerate().map(column).collect()
 }

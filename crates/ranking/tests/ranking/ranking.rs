@@ -5,7 +5,7 @@ use ranking::{
     InvalidRanking, Preferences, RankedDesign, Ranking, TetrahedralGrid, UnmetRequirement, Weights,
     check_comparable, comparable_groups, write_ranking, write_unmet,
 };
-use results::Results;
+use results::{Completeness, Results, VerifiedFolder};
 use tempfile::TempDir;
 
 use crate::samples::{Criteria, write_results};
@@ -310,7 +310,8 @@ fn what_a_ranking_goes_by_stands_beside_its_tables() {
     let files = write_ranking(folder.path(), &ranking).expect("writable");
     assert_eq!(files, ["ranking.csv", "pareto.csv", "ranking.toml"]);
     assert!(!folder.path().join("quaternary.csv").exists(), "that of other criteria is gone");
-    let read = Preferences::read(folder.path()).expect("readable");
+    let verified = VerifiedFolder::open(folder.path(), Completeness::Whole).expect("a folder");
+    let read = Preferences::read(&verified).expect("readable");
     assert_eq!(read.as_ref(), Some(ranking.preferences()));
     write_unmet(folder.path(), ranking.preferences()).expect("writable");
     assert!(!folder.path().join("ranking.csv").exists());

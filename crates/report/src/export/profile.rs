@@ -84,7 +84,9 @@ impl ColumnProfile {
     fn scientific(&self) -> String {
         let is_positive = self.span.is_none_or(|(low, _)| low >= 0.0);
         let round_off = ROUND_OFF * self.largest();
-        let digits = "0.000E+00";
+        // Most of a column over decades can be read as it is; what is small keeps its digits by a power of ten.
+        let is_plain = is_positive && self.largest() < 1e5;
+        let digits = if is_plain { "[<0.001]0.000E+00;0.0000" } else { "0.000E+00" };
         if is_positive && round_off > 0.0 && self.smallest.is_some_and(|least| least < round_off) {
             // As a decimal fraction of one digit: conditions of formats know no powers of ten.
             let limit: f64 = format!("{round_off:.0e}").parse().unwrap_or(round_off);
@@ -127,9 +129,14 @@ mod tests {
         assert_eq!(format(&["0.025", "0.1", "1"]), "0.000");
         assert_eq!(format(&["0.7999999996252686", "0.5"]), "0.000");
         assert_eq!(format(&["22.412345678", "0.00291427547"]), "0.00000");
-        assert_eq!(format(&["22.412345678", "0.00000291427547"]), "0.000E+00");
+        assert_eq!(format(&["22.4", "0.00000291427547"]), "[<0.001]0.000E+00;0.0000");
+        assert_eq!(format(&["0.3333", "2.9e-9"]), "[<0.001]0.000E+00;0.0000");
+        assert_eq!(format(&["-22.4", "0.00000291427547"]), "0.000E+00");
         assert_eq!(format(&["0.12345678", "7.9e-27"]), "0.000");
-        assert_eq!(format(&["1.5e-7", "7.9e-27"]), "[<0.0000000000000001]0;0.000E+00");
+        assert_eq!(
+            format(&["1.5e-7", "7.9e-27"]),
+            "[<0.0000000000000001]0;[<0.001]0.000E+00;0.0000"
+        );
         assert_eq!(format(&["-1.5e-7", "7.9e-27"]), "0.000E+00");
     }
 

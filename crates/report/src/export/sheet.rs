@@ -19,8 +19,6 @@ const GREY: Color = Color::RGB(0x00E6_E6E6);
 /// The scale of a measure: light to dark blue-green, on which black stays legible.
 const SCALE: [u32; 3] = [0x00FF_FFD9, 0x007F_CDBB, 0x0041_B6C4];
 
-/// Height of a header of two lines, points.
-const HEADER: f64 = 31.0;
 /// Characters that the button of a filter takes.
 const BUTTON: usize = 3;
 /// Columns of a table that is printed one page wide, at most: letters of more would be too small.
@@ -41,7 +39,6 @@ impl Formats {
     fn new(digits: usize) -> Self {
         let header = Format::new().set_bold().set_background_color(GREY);
         let header = header.set_border_bottom(FormatBorder::Thin).set_align(FormatAlign::Left);
-        let header = header.set_align(FormatAlign::Top).set_text_wrap();
         let red = |format: Format| format.set_font_color(RED[0]).set_background_color(RED[1]);
         let number = Format::new().set_num_format("0".repeat(digits));
         let failed_number = red(number.clone());
@@ -115,9 +112,8 @@ impl Sheet {
         let columns: Vec<_> = columns.map(column).collect();
         let formats = Formats::new(4);
         for (column, name) in columns.iter().zip(header) {
-            page.write_string_with_format(0, column.place, titled(table, name), &formats.header)?;
+            page.write_string_with_format(0, column.place, name, &formats.header)?;
         }
-        page.set_row_height(0, HEADER)?;
         let chart = MeasureChart::new(table, header);
         let (table, format) = (table.to_owned(), *format);
         Ok(Self { table, page, format, columns, formats, chart, rows: 0 })
@@ -193,14 +189,6 @@ impl Sheet {
             chart.insert(&mut self.page, &self.table, self.rows, last_column)?;
         }
         Ok(self.page)
-    }
-}
-
-/// The header of a column: its name, and below it its unit, if it has one.
-fn titled(table: &str, name: &str) -> String {
-    match Explanation::of(table, name) {
-        Some(Explanation { unit, .. }) if unit != "-" => format!("{name}\n[{unit}]"),
-        _ => name.to_owned(),
     }
 }
 

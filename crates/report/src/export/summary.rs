@@ -1,13 +1,15 @@
 //! The first sheet of a workbook: what the run is, how it ended, which designs are best.
 
-use std::fs::File;
+use std::collections::HashSet;
 
 use ranking::{CRITERIA, Criterion, Goal, Preferences};
+use results::columns::measure_of;
 use results::round_off::Leader;
 use results::{CsvFormat, RunFolder, VerifiedFolder, incomparable_by};
 use rust_xlsxwriter::{Format, FormatAlign, Worksheet, XlsxError};
-use sweep::{PARAMETERS, Sweep};
+use sweep::{Measure, PARAMETERS, Sweep};
 
+use super::ExportError;
 use super::explanation::Explanation;
 use crate::facts::facts;
 
@@ -15,6 +17,9 @@ use crate::facts::facts;
 const NAME: &str = "summary";
 /// The designs of the ranking that are listed.
 const LISTED: usize = 10;
+/// What is said of a design under which the surface of the substrate folds over.
+const FOLDS: &str = "the surface folds over: do not trust the critical force";
+const DOUBT: &str = " ⚠ surface folds";
 /// Widths of its columns, in characters.
 const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 
@@ -24,6 +29,9 @@ pub(super) struct BestValues {
     columns: Vec<(&'static Criterion, usize)>,
     best: [Option<Leader<String>>; 4],
     designs: u64,
+    /// Place of the force at which the surface folds over, and the designs under which it does.
+    fold: Option<usize>,
+    folded: HashSet<String>,
 }
 
 impl BestValues {
@@ -32,13 +40,23 @@ impl BestValues {
         let place = |criterion: &'static Criterion| {
             Some((criterion, header.iter().position(|name| name == criterion.column)?))
         };
-        Self { columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+        let fold = header.iter().position(|name| name == "fold_force");
+        Self { fold, columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+    }
+
+    /// What stands behind a design that is named best by a measure, if the fold touches that measure.
+    fn doubt(&self, design: &str, measure: &str) -> &'static str {
+        let is_touched = measure_of(measure) == Some(Measure::Puncture);
+        if is_touched && self.folded.contains(design) { DOUBT } else { "" }
     }
 
     /// Sees a row.
     pub fn add(&mut self, format: CsvFormat, row: &csv::StringRecord) {
         self.designs += 1;
         let design = row.get(0).unwrap_or_default();
+        if self.fold.and_then(|place| row.get(place)).is_some_and(|cell| !cell.is_empty()) {
+            self.folded.insert(design.to_owned());
+        }
         for ((criterion, place), best) in self.columns.iter().zip(&mut self.best) {
             let value = row.get(*place).and_then(|cell| format.number(cell));
             let is_better = if criterion.goal == Goal::Maximize { f64::gt } else { f64::lt };
@@ -56,8 +74,32 @@ struct Sheet {
     bold: Format,
 }
 
+/// What the summary tells besides the best values, once it is checked.
+pub(super) struct SummaryFacts {
+    /// The record of the run, empty where there is none.
+    record: String,
+    preferences: Option<Preferences>,
+    /// Rank, number and fitness of the first designs of the ranking.
+    leading: Vec<[String; 3]>,
+}
+
+impl SummaryFacts {
+    /// The facts in `folder`.
+    pub fn read(folder: &VerifiedFolder) -> Result<Self, ExportError> {
+        let has_record = folder.holds(RunFolder::RUN_INFO);
+        let record = has_record.then(|| folder.text(RunFolder::RUN_INFO)).transpose()?;
+        let preferences = Preferences::read(folder)?;
+        let leading = if preferences.is_some() { leading(folder)? } else { Vec::new() };
+        Ok(Self { record: record.unwrap_or_default(), preferences, leading })
+    }
+}
+
 /// The summary of the run in `folder`.
-pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Worksheet, XlsxError> {
+pub(super) fn summary(
+    folder: &VerifiedFolder,
+    best: &BestValues,
+    facts: &SummaryFacts,
+) -> Result<Worksheet, XlsxError> {
     let mut page = Worksheet::new();
     page.set_name(NAME)?;
     page.set_landscape();
@@ -66,12 +108,11 @@ pub(super) fn summary(folder: &VerifiedFolder, best: &BestValues) -> Result<Work
         page.set_column_width(place, width)?;
     }
     let mut sheet = Sheet { page, row: 0, bold: Format::new().set_bold() };
-    let record = folder.text(RunFolder::RUN_INFO).unwrap_or_default();
-    let definition = Sweep::parse(&record, RunFolder::RUN_INFO, &[]).ok();
+    let definition = Sweep::parse(&facts.record, RunFolder::RUN_INFO, &[]).ok();
     sheet.title(definition.as_ref())?;
-    sheet.run(&record, folder.shortfall(), best)?;
+    sheet.run(&facts.record, folder.shortfall(), best)?;
     sheet.best(best, definition.as_ref())?;
-    sheet.ranking(folder)?;
+    sheet.ranking(facts, best)?;
     if let Some(sweep) = &definition {
         sheet.definition(sweep)?;
     }
@@ -153,7 +194,7 @@ impl Sheet {
             let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
             self.add(&[
                 &name,
-                &format!("{}{ties}", leader.first),
+                &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, &criterion.column)),
                 &sweep::number::text(value),
                 unit,
             ])?;
@@ -162,8 +203,8 @@ impl Sheet {
     }
 
     /// What the ranking of the run goes by, and its first designs.
-    fn ranking(&mut self, folder: &VerifiedFolder) -> Result<(), XlsxError> {
-        let Ok(Some(preferences)) = Preferences::read(folder.path()) else { return Ok(()) };
+    fn ranking(&mut self, facts: &SummaryFacts, best: &BestValues) -> Result<(), XlsxError> {
+        let Some(preferences) = &facts.preferences else { return Ok(()) };
         self.part(&["Ranking: requirements"])?;
         if preferences.requirements.is_empty() {
             self.add(&["none"])?;
@@ -177,8 +218,9 @@ impl Sheet {
         }
         self.add(&["scale", preferences.scale.name()])?;
         self.part(&["Ranking: best designs", "design", "fitness"])?;
-        for [rank, design, fitness] in leading(folder) {
-            self.add(&[&rank, &design, &fitness])?;
+        for [rank, design, fitness] in &facts.leading {
+            let doubt = if best.folded.contains(design) { FOLDS } else { "" };
+            self.add(&[rank, design, fitness, doubt])?;
         }
         Ok(())
     }
@@ -211,11 +253,14 @@ fn is_design_number(cell: &str) -> bool {
 }
 
 /// Rank, number and fitness of the first designs of the ranking of a folder.
-fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
+fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
     let [ranking, ..] = RunFolder::RANKING;
-    let file = File::open(folder.path().join(ranking));
-    let Ok((format, mut table)) = file.and_then(super::open) else { return Vec::new() };
-    let Ok(header) = table.headers().cloned() else { return Vec::new() };
+    // A ranking that no design meets has preferences and no tables.
+    if !folder.holds(ranking) {
+        return Ok(Vec::new());
+    }
+    let Ok((format, mut table)) = super::open(folder.file(ranking)?) else { return Ok(Vec::new()) };
+    let Ok(header) = table.headers().cloned() else { return Ok(Vec::new()) };
     let places = ["rank", "design", "fitness"].map(|name| header.iter().position(|h| h == name));
     let row = |row: csv::StringRecord| {
         places.map(|place| {
@@ -226,5 +271,5 @@ fn leading(folder: &VerifiedFolder) -> Vec<[String; 3]> {
             }
         })
     };
-    table.records().take(LISTED).filter_map(Result::ok).map(row).collect()
+    Ok(table.records().take(LISTED).filter_map(Result::ok).map(row).collect())
 }

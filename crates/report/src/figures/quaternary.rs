@@ -4,10 +4,10 @@ use geometry::{Parallelogram, Row};
 use ranking::{RankedDesign, Ranking, Weights};
 
 use super::weight_slices::{RegionLook, WeightSlices};
-use super::{in_words, sheet};
+use super::{in_words, of_perfect, sheet};
+use crate::colors::{FAINT, INK, RED, shaded};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK, RED, shaded};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 const WIDTH: f64 = 1000.0;
@@ -50,7 +50,10 @@ pub(super) fn figure(name: &str, designs: &Designs, ranking: &Ranking<'_>) -> St
         format!("best for equal weights: {}", ranking.winner(Weights::BALANCED).design());
     let spot = [20.0, 50.0];
     inside.push(label(&balanced, spot, 13.0, Anchor::Start).with("fill", INK));
-    let title = format!("{name}: the best design for every weighting of the four criteria");
+    let title = format!(
+        "{name}: the best design for every weighting of the four criteria{}",
+        of_perfect(designs)
+    );
     sheet(WIDTH, HEIGHT, &title, inside)
 }
 

@@ -1,9 +1,12 @@
 //! Figures and page of a table.
 
 use std::fmt::Write as _;
+use std::io::Read as _;
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use ranking::{Ranking, TetrahedralGrid};
-use report::{Designs, Page, PageDesign, figures};
+use report::{Designs, MapRequest, Page, PageDesign, figures, map, untitled};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -73,6 +76,35 @@ fn figures_are_named_and_the_same_every_time() {
     assert_eq!(all, figures("x", &designs, Some(&ranking)));
 }
 
+/// The page ranks by a column in the direction in which `squama rank` does, for every column that a table may have.
+#[test]
+fn the_page_knows_which_values_are_good_as_rankings_do() {
+    let material = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n\
+                    material.scale_density_kg_m3 = 1200\nimperfection.gap_cv = 0.1";
+    let sweep =
+        sweep::Sweep::parse(&format!("name = 'x'\n{material}"), "x.toml", &[]).expect("a sweep");
+    let columns = results::columns::design_columns(&sweep);
+    let headers: Vec<_> = columns.iter().map(|column| column.name.to_string()).collect();
+    let blank = ",".repeat(headers.len() - 1);
+    let designs = Designs::of(&results(&format!("{}\n0001{blank}\n", headers.join(","))));
+    let html = page(designs).html();
+    let mut told = 0;
+    for name in &headers {
+        let plain = name.parse::<ranking::Criterion>().ok().map(|criterion| criterion.goal.key());
+        let entry =
+            html.split_once(&format!("\"name\":\"{name}\"")).map_or("", |(before, _)| before);
+        let goal =
+            entry.rsplit_once("\"goal\":").map(|(_, rest)| rest.split(',').next().unwrap_or(""));
+        assert_eq!(
+            goal,
+            Some(plain.map_or("null".to_owned(), |key| format!("\"{key}\"")).as_str()),
+            "{name}"
+        );
+        told += usize::from(plain.is_some());
+    }
+    assert!(told > 12, "{told} columns have a direction");
+}
+
 #[test]
 fn what_was_not_measured_has_no_figure() {
     let table =
@@ -102,7 +134,7 @@ fn every_value_of_a_further_axis_has_figures_of_its_own() {
     );
     // Each has the half of the marks, and says which.
     for (figure, width) in forces.iter().zip(["2", "0.5"]) {
-        assert!(figure.svg.contains(&format!("x, width/t {width}: critical force")));
+        assert!(figure.svg.contains(&format!("x, b/t = {width}: critical force")));
     }
 }
 
@@ -144,27 +176,181 @@ fn a_page_of_720_designs_is_below_1_mb() {
 }
 
 #[test]
-fn a_page_has_an_axis_for_every_column_of_numbers() {
+fn a_page_knows_which_columns_are_numbers() {
     let html = page(designs()).html();
-    let axes = html.split("\"axesOf\":").nth(1).expect("the axes of the columns");
-    let (axes, _) = axes.split_once("\"columns\"").expect("the columns behind them");
+    let numeric = html.split("\"numeric\":[").nth(1).and_then(|rest| rest.split(']').next());
+    let numeric = numeric.expect("the columns of numbers");
     for header in designs().headers() {
-        // What is no number has no axis.
-        let is_there = axes.contains(&format!("\"{header}\":{{"));
-        assert_eq!(is_there, header != "flexure_contact", "{header}");
+        assert_eq!(
+            numeric.contains(&format!("\"{header}\"")),
+            header != "flexure_contact",
+            "{header}"
+        );
+    }
+}
+
+/// The figures of a page, unpacked, each with its kind and its choice.
+fn figures_of(html: &str) -> Vec<(String, String)> {
+    let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
+    let data: serde_json::Value = serde_json::from_str(data.expect("data")).expect("JSON");
+    let unpacked = |figure: &serde_json::Value| {
+        let packed = BASE64_STANDARD.decode(figure["svg"].as_str()?).ok()?;
+        let mut svg = String::new();
+        flate2::read::DeflateDecoder::new(packed.as_slice()).read_to_string(&mut svg).ok()?;
+        Some((format!("{} {}", figure["kind"].as_str()?, figure["choice"].as_str()?), svg))
+    };
+    let figures = data["figures"].as_array().expect("figures").iter();
+    figures.map(|figure| unpacked(figure).expect("a figure")).collect()
+}
+
+#[test]
+fn the_figures_of_a_page_are_those_of_files() {
+    let results = results(&table());
+    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let files = figures("x", &designs(), Some(&ranking));
+    let own = figures_of(&page(designs()).html());
+    let kinds = [
+        ("critical-force-by-gap-aspect-slant", "critical-force "),
+        ("compliance-by-gap-aspect-slant", "compliance "),
+        ("stiffness-against-critical-force", "stiffness "),
+        ("coverage-maps-by-slant", "coverage "),
+        ("pareto-fronts-pairwise", "pareto "),
+    ];
+    for (name, kind) in kinds {
+        let file = files.iter().find(|figure| figure.name == name).expect("a file");
+        let (_, svg) = own.iter().find(|(own, _)| own == kind).expect("a figure");
+        let drawn = |svg: &str| svg.split_once("</title>").expect("a title").1.to_owned();
+        assert!(drawn(svg) == drawn(&untitled(&file.svg)), "{name}");
+        assert!(svg.contains("data-design=\"0007\""), "{name}: marks know their designs");
     }
 }
 
 #[test]
-fn curves_of_solved_designs_have_axes_that_they_fit_on() {
-    let solved = PageDesign {
-        number: "0001".to_owned(),
-        puncture: vec![[0.0, 0.0], [0.1, 2.345_678_912]],
+fn curves_of_solved_designs_stand_in_one_chart() {
+    let solved = |number: &str, force| PageDesign {
+        number: number.to_owned(),
+        puncture: vec![[0.0, 0.0], [0.1, force]],
         flexure: vec![[0.0, 0.0]],
         ..PageDesign::default()
     };
-    let html = Page { solved: vec![solved], ..page(designs()) }.html();
-    assert!(html.contains("\"points\":[[0.0,0.0],[0.1,2.3457]]"), "with few digits");
-    // One point is no curve.
-    assert!(html.contains("\"puncture\":{") && !html.contains("\"flexure\":{"));
+    let solved = vec![solved("0001", 2.0), solved("0002", 0.02)];
+    let all = figures_of(&Page { solved, ..page(designs()) }.html());
+    for choice in ["curves linear", "curves log"] {
+        let (_, svg) = all.iter().find(|(kind, _)| kind == choice).expect("curves");
+        assert_eq!(svg.matches("class=\"curve\"").count(), 2, "one point is no curve: {svg}");
+        assert!(svg.contains("force") && !svg.contains("moment"));
+        // The smaller one has an axis as well, so that both can be seen alone.
+        let axes = svg.matches("data-axis=\"y\"").count();
+        assert_eq!(axes > 4, choice == "curves linear", "{axes}");
+    }
+}
+
+/// A column and its value of a design, by the number of the design.
+type Column = (&'static str, fn(u32) -> f64);
+
+/// A table like [`table`], with more columns, each made from the number of a design.
+fn table_with(columns: &[Column]) -> String {
+    let own = table();
+    let mut lines = own.lines();
+    let names = columns.iter().map(|(name, _)| *name);
+    let header = lines.next().into_iter().chain(names).collect::<Vec<_>>().join(",");
+    let rows = (1..).zip(lines).map(|(k, line)| {
+        let cells = columns.iter().map(|(_, value)| value(k).to_string());
+        std::iter::once(line.to_owned()).chain(cells).collect::<Vec<_>>().join(",")
+    });
+    std::iter::once(header).chain(rows).collect::<Vec<_>>().join("\n")
+}
+
+/// Where the marks of a figure stand, by their designs.
+fn marks(svg: &str) -> Vec<(&str, &str)> {
+    let uses = svg.split("<use ").filter(|text| text.contains("data-design"));
+    let attribute = |text: &'_ str, name: &str| -> Option<std::ops::Range<usize>> {
+        let start = text.find(&format!("{name}=\""))? + name.len() + 2;
+        Some(start..start + text[start..].find('"')?)
+    };
+    let of = |text| Some((&text[attribute(text, "data-design")?], &text[attribute(text, "y")?]));
+    uses.filter_map(of).collect()
+}
+
+fn figure<'a>(all: &'a [report::Figure], name: &str) -> &'a str {
+    &all.iter().find(|figure| figure.name.starts_with(name)).expect("a figure").svg
+}
+
+#[test]
+fn figures_of_random_gaps_show_the_median_and_the_band() {
+    let sampled = |scale: [fn(u32) -> f64; 3]| {
+        let names = ["critical_force_p05", "critical_force_p50", "critical_force_p95"];
+        let columns: Vec<_> = names.into_iter().zip(scale).collect();
+        figures("x", &Designs::of(&results(&table_with(&columns))), None)
+    };
+    let (one, other) = (
+        sampled([|k| 0.1 * f64::from(k), |k| 0.2 * f64::from(k), |k| 0.5 * f64::from(k)]),
+        // The same perfect designs, of which the median lies elsewhere.
+        sampled([|k| 0.1 * f64::from(k), |k| 0.4 * f64::from(k), |k| 0.5 * f64::from(k)]),
+    );
+    let (one, other) = (figure(&one, "critical-force"), figure(&other, "critical-force"));
+    assert_eq!(marks(one).len(), 24);
+    assert_ne!(marks(one), marks(other));
+    assert_eq!(one.matches("class=\"band\"").count(), 8, "a band for each gap and slant");
+    assert!(one.contains("median of critical force") && one.contains("band: 5 % to 95 %"));
+    let perfect = figures("x", &designs(), None);
+    assert!(!figure(&perfect, "critical-force").contains("class=\"band\""));
+    assert!(figure(&sampled([|_| 1.0; 3]), "stiffness").contains("of the perfect designs"));
+}
+
+#[test]
+fn figures_of_a_material_are_in_newtons_and_millimetres() {
+    let columns: [Column; 2] =
+        [("critical_force_N", |k| 7.0 / f64::from(k)), ("penetration_mm", f64::from)];
+    let table = table_with(&columns);
+    let all = figures("x", &Designs::of(&results(&table)), None);
+    for (name, label) in
+        [("critical-force", "critical force (N)"), ("penetration", "penetration (mm)")]
+    {
+        assert!(figure(&all, name).contains(label), "{name}");
+    }
+    let plain = figures("x", &designs(), None);
+    assert_ne!(marks(figure(&all, "critical-force")), marks(figure(&plain, "critical-force")));
+}
+
+#[test]
+fn only_what_the_fold_touches_is_struck_out() {
+    let designs = Designs::of(&results(&table_with(&[
+        ("fold_force", |k| f64::from(k)),
+        ("bend_radius_mm", |k| f64::from(k)),
+    ])));
+    let struck = |of: &str| {
+        let request =
+            MapRequest { x: "gap_over_t".into(), y: "slant_deg".into(), of: of.into(), at: vec![] };
+        map("x", &designs, &request).expect("a map").svg.contains("struck through")
+    };
+    assert_eq!(
+        [
+            "critical_force",
+            "penetration",
+            "max_stiffness",
+            "compliance",
+            "bend_radius_mm",
+            "coverage"
+        ]
+        .map(struck),
+        [true, true, true, false, false, false]
+    );
+    let all = figures("x", &designs, None);
+    assert!(figure(&all, "critical-force").contains("do not trust"));
+    assert!(!figure(&all, "compliance").contains("do not trust"));
+}
+
+#[test]
+fn titles_have_symbols_and_units() {
+    let table =
+        table_with(&[("thickness_mm", |k| f64::from(1 + k % 2)), ("critical_force_N", f64::from)]);
+    let request = MapRequest {
+        x: "gap_over_t".into(),
+        y: "slant_deg".into(),
+        of: "critical_force_N".into(),
+        at: vec![("thickness_mm".into(), "1".into())],
+    };
+    let map = map("x", &Designs::of(&results(&table)), &request).expect("a map");
+    assert!(map.svg.contains("<title>x: critical force (N) over d/t and α, t = 1 mm</title>"));
 }

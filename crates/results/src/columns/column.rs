@@ -19,9 +19,10 @@ pub struct Column<R> {
 
 /// The function that makes the cell of a row.
 enum CellSource<R> {
-    Value(fn(&R) -> Cell),
-    Parameter(&'static Parameter, fn(&R, &Parameter) -> Cell),
-    Indexed(usize, fn(&R, usize) -> Cell),
+    /// One of a static list of columns.
+    Plain(fn(&R) -> Cell),
+    /// One that is made, which knows what it is made from.
+    Made(Box<dyn Fn(&R) -> Cell + Send + Sync>),
 }
 
 impl<R> Column<R> {
@@ -32,36 +33,32 @@ impl<R> Column<R> {
         meaning: &'static str,
         cell: fn(&R) -> Cell,
     ) -> Self {
-        Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Value(cell) }
+        Self { name: Cow::Borrowed(name), unit, meaning, cell: CellSource::Plain(cell) }
     }
 
-    /// One of several columns that differ by an index, from which `cell` makes the cells.
-    pub fn indexed(
-        name: String,
+    /// A column that is made from something that `cell` knows.
+    pub fn made(
+        name: Cow<'static, str>,
         unit: &'static str,
         meaning: &'static str,
-        index: usize,
-        cell: fn(&R, usize) -> Cell,
+        cell: impl Fn(&R) -> Cell + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.into(), unit, meaning, cell: CellSource::Indexed(index, cell) }
+        Self { name, unit, meaning, cell: CellSource::Made(Box::new(cell)) }
     }
 
-    /// The column of a parameter, whose cells `cell` makes.
-    pub fn parameter(parameter: &'static Parameter, cell: fn(&R, &Parameter) -> Cell) -> Self {
-        Self {
-            name: Cow::Borrowed(header(parameter)),
-            unit: parameter.unit,
-            meaning: parameter.meaning,
-            cell: CellSource::Parameter(parameter, cell),
-        }
+    /// The column of a parameter.
+    pub fn parameter(
+        parameter: &'static Parameter,
+        cell: impl Fn(&R) -> Cell + Send + Sync + 'static,
+    ) -> Self {
+        Self::made(header(parameter).into(), parameter.unit, parameter.meaning, cell)
     }
 
     /// The cell of this column in a row.
     pub fn cell(&self, row: &R) -> Cell {
-        match self.cell {
-            CellSource::Value(cell) => cell(row),
-            CellSource::Parameter(parameter, cell) => cell(row, parameter),
-            CellSource::Indexed(index, cell) => cell(row, index),
+        match &self.cell {
+            CellSource::Plain(cell) => cell(row),
+            CellSource::Made(cell) => cell(row),
         }
     }
 }

@@ -5,12 +5,15 @@ use skin::puncture::{Fold, Instability, Puncture, PuncturePoint, ScaleState, Sna
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
+use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
 
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
-/// The columns of `path.csv`.
-pub static PATH: &[Column<StabilityPoint>] = &[
+/// The columns of `path.csv`, with more behind them.
+macro_rules! path_columns {
+    ($($more:expr),*) => {
+        &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |(p, _)| {
         p.displacement.into()
     }),
@@ -38,18 +41,32 @@ pub static PATH: &[Column<StabilityPoint>] = &[
         |(_, i)| i.tilt.into(),
     ),
     Column::new(
-        "gap_stretch_min",
+        GAP_STRETCH_MIN,
         "-",
         "width of the tightest gap between bases over that at rest",
         |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
     ),
     Column::new(
-        "gap_stretch_max",
+        GAP_STRETCH_MAX,
         "-",
         "width of the widest gap between bases over that at rest",
         |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
     ),
-];
+            $($more),*
+        ]
+    };
+}
+
+/// The columns of `path.csv`.
+pub static PATH: &[Column<StabilityPoint>] = path_columns!();
+
+/// The same under a guided needle.
+pub static GUIDED_PATH: &[Column<StabilityPoint>] = path_columns!(Column::new(
+    "lateral_force",
+    "E_s L t/(1-nu^2)",
+    "force of the guided needle on the scales along the row, to the right",
+    |(p, _)| p.lateral_force.into()
+));
 
 /// An event of a puncture.
 pub enum PunctureEvent {

@@ -1,61 +1,34 @@
 //! The columns of measures at tilts on the way, in runs that ask for several critical tilts.
 
-use skin::puncture::TiltMeasures;
-use sweep::{Parameter, Scalar, Sweep, number};
+use sweep::{Parameter, Scalar, Sweep, key, number};
 
-use super::cell::Cell;
 use super::column::Column;
+use super::measured_value::{MeasuredValue, TiltValue};
+use super::values::VALUES;
 use crate::design::row::DesignRow;
 
-/// A measure that is taken at several tilts.
-pub(super) struct TiltValue {
-    pub(super) tables: &'static [&'static str],
-    pub(super) name: &'static str,
-    pub(super) unit: &'static str,
-    pub(super) meaning: &'static str,
-    cell: fn(&DesignRow, usize) -> Cell,
-}
-
-/// Every such measure, in the order of `designs.csv`.
-pub(super) static TILT_VALUES: [TiltValue; 3] = [
-    TiltValue {
-        tables: &["critical_force"],
-        name: "critical_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force where the tilt, or its tangent the friction, first is that of the name",
-        cell: |row, index| at(row, index, |m| m.force),
-    },
-    TiltValue {
-        tables: &["critical_force", "penetration"],
-        name: "critical_displacement",
-        unit: "t",
-        meaning: "displacement of the punctured point where the tilt, or its tangent, first is that of the name",
-        cell: |row, index| at(row, index, |m| m.displacement),
-    },
-    TiltValue {
-        tables: &["penetration"],
-        name: "penetration",
-        unit: "t",
-        meaning: "depth of the deepest base corner where the tilt, or its tangent, first is that of the name",
-        cell: |row, index| at(row, index, |m| m.penetration),
-    },
-];
-
-fn at(row: &DesignRow, index: usize, value: fn(&TiltMeasures) -> f64) -> Cell {
-    row.result.at_tilts.get(index).and_then(Option::as_ref).map(value).into()
+/// Every value that is taken at several tilts, those of a table together.
+fn tilt_values() -> Vec<(&'static MeasuredValue, &'static TiltValue)> {
+    let with_tilts = |value: &'static MeasuredValue| Some((value, value.at_tilts.as_ref()?));
+    let mut values: Vec<_> = VALUES.iter().filter_map(with_tilts).collect();
+    values.sort_by_key(|(value, _)| value.first_table());
+    values
 }
 
 /// The columns at every tilt that `sweep` asks for, of the measures in a table or, with none, of all.
 pub(super) fn tilt_columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
-    let belongs = |value: &&TiltValue| table.is_none_or(|table| value.tables.contains(&table));
-    let values = TILT_VALUES.iter().filter(belongs);
-    let column = |(index, place): (usize, &String), value: &TiltValue| {
-        let name = format!("{}_at_{place}", value.name);
-        Column::indexed(name, value.unit, value.meaning, index, value.cell)
-    };
     let places = places(sweep);
-    let columns =
-        values.flat_map(|value| places.iter().enumerate().map(|place| column(place, value)));
+    let belongs = |value: &MeasuredValue| table.is_none_or(|table| value.tables.contains(&table));
+    let columns = tilt_values().into_iter().filter(|(value, _)| belongs(value));
+    let columns = columns.flat_map(|(value, at_tilts)| {
+        places.iter().enumerate().map(move |(index, place)| {
+            let name = format!("{}_at_{place}", value.name);
+            Column::made(name.into(), value.unit, at_tilts.meaning, move |row: &DesignRow| {
+                let at = row.result.at_tilts.get(index).and_then(Option::as_ref);
+                at.map(at_tilts.value).into()
+            })
+        })
+    });
     columns.collect()
 }
 
@@ -66,18 +39,19 @@ fn places(sweep: &Sweep) -> Vec<String> {
         _ => None,
     };
     let text = |&number: &f64| number::text(number);
-    if let Some(frictions) = list("needle_friction") {
+    if let Some(frictions) = list(key::NEEDLE_FRICTION) {
         let names = frictions.as_slice().iter().map(text);
         return names.map(|friction| format!("friction_{friction}")).collect();
     }
-    let tilts = list("critical_tilt_deg").unwrap_or_default();
+    let tilts = list(key::CRITICAL_TILT).unwrap_or_default();
     tilts.as_slice().iter().map(text).map(|tilt| format!("{tilt}deg")).collect()
 }
 
 /// Unit and meaning of a column at a tilt, by its name.
 pub(super) fn explain_tilt_value(name: &str) -> Option<(&'static str, &'static str)> {
-    let is_at = |value: &&TiltValue| {
+    let is_at = |value: &MeasuredValue| {
         name.strip_prefix(value.name).is_some_and(|rest| rest.starts_with("_at_"))
     };
-    TILT_VALUES.iter().find(is_at).map(|value| (value.unit, value.meaning))
+    let found = tilt_values().into_iter().find(|(value, _)| is_at(value));
+    found.map(|(value, at_tilts)| (value.unit, at_tilts.meaning))
 }

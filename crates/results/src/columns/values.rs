@@ -1,342 +1,351 @@
-//! The columns of the measured values of a design.
+//! The measured values of a design, an entry each: a new one is added here, and nowhere else but where it is measured.
 
-use skin::flexure;
-use skin::puncture::PunctureMeasures;
+use skin::flexure::FlexureMeasures;
+use skin::puncture::{CriticalEvent, PunctureMeasures};
 
 use super::cell::Cell;
-use super::measured_value::MeasuredValue;
-use crate::design::design_result::PunctureResult;
-use crate::design::row::DesignRow;
+use super::entry::{
+    BLANK, BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, failed_samples, force,
+    number, other, other_thing, same, stiffness,
+};
+use super::measured_value::{MeasuredValue, Place, Value};
+use crate::design::design_result::{DesignResult, PunctureResult};
+use crate::quantity::Quantity;
 
-const FORCE: &[&str] = &["critical_force"];
-const DEPTH: &[&str] = &["penetration"];
-const BOTH: &[&str] = &["critical_force", "penetration"];
-const COMPLIANCE: &[&str] = &["compliance"];
+/// The force at which the surface first folds over.
+pub const FOLD_FORCE: &str = "fold_force";
+/// The stretch of the tightest gap, not above 0 where the surface is folded over.
+pub const GAP_STRETCH_MIN: &str = "gap_stretch_min";
+/// The stretch of the widest gap.
+pub const GAP_STRETCH_MAX: &str = "gap_stretch_max";
+/// The largest stiffness on the path.
+pub const MAX_STIFFNESS: &str = "max_stiffness";
+/// The stiffness of the secant.
+pub const SECANT_STIFFNESS: &str = "secant_stiffness";
+/// The force that the model can answer for.
+pub const SOUND_FORCE: &str = "sound_force";
+/// The column of the mass of the scales, which needs no solution.
+pub const AREAL_MASS: &str = "areal_mass_kg_m2";
 
 /// Every measured value, in the order of `designs.csv`.
-pub(super) static VALUES: &[MeasuredValue] = &[
-    MeasuredValue {
-        tables: &["coverage"],
-        name: "coverage",
-        unit: "-",
-        meaning: "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
-        cell: |r| r.result.coverage.into(),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "critical_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force at the critical tilt",
-        cell: |r| measured(r, |m| m.critical_force),
-    },
-    MeasuredValue {
-        tables: DEPTH,
-        name: "penetration",
-        unit: "t",
-        meaning: "depth of the deepest base corner of any scale at the critical tilt",
-        cell: |r| measured(r, |m| m.penetration),
-    },
-    MeasuredValue {
-        tables: BOTH,
-        name: "puncture_status",
-        unit: "-",
-        meaning: "complete, or why the puncture has no values",
-        cell: |r| punctured(r, |p| p.outcome.text()),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "peak_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "largest puncture force up to the critical tilt, or up to where the path stopped",
-        cell: |r| measured(r, |m| m.peak_force),
-    },
-    MeasuredValue {
-        tables: BOTH,
-        name: "critical_displacement",
-        unit: "t",
-        meaning: "downward displacement of the punctured point at the critical tilt",
-        cell: |r| measured(r, |m| m.critical_displacement),
-    },
-    MeasuredValue {
-        tables: DEPTH,
-        name: "sink",
-        unit: "t",
-        meaning: "depth of the deepest midpoint of a base at the critical tilt",
-        cell: |r| measured(r, |m| m.sink),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "first_contact_displacement",
-        unit: "t",
-        meaning: "displacement of the punctured point when scales first touch",
-        cell: |r| measured(r, |m| m.first_contact_displacement),
-    },
-    MeasuredValue {
-        tables: BOTH,
-        name: "contacts",
-        unit: "-",
-        meaning: "closed contacts at the critical tilt",
-        cell: |r| measured(r, |m| m.contacts),
-    },
-    MeasuredValue {
-        tables: BOTH,
-        name: "engaged_scales",
-        unit: "-",
-        meaning: "scales that touch a neighbour at the critical tilt, the punctured one included",
-        cell: |r| measured(r, |m| m.engaged_scales),
-    },
-    MeasuredValue {
-        tables: BOTH,
-        name: "scales",
-        unit: "-",
-        meaning: "scales in the row that was solved",
-        cell: |r| measured(r, |m| (m.scales > 0).then_some(m.scales)),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "initial_stiffness",
-        unit: "E_s t",
-        meaning: "puncture stiffness at rest",
-        cell: |r| measured(r, |m| m.initial_stiffness),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "max_stiffness",
-        unit: "E_s t",
-        meaning: "largest puncture stiffness on the path",
-        cell: |r| measured(r, |m| m.max_stiffness),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "secant_stiffness",
-        unit: "E_s t",
-        meaning: "puncture force over displacement at the critical tilt",
-        cell: |r| measured(r, |m| m.secant_stiffness),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "puncture_points",
-        unit: "-",
-        meaning: "equilibria of the path of puncture",
-        cell: |r| punctured(r, |p| p.points),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "puncture_iterations",
-        unit: "-",
-        meaning: "Newton iterations of the path of puncture",
-        cell: |r| punctured(r, |p| p.iterations),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "calibration_error",
-        unit: "-",
-        meaning: "estimated relative error of the stiffness of the substrate, with what full coupling neglects",
-        cell: |r| punctured(r, |p| p.calibration_error),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "compliance",
-        unit: "1/(E_m I_m)",
-        meaning: "flexural compliance: 1 over the largest slope of the moment against the curvature",
-        cell: |r| bent(r, |m| m.compliance),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "flexure_status",
-        unit: "-",
-        meaning: "complete, or why the bending has no values",
-        cell: |r| r.result.flexure.map(|f| f.outcome.text()).into(),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "initial_compliance",
-        unit: "1/(E_m I_m)",
-        meaning: "flexural compliance at rest",
-        cell: |r| bent(r, |m| m.initial_compliance),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "flexure_contact",
-        unit: "-",
-        meaning: "yes or no: whether bending brings scales into contact",
-        cell: |r| bent(r, |m| m.contact.map(yes_or_no)),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "first_contact_curvature",
-        unit: "1/t",
-        meaning: "curvature when scales first touch",
-        cell: |r| bent(r, |m| m.first_contact_curvature),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "max_moment",
-        unit: "E_m I_m/t",
-        meaning: "largest moment on the path",
-        cell: |r| bent(r, |m| m.max_moment),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "axial_energy_share",
-        unit: "-",
-        meaning: "share of the elastic energy that stretches the membrane, at the largest rotation",
-        cell: |r| bent(r, |m| m.axial_energy_share),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "gaps",
-        unit: "-",
-        meaning: "gaps of the strip, a whole number in a chain alone",
-        cell: |r| bent(r, |m| (m.gaps > 0.0).then_some(m.gaps)),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "flexure_points",
-        unit: "-",
-        meaning: "equilibria of the path of bending",
-        cell: |r| r.result.flexure.map(|f| f.points).into(),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "flexure_iterations",
-        unit: "-",
-        meaning: "Newton iterations of the path of bending",
-        cell: |r| r.result.flexure.map(|f| f.iterations).into(),
-    },
-    MeasuredValue {
-        tables: &[],
-        name: "settings",
-        unit: "-",
-        meaning: "settings of a design that was solved again with others than the sweep's own",
-        cell: |r| r.result.settings.clone().into(),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "flexure_error",
-        unit: "-",
-        meaning: "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements",
-        cell: |r| bent(r, |m| m.error),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "membrane_strain_max",
-        unit: "-",
-        meaning: "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
-        cell: |r| bent(r, |m| m.membrane_strain_max),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "peak_displacement",
-        unit: "t",
-        meaning: "downward displacement of the punctured point at the largest force",
-        cell: |r| measured(r, |m| m.peak_displacement),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "peak_tilt_deg",
-        unit: "deg",
-        meaning: "tilt of the punctured scale at the largest force",
-        cell: |r| measured(r, |m| m.peak_tilt_deg),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "stable_under_load",
-        unit: "-",
-        meaning: "yes or no: whether the row is stable at the critical tilt if the load is held",
-        cell: |r| measured(r, |m| m.stable_under_load.map(yes_or_no)),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "stable_under_depth",
-        unit: "-",
-        meaning: "yes or no: whether the row is stable at the critical tilt if the depth of the punctured point is held",
-        cell: |r| measured(r, |m| m.stable_under_depth.map(yes_or_no)),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "load_stability_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force at which a row under a held load becomes unstable; empty if it does not",
-        cell: |r| measured(r, |m| m.load_stability_force),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "depth_stability_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force at which a row under a held depth becomes unstable; empty if it does not",
-        cell: |r| measured(r, |m| m.depth_stability_force),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "snaps",
-        unit: "-",
-        meaning: "times that the row snaps under a needle that only goes deeper",
-        cell: |r| punctured(r, |p| p.measures.snaps),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "gap_stretch_min",
-        unit: "-",
-        meaning: "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over",
-        cell: |r| measured(r, |m| m.gap_stretch_min),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "gap_stretch_max",
-        unit: "-",
-        meaning: "width of the widest gap between bases at the critical tilt over that at rest",
-        cell: |r| measured(r, |m| m.gap_stretch_max),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "fold_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force at which the surface first folds over; empty if it does not",
-        cell: |r| measured(r, |m| m.fold_force),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "fold_displacement",
-        unit: "t",
-        meaning: "displacement of the punctured point at which the surface first folds over",
-        cell: |r| measured(r, |m| m.fold_displacement),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "fold_tilt_deg",
-        unit: "deg",
-        meaning: "tilt of the punctured scale at which the surface first folds over",
-        cell: |r| measured(r, |m| m.fold_tilt_deg),
-    },
-    MeasuredValue {
-        tables: FORCE,
-        name: "sound_force",
-        unit: "E_s L t/(1-nu^2)",
-        meaning: "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
-        cell: |r| measured(r, |m| m.sound_force),
-    },
-    MeasuredValue {
-        tables: COMPLIANCE,
-        name: "contact_curvature",
-        unit: "1/t",
-        meaning: "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close",
-        cell: |r| bent(r, |m| m.contact_curvature),
-    },
+pub(crate) static VALUES: &[MeasuredValue] = &[
+
+    other(
+            "coverage",
+            COVERAGE,
+            "share of the thickness that scales fill along a vertical line down from the top right corner of a scale; 0 for upright scales",
+            |_| Cell::Empty,
+        ).valued(Value::Coverage).large().first(),
+    force("critical_force", Place::End, "puncture force at the critical tilt", |m| {
+            &mut m.critical_force
+        }).physical(&[
+            same(Quantity::Force),
+            other_thing(
+                Quantity::ForcePerWidth,
+                "critical_force_per_width",
+                "puncture force at the critical tilt, over the width of the scales",
+            ),
+        ]).large().sampled("critical force", |s| s.critical_force).at_tilts("puncture force where the tilt, or its tangent the friction, first is that of the name", |m| m.force).first(),
+    depth(
+            "penetration",
+            Place::End,
+            "depth of the deepest base corner of any scale at the critical tilt",
+            |m| &mut m.penetration,
+        ).within(DEPTH).small().sampled("penetration", |s| s.penetration).at_tilts("depth of the deepest base corner where the tilt, or its tangent, first is that of the name", |m| m.penetration).first(),
+    failed_samples(
+        "puncture_samples_failed",
+        BOTH,
+        "imperfect samples whose puncture has no values, left out of mean and quantiles",
+        |s| s.puncture_failed,
+    ),
+    other("puncture_status", BOTH, "complete, or why the puncture has no values", |r| {
+            punctured(r, |p| p.outcome.text())
+        }).last(),
+    force(
+            "peak_force",
+            Place::Peak,
+            "largest puncture force up to the critical tilt, or up to where the path stopped",
+            |m| &mut m.peak_force,
+        ).large().then(),
+    depth(
+            "critical_displacement",
+            Place::End,
+            "downward displacement of the punctured point at the critical tilt",
+            |m| &mut m.critical_displacement,
+        ).within(BOTH).at_tilts("displacement of the punctured point where the tilt, or its tangent, first is that of the name", |m| m.displacement),
+    depth(
+            "sink",
+            Place::End,
+            "depth of the deepest midpoint of a base at the critical tilt",
+            |m| &mut m.sink,
+        ).within(DEPTH).small(),
+    depth(
+        "first_contact_displacement",
+        Place::Contact,
+        "displacement of the punctured point when scales first touch",
+        |m| &mut m.first_contact_displacement,
+    ),
+    other("contacts", BOTH, "closed contacts at the critical tilt", |r| {
+            measured(r, |m| m.contacts)
+        }).at(Place::End).then(),
+    other(
+            "engaged_scales",
+            BOTH,
+            "scales that touch a neighbour at the critical tilt, the punctured one included",
+            |r| measured(r, |m| m.engaged_scales),
+        ).at(Place::End).large(),
+    other(
+        "critical_event",
+        BOTH,
+        "what ended the path of a guided needle: tilt, a scale that it touches is critically tilted; through, it has come to the soft surface",
+        |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)),
+    ).guided(),
+    force(
+        "passing_force",
+        Place::Anywhere,
+        "puncture force where a guided needle first left the face that it was set down on; empty if it did not",
+        |m| &mut m.passage.passing_force,
+    ).large().guided(),
+    depth(
+        "passing_displacement",
+        Place::Anywhere,
+        "depth of the tip of a guided needle where it first left its face",
+        |m| &mut m.passage.passing_displacement,
+    ).within(BOTH).guided(),
+    number(
+        "passing_tilt_deg",
+        "deg",
+        Place::Anywhere,
+        "tilt of the punctured scale where a guided needle first left its face",
+        |m| &mut m.passage.passing_tilt_deg,
+    ).guided(),
+    depth(
+        "needle_shift",
+        Place::Anywhere,
+        "how far a guided needle has moved inward on its face: at the end, or where it left it",
+        |m| &mut m.passage.needle_shift,
+    ).within(BOTH).guided(),
+    other("scales", BOTH, "scales in the row that was solved", |r| {
+        measured(r, |m| (m.scales > 0).then_some(m.scales))
+    }),
+    stiffness("initial_stiffness", Place::Rest, "puncture stiffness at rest", |m| {
+        &mut m.initial_stiffness
+    }),
+    stiffness(MAX_STIFFNESS, Place::Anywhere, "largest puncture stiffness on the path", |m| {
+            &mut m.max_stiffness
+        }).then(),
+    stiffness(
+        SECANT_STIFFNESS,
+        Place::End,
+        "puncture force over displacement at the critical tilt",
+        |m| &mut m.secant_stiffness,
+    ),
+    other("puncture_points", NONE, "equilibria of the path of puncture", |r| {
+        punctured(r, |p| p.points)
+    }),
+    other("puncture_iterations", NONE, "Newton iterations of the path of puncture", |r| {
+        punctured(r, |p| p.iterations)
+    }),
+    other(
+        "calibration_error",
+        NONE,
+        "estimated relative error of the stiffness of the substrate, with what full coupling neglects",
+        |r| punctured(r, |p| p.calibration_error),
+    ),
+    bending(
+            "compliance",
+            "1/(E_m I_m)",
+            Place::Anywhere,
+            "flexural compliance: 1 over the largest slope of the moment against the curvature",
+            |m| &mut m.compliance,
+        ).physical(&[other_thing(
+            Quantity::Rigidity,
+            "flexural_rigidity",
+            "flexural rigidity: largest slope of the moment against the curvature",
+        )]).large().sampled("flexural compliance", |s| s.compliance).first(),
+    other("flexure_status", COMPLIANCE, "complete, or why the bending has no values", |r| {
+            r.flexure.map(|f| f.outcome.text()).into()
+        }).last(),
+    bending(
+            "initial_compliance",
+            "1/(E_m I_m)",
+            Place::Rest,
+            "flexural compliance at rest",
+            |m| &mut m.initial_compliance,
+        ).physical(&[other_thing(
+            Quantity::Rigidity,
+            "initial_flexural_rigidity",
+            "flexural rigidity at rest",
+        )]).large(),
+    other(
+            "flexure_contact",
+            COMPLIANCE,
+            "yes or no: whether bending brings scales into contact",
+            |r| bent(r, |m| m.contact.map(yes_or_no)),
+        ).then(),
+    bending(
+            "first_contact_curvature",
+            "1/t",
+            Place::Contact,
+            "curvature when scales first touch",
+            |m| &mut m.first_contact_curvature,
+        ).large(),
+    bending("max_moment", "E_m I_m/t", Place::Anywhere, "largest moment on the path", |m| {
+            &mut m.max_moment
+        }).physical(&[same(Quantity::Moment)]),
+    bending(
+        "axial_energy_share",
+        "-",
+        Place::End,
+        "share of the elastic energy that stretches the membrane, at the largest rotation",
+        |m| &mut m.axial_energy_share,
+    ),
+    other("gaps", COMPLIANCE, "gaps of the strip, a whole number in a chain alone", |r| {
+        bent(r, |m| (m.gaps > 0.0).then_some(m.gaps))
+    }),
+    other("flexure_points", NONE, "equilibria of the path of bending", |r| {
+        r.flexure.map(|f| f.points).into()
+    }),
+    other("flexure_iterations", NONE, "Newton iterations of the path of bending", |r| {
+        r.flexure.map(|f| f.iterations).into()
+    }),
+    other(
+        "settings",
+        NONE,
+        "settings of a design that was solved again with others than the sweep's own",
+        |r| r.settings.clone().into(),
+    ),
+    other(
+        "flexure_error",
+        COMPLIANCE,
+        "estimated relative error of the measures of bending, from the resolution of the membrane; empty for a given number of elements",
+        |r| bent(r, |m| m.error),
+    ),
+    bending(
+            "membrane_strain_max",
+            "-",
+            Place::Anywhere,
+            "largest strain at the surface of the membrane; above 0.2 its law of small strains is outside its range",
+            |m| &mut m.membrane_strain_max,
+        ).small().then(),
+    depth(
+        "peak_displacement",
+        Place::Peak,
+        "downward displacement of the punctured point at the largest force",
+        |m| &mut m.peak_displacement,
+    ),
+    number(
+        "peak_tilt_deg",
+        "deg",
+        Place::Peak,
+        "tilt of the punctured scale at the largest force",
+        |m| &mut m.peak_tilt_deg,
+    ),
+    other(
+        "stable_under_load",
+        FORCE,
+        "yes or no: whether the row is stable at the critical tilt if the load is held",
+        |r| measured(r, |m| m.stable_under_load.map(yes_or_no)),
+    ),
+    other(
+        "stable_under_depth",
+        FORCE,
+        "yes or no: whether the row is stable at the critical tilt if the depth of the punctured point is held",
+        |r| measured(r, |m| m.stable_under_depth.map(yes_or_no)),
+    ),
+    force(
+        "load_stability_force",
+        Place::Instability,
+        "puncture force at which a row under a held load becomes unstable; empty if it does not",
+        |m| &mut m.load_stability_force,
+    ),
+    force(
+        "depth_stability_force",
+        Place::Instability,
+        "puncture force at which a row under a held depth becomes unstable; empty if it does not",
+        |m| &mut m.depth_stability_force,
+    ),
+    other(
+            "snaps",
+            FORCE,
+            "times that the row snaps under a needle that only goes deeper",
+            |r| punctured(r, |p| p.measures.snaps),
+        ).at(Place::Anywhere),
+    number(
+            GAP_STRETCH_MIN,
+            "-",
+            Place::End,
+            "width of the tightest gap between bases at the critical tilt over that at rest; not above 0 where the surface is folded over",
+            |m| &mut m.gap_stretch_min,
+        ).large().then(),
+    number(
+            GAP_STRETCH_MAX,
+            "-",
+            Place::End,
+            "width of the widest gap between bases at the critical tilt over that at rest",
+            |m| &mut m.gap_stretch_max,
+        ).small().then(),
+    force(
+            FOLD_FORCE,
+            Place::Fold,
+            "puncture force at which the surface first folds over; empty if it does not",
+            |m| &mut m.fold_force,
+        ).large().then(),
+    depth(
+        "fold_displacement",
+        Place::Fold,
+        "displacement of the punctured point at which the surface first folds over",
+        |m| &mut m.fold_displacement,
+    ),
+    number(
+        "fold_tilt_deg",
+        "deg",
+        Place::Fold,
+        "tilt of the punctured scale at which the surface first folds over",
+        |m| &mut m.fold_tilt_deg,
+    ),
+    force(
+            SOUND_FORCE,
+            Place::FoldOrEnd,
+            "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
+            |m| &mut m.sound_force,
+        ).large().first(),
+    bending(
+            "contact_curvature",
+            "1/t",
+            Place::Contact,
+            "curvature at which scales touch, wherever the bending ends; empty for a gap that cannot close",
+            |m| &mut m.contact_curvature,
+        ).physical(&[other_thing(
+            Quantity::Radius,
+            "bend_radius",
+            "smallest radius to which the skin bends before scales touch",
+        )]).large().then(),
+    BLANK.named("closing_range", "1/t", "").within(COMPLIANCE).sampled("curvature from the first contact to that in the last gap that closes,", |s| s.closing_range),
+    failed_samples(
+        "flexure_samples_failed",
+        COMPLIANCE,
+        "imperfect samples whose bending has no values, left out of mean and quantiles",
+        |s| s.flexure_failed,
+    ),
+    BLANK.named(AREAL_MASS, "kg/m^2", "mass of the scales over the area of the skin").within(COVERAGE).valued(Value::ArealMass).small(),
 ];
 
-fn measured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureMeasures) -> Option<T>) -> Cell {
-    row.result.puncture.and_then(|puncture| value(&puncture.measures)).into()
+fn measured<T: Into<Cell>>(
+    result: &DesignResult,
+    value: fn(&PunctureMeasures) -> Option<T>,
+) -> Cell {
+    result.puncture.and_then(|puncture| value(&puncture.measures)).into()
 }
 
 fn yes_or_no(holds: bool) -> &'static str {
     if holds { "yes" } else { "no" }
 }
 
-fn punctured<T: Into<Cell>>(row: &DesignRow, value: fn(&PunctureResult) -> T) -> Cell {
-    row.result.puncture.as_ref().map(value).into()
+fn punctured<T: Into<Cell>>(result: &DesignResult, value: fn(&PunctureResult) -> T) -> Cell {
+    result.puncture.as_ref().map(value).into()
 }
 
-fn bent<T: Into<Cell>>(row: &DesignRow, value: fn(&flexure::FlexureMeasures) -> Option<T>) -> Cell {
-    row.result.flexure.and_then(|flexure| value(&flexure.measures)).into()
+fn bent<T: Into<Cell>>(result: &DesignResult, value: fn(&FlexureMeasures) -> Option<T>) -> Cell {
+    result.flexure.and_then(|flexure| value(&flexure.measures)).into()
 }

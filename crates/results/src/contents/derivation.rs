@@ -5,10 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
+use store::{OutputError, read_text, sha256};
 
 use super::verified_folder::VerifiedFolder;
-use crate::digest::sha256;
-use crate::folder::{OutputError, RunFolder};
+use crate::folder::RunFolder;
 
 /// A product of the tables of a results folder: a ranking, a workbook, figures, a page.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -18,7 +18,7 @@ pub struct Derivation {
     pub product: String,
     /// The command that makes it again.
     pub command: String,
-    /// SHA-256 of the tables that it was made from, see `Contents::digest`.
+    /// SHA-256 of the tables that it was made from, see `Contents::digest`; empty if it was made from a definition.
     pub from: String,
     /// How much of the run it was made from, if it was not the whole.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -52,7 +52,7 @@ impl Derivation {
     pub fn read(folder: &RunFolder, record: &str) -> Option<Self> {
         let path = folder.file(RunFolder::DERIVED).join(format!("{record}.toml"));
         // A record that is damaged speaks for nothing.
-        toml::from_str(&fs::read_to_string(path).ok()?).ok()
+        toml::from_str(&read_text(&path).ok()?).ok()
     }
 
     /// All products of `folder`, in the order of their records.
@@ -72,16 +72,26 @@ impl Derivation {
 
     /// Removes those of its files in `folder` that are as they were made, and returns their names. What stands elsewhere,
     /// or was changed by somebody, is not squama's to remove.
-    pub fn remove(&self, folder: &RunFolder) -> Vec<String> {
+    pub(super) fn remove(&self, folder: &RunFolder) -> Vec<String> {
+        // Without a digest it was not finished, and whatever is there of it is ours.
         let is_ours = |(name, digest): &(&String, &String)| {
-            Path::new(name).is_relative()
-                && fs::read(folder.file(name)).is_ok_and(|bytes| sha256(bytes) == **digest)
+            let path = folder.file(name);
+            let is_own =
+                || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
+            Path::new(name).is_relative() && path.is_file() && is_own()
         };
         let removed: Vec<_> =
             self.files.iter().filter(is_ours).map(|(name, _)| name.clone()).collect();
         for name in &removed {
             folder.remove(name);
         }
+        removed
+    }
+    /// Removes all products of `folder` that are as they were made, and the records of all; returns the names of the files.
+    pub fn remove_all(folder: &RunFolder) -> Vec<String> {
+        let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
+        // Records, and nothing else, stand in that folder.
+        let _ = fs::remove_dir_all(folder.file(RunFolder::DERIVED));
         removed
     }
 }

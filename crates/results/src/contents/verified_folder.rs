@@ -5,12 +5,12 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 
+use store::{read_text, sha256, sha256_of};
 use sweep::reason;
 
 use super::derivation::Derivation;
 use super::{Contents, JournalExtent};
-use crate::digest::{sha256, sha256_of};
-use crate::folder::RunFolder;
+use crate::folder::{FileEntry, Maker, RunFolder};
 use crate::shell::shell_word;
 
 /// Whether results are used that are not whole.
@@ -37,13 +37,13 @@ pub struct VerifiedFolder {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidFolder {
     /// A journal, and nothing that says what its tables are.
-    #[error("{}: holds a journal but no contents.toml, which a run writes last, expected a run that came to its end; {} writes the tables of what is done", folder.display(), mend(folder))]
+    #[error("{}: holds a journal but no contents.toml, which a run writes last; {} writes the tables of the designs that are solved", folder.display(), mend(folder))]
     Unfinished {
         /// The folder.
         folder: PathBuf,
     },
     /// The statement of the contents was damaged.
-    #[error("{}: is not as it was written ({problem}), expected no change; {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
+    #[error("{}: was changed after squama wrote it ({problem}); {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
     Contents {
         /// The folder.
         folder: PathBuf,
@@ -51,7 +51,7 @@ pub enum InvalidFolder {
         problem: String,
     },
     /// The journal is not the one that the tables were written from.
-    #[error("{}: is not the journal that the tables beside it were written from ({problem}), expected no change; {} writes the tables of what is there", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
+    #[error("{}: is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
     Journal {
         /// The folder.
         folder: PathBuf,
@@ -59,7 +59,7 @@ pub enum InvalidFolder {
         problem: String,
     },
     /// A table is not the one that was written.
-    #[error("{}: is not as it was written, expected no change; {} writes it again", folder.join(file).display(), mend(folder))]
+    #[error("{}: was changed after squama wrote it; {} writes it again", folder.join(file).display(), mend(folder))]
     Changed {
         /// The folder.
         folder: PathBuf,
@@ -67,17 +67,35 @@ pub enum InvalidFolder {
         file: String,
     },
     /// The record of a run was changed.
-    #[error("{}: is not as its run wrote it, expected no change, or a copy of another name; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
+    #[error("{}: was edited; copy it under another name to use it as a definition; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
     Record {
         /// The folder.
         folder: PathBuf,
     },
     /// A table of a ranking that did not come to its end, or of other tables.
-    #[error("{}: {problem}, expected a ranking of the tables beside it; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
+    #[error("{}: {problem}; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
     Ranking {
         /// The folder.
         folder: PathBuf,
         /// The name of the table.
+        file: String,
+        /// The fault.
+        problem: &'static str,
+    },
+    /// A table of a ranking that no record names.
+    #[error("{}: no record in derived says that squama rank wrote it; move it out of the folder", folder.join(file).display())]
+    Unrecorded {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the table.
+        file: String,
+    },
+    /// A file of a search that did not come to its end, or one that was changed.
+    #[error("{}: {problem}; the same command with --resume writes it again", folder.join(file).display())]
+    Search {
+        /// The folder.
+        folder: PathBuf,
+        /// The name of the file.
         file: String,
         /// The fault.
         problem: &'static str,
@@ -91,7 +109,7 @@ pub enum InvalidFolder {
         reason: String,
     },
     /// Some designs are not done.
-    #[error("{}: holds {done} of {designs} designs, expected all of them; squama run --resume solves the others, --partial uses those that are there", folder.display())]
+    #[error("{}: holds {done} of {designs} designs; squama run --resume solves the others, --partial uses those that are there", folder.display())]
     Incomplete {
         /// The folder.
         folder: PathBuf,
@@ -101,7 +119,7 @@ pub enum InvalidFolder {
         designs: u64,
     },
     /// The journal goes on beyond the tables.
-    #[error("{}: the journal goes on beyond the tables, because a run is going on or was ended before it wrote them; expected tables of all of it; {} writes them, --partial uses those that are there", folder.display(), mend(folder))]
+    #[error("{}: the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables", folder.display(), mend(folder))]
     Behind {
         /// The folder.
         folder: PathBuf,
@@ -154,9 +172,9 @@ impl VerifiedFolder {
         self.folder.path()
     }
 
-    /// Whether it holds the file `name`.
+    /// Whether it holds anything of the name `name`: what is no file is refused when it is opened.
     pub fn holds(&self, name: &str) -> bool {
-        self.folder.holds(name)
+        self.folder.file(name).exists()
     }
 
     /// The names of the tables that are there, and of those that should be, in the order in which people read them.
@@ -166,8 +184,9 @@ impl VerifiedFolder {
         // A ranking that was removed as a whole is not missed.
         let ranking = ranking.filter(|made| self.contents.is_some() && made.is_there(&self.folder));
         let ranked = ranking.iter().flat_map(|made| made.files.keys());
-        let expected: BTreeSet<_> = stated.chain(ranked).collect();
-        RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name)).collect()
+        let expected: BTreeSet<&str> = stated.chain(ranked).map(String::as_str).collect();
+        let tables = RunFolder::tables().filter(|name| expected.contains(name) || self.holds(name));
+        tables.map(str::to_owned).collect()
     }
 
     /// The tables as one SHA-256, if the run states it.
@@ -222,16 +241,19 @@ impl VerifiedFolder {
 
     /// The SHA-256 that the file `name` must have, if anybody states it.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let entry = FileEntry::of(name).filter(|file| file.is_stated);
+        if entry.is_some_and(|file| file.maker == Maker::Search) {
+            return self.expected_of_search(name);
+        }
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
             return Ok(Some(digest.clone()));
         }
-        if RunFolder::of_runs().any(|table| table == name) {
-            // Tables of a run that was ended before it stated them.
-            return Err(self.changed(name));
-        }
-        if !RunFolder::RANKING.contains(&name) {
-            return Ok(None);
+        match entry.map(|file| file.maker) {
+            None => return Ok(None),
+            Some(Maker::Ranking) => {}
+            // Of a run that was ended before it stated it, or of one that never made it.
+            Some(_) => return Err(self.changed(name)),
         }
         let refuse = |problem| InvalidFolder::Ranking {
             folder: self.path().to_owned(),
@@ -239,19 +261,38 @@ impl VerifiedFolder {
             problem,
         };
         let ranking = Derivation::read(&self.folder, RunFolder::RANKING_RECORD);
-        let ranking = ranking.ok_or_else(|| refuse("its ranking did not come to its end"))?;
+        let unrecorded =
+            || InvalidFolder::Unrecorded { folder: self.path().to_owned(), file: name.to_owned() };
+        let ranking = ranking.ok_or_else(unrecorded)?;
         if ranking.from != contents.digest() {
-            return Err(refuse("is made from other tables"));
+            return Err(refuse("was made from other tables"));
         }
-        Ok(ranking.files.get(name).cloned())
+        let stated = ranking.files.get(name).cloned();
+        stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
+    }
+
+    /// The SHA-256 that the file `name` of a search must have. A folder without a journal holds tables alone.
+    fn expected_of_search(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
+        let made = Derivation::read(&self.folder, Maker::Search.key());
+        if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
+            return Ok(None);
+        }
+        let stated = made.and_then(|made| made.files.get(name).cloned());
+        // Without a digest the search was ended before it stated what it had written.
+        stated.filter(|digest| !digest.is_empty()).map(Some).ok_or_else(|| InvalidFolder::Search {
+            folder: self.path().to_owned(),
+            file: name.to_owned(),
+            problem: "its search did not come to its end",
+        })
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
         let (folder, file) = (self.path().to_owned(), name.to_owned());
-        if RunFolder::RANKING.contains(&name) {
-            InvalidFolder::Ranking { folder, file, problem: "is not as it was written" }
-        } else {
-            InvalidFolder::Changed { folder, file }
+        let problem = "was changed after squama wrote it";
+        match FileEntry::of(name).map(|file| file.maker) {
+            Some(Maker::Ranking) => InvalidFolder::Ranking { folder, file, problem },
+            Some(Maker::Search) => InvalidFolder::Search { folder, file, problem },
+            _ => InvalidFolder::Changed { folder, file },
         }
     }
 
@@ -265,7 +306,8 @@ impl VerifiedFolder {
     pub fn outdated(&self) -> Vec<Derivation> {
         let Some(digest) = self.digest() else { return Vec::new() };
         let all = Derivation::all(&self.folder).into_iter();
-        all.filter(|made| made.from != digest && made.is_there(&self.folder)).collect()
+        let is_older = |made: &Derivation| !made.from.is_empty() && made.from != digest;
+        all.filter(|made| is_older(made) && made.is_there(&self.folder)).collect()
     }
 }
 
@@ -288,7 +330,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
 /// The contents of `folder`; `None` if it holds tables alone.
 fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
     let path = || folder.path().to_owned();
-    match fs::read_to_string(folder.file(RunFolder::CONTENTS)) {
+    match read_text(&folder.file(RunFolder::CONTENTS)) {
         Ok(text) => match Contents::parse(&text) {
             Ok(contents) => Ok(Some(contents)),
             Err(problem) => Err(InvalidFolder::Contents { folder: path(), problem }),
@@ -319,4 +361,50 @@ fn is_behind(folder: &RunFolder, extent: &JournalExtent) -> Result<bool, Invalid
         return Err(refuse("its beginning has changed".to_owned()));
     }
     Ok(metadata.len() > extent.bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::folder::FILES;
+
+    /// A folder whose run states these files.
+    fn folder(place: &Path, files: BTreeMap<String, String>) -> RunFolder {
+        let folder = RunFolder::new(place);
+        let journal = JournalExtent { bytes: 0, lines: 0, sha256: sha256("") };
+        let program = "0 (none)".to_owned();
+        let contents = Contents { program, designs: 0, done: 0, journal, files };
+        contents.write(&folder).expect("writable");
+        folder
+    }
+
+    #[test]
+    fn of_every_file_whose_maker_states_it_no_other_is_read() {
+        for file in FILES.iter().filter(|file| file.is_stated) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = folder(place.path(), BTreeMap::new());
+            fs::write(folder.file(file.name), "forged").expect("writable");
+            fs::write(folder.file(RunFolder::EVALUATIONS), "").expect("writable");
+            let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains(file.name), "{refused}");
+            let written = BTreeMap::from([(file.name.to_owned(), sha256("as it was written"))]);
+            if file.maker == Maker::Run {
+                self::folder(place.path(), written);
+            } else {
+                let from = open().expect("a folder").digest().expect("a digest");
+                let (product, command) = file.maker.names();
+                let (product, command) = (product.to_owned(), command.to_owned());
+                let made = Derivation { product, command, from, made_from: None, files: written };
+                made.write(&folder, file.maker.key()).expect("writable");
+            }
+            let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
+            assert!(refused.to_string().contains("was changed after"), "{refused}");
+            fs::write(folder.file(file.name), "as it was written").expect("writable");
+            let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
+            assert_eq!(read, "as it was written", "{}", file.name);
+        }
+    }
 }

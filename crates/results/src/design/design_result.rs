@@ -9,6 +9,7 @@ use super::outcome::Outcome;
 use super::parameter_derivative::ParameterDerivative;
 use super::sample_statistics::SampleStatistics;
 use super::stored_derivatives;
+use crate::columns::values::VALUES;
 
 /// The character between the settings of a design.
 pub const SEPARATOR: char = ' ';
@@ -89,12 +90,8 @@ impl PunctureResult {
             scales: measures.scales,
             ..puncture::PunctureMeasures::default()
         };
-        let (outcome, measures) = finite_or(
-            measures.named().iter().all(is_finite),
-            puncture.status.into(),
-            measures,
-            few,
-        );
+        let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
+        let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
         Self {
             outcome,
             measures,
@@ -130,16 +127,11 @@ impl FlexureResult {
         let mut measures = flexure.measures;
         let few =
             flexure::FlexureMeasures { gaps: measures.gaps, ..flexure::FlexureMeasures::default() };
-        let (outcome, measures) =
-            finite_or(measures.named().iter().all(is_finite), flexure.status.into(), measures, few);
+        let finite_all = VALUES.iter().all(|value| value.is_finite_in_flexure(&mut measures));
+        let (outcome, measures) = finite_or(finite_all, flexure.status.into(), measures, few);
         let (points, iterations) = (flexure.path.len(), flexure.history.len());
         Self { outcome, measures, points, iterations }
     }
-}
-
-/// Whether a number is finite, if it exists.
-fn is_finite((_, number): &(&str, &mut Option<f64>)) -> bool {
-    number.is_none_or(f64::is_finite)
 }
 
 /// The outcome and the measures, or, if one of their numbers is not finite, the reason and a `few`.

@@ -7,6 +7,8 @@ use super::design_result::DesignResult;
 use super::parameter_derivative::ParameterDerivative;
 use super::row::DesignRow;
 use super::sample_statistics::SampleStatistics;
+use crate::columns::measured_value;
+use crate::columns::values::VALUES;
 
 /// Which of the two one-sided derivatives a row is extrapolated by; away from kinks they are the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,8 +113,13 @@ impl DesignResult {
         }
         if depends(Measure::Puncture) {
             result.at_tilts.clear();
-            let puncture = result.puncture.iter_mut();
-            puncture.flat_map(|p| p.measures.named()).for_each(|(_, value)| *value = None);
+            let of_puncture =
+                VALUES.iter().filter(|value| value.measure() == Some(Measure::Puncture));
+            for value in of_puncture {
+                if let Some(number) = value.number_mut(&mut result) {
+                    *number = None;
+                }
+            }
         }
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
@@ -125,9 +132,6 @@ impl DesignResult {
 
     /// The value of the continuous measure of that name, to be changed; `None` if there is none, or it was not asked for.
     fn value_mut(&mut self, measure: &str) -> Option<&mut Option<f64>> {
-        let puncture = self.puncture.iter_mut().flat_map(|p| p.measures.named());
-        let flexure = self.flexure.iter_mut().flat_map(|f| f.measures.named());
-        let mut all = [("coverage", &mut self.coverage)].into_iter().chain(puncture).chain(flexure);
-        all.find_map(|(name, value)| (name == measure).then_some(value))
+        measured_value(measure)?.number_mut(self)
     }
 }

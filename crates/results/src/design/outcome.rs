@@ -38,11 +38,13 @@ pub enum Outcome {
     Unloaded,
     /// Load, depth and tilt turned back together and did not recover.
     LimitPoint,
+    /// A guided needle pushed a scale straight down and tilted none critically.
+    Untilted,
 }
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -56,6 +58,7 @@ impl Outcome {
         Self::Internal,
         Self::Unloaded,
         Self::LimitPoint,
+        Self::Untilted,
     ];
 
     /// The text of the outcome in the tables.
@@ -74,6 +77,7 @@ impl Outcome {
             Self::Internal => "internal error",
             Self::Unloaded => "unloaded",
             Self::LimitPoint => "limit point",
+            Self::Untilted => "no critical tilt",
         }
     }
 
@@ -97,6 +101,9 @@ impl Outcome {
             Self::LimitPoint => {
                 "load, depth and tilt turned back together, and the path ends before any of them recovers"
             }
+            Self::Untilted => {
+                "a guided needle pushes a scale straight down and tilts none critically"
+            }
         }
     }
 }
@@ -115,6 +122,7 @@ impl From<Status> for Outcome {
             Status::Interpenetration => Self::Interpenetration,
             Status::OffEdge => Self::OffEdge,
             Status::LimitPoint => Self::LimitPoint,
+            Status::Untilted => Self::Untilted,
             Status::Stopped(stop) => stop.into(),
         }
     }

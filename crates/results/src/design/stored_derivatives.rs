@@ -4,11 +4,10 @@ use std::borrow::Cow;
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use skin::flexure::FlexureMeasures;
-use skin::puncture::PunctureMeasures;
 use sweep::Parameter;
 
 use super::parameter_derivative::ParameterDerivative;
+use crate::columns::values::VALUES;
 
 /// The name of a continuous measure, or the key of a parameter.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -16,10 +15,8 @@ struct KnownName(&'static str);
 
 impl KnownName {
     fn of(text: &str) -> Option<Self> {
-        let (mut puncture, mut flexure) = <(PunctureMeasures, FlexureMeasures)>::default();
-        let numbers = puncture.named().into_iter().chain(flexure.named());
-        let mut measures = numbers.map(|(name, _)| name).chain(["coverage"]);
-        let measure = measures.find(|name| *name == text);
+        let value = VALUES.iter().filter(|value| value.has_derivatives());
+        let measure = value.map(|value| value.name).find(|name| *name == text);
         measure.or_else(|| Parameter::named(text).map(|parameter| parameter.key)).map(Self)
     }
 }

@@ -4,9 +4,11 @@ use std::borrow::Borrow;
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write as _};
 
+use store::{AtomicFile, OutputError};
+
 use super::csv_format::CsvFormat;
 use crate::columns::Column;
-use crate::folder::{AtomicFile, OutputError, RunFolder};
+use crate::folder::RunFolder;
 
 /// Rows whose lines are in memory at a time.
 const PORTION: usize = 1024;

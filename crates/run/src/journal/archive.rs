@@ -1,21 +1,16 @@
 //! A journal that was read.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use results::{Contents, CsvFormat, DesignRow, JournalExtent, RunFolder};
+use store::{JournalError, JournalHeader, Records, Seal, Windows};
 use sweep::{SubsetDesigns, Sweep, reason};
 
-use super::entry::{JournalEntry, SessionStart};
-use super::error::JournalError;
-use super::header::{FORMAT, JournalHeader};
+use super::entry::{JournalEntry, Line, SessionStart};
 use super::index::Index;
-use super::lines::Lines;
-use super::require_file;
-use super::seal::{BEFORE, Line, Seal};
-use super::windows::Windows;
 
 /// A journal that was read: what it is of, and where its designs stand.
 #[derive(Debug)]
@@ -46,76 +41,19 @@ pub struct LatestSession {
     pub seconds: f64,
 }
 
-impl Archive {
-    /// Reads the journal in `folder` without a claim to it: a run may be writing it.
-    ///
-    /// # Errors
-    /// If there is none, or it is damaged.
-    pub fn open(folder: &RunFolder) -> Result<Self, JournalError> {
-        let path = folder.journal();
-        let missing = || JournalError::Missing { folder: folder.path().to_owned() };
-        if !path.exists() {
-            return Err(missing());
-        }
-        Self::read(&path)?.ok_or_else(missing)
-    }
+impl Records for Archive {
+    type Line = Line;
 
-    /// Reads the journal at `path`; `None` if not even its first line was written.
-    pub(crate) fn read(path: &Path) -> Result<Option<Self>, JournalError> {
-        let unreadable = |error: io::Error| JournalError::Unreadable {
-            path: path.to_owned(),
-            reason: reason(&error),
-        };
-        require_file(path)?;
-        let file = File::open(path).map_err(unreadable)?;
-        Self::read_from(BufReader::with_capacity(1 << 16, file), path)
-    }
+    const KEY: &'static str = "journal";
 
-    /// Reads a journal from any source of bytes, said to be the file `path`; `None` if not even its first
-    /// line is complete.
-    ///
-    /// # Errors
-    /// If it cannot be read or is damaged.
-    pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
-        let unreadable = |error: io::Error| JournalError::Unreadable {
-            path: path.to_owned(),
-            reason: reason(&error),
-        };
-        let mut lines = Lines::new(source);
-        if !lines.begin_with(BEFORE).map_err(unreadable)? {
-            let problem = "squama begins none like this".to_owned();
-            return Err(JournalError::NoHeader { path: path.to_owned(), problem });
-        }
-        let first = lines.next().map_err(unreadable)?;
-        let Some(first) = first.filter(|bytes| bytes.ends_with(b"\n")) else {
-            return Ok(None);
-        };
-        let mut archive = Self::begin(first, path)?;
-        let mut tail = Tail::default();
-        while let Some(bytes) = lines.next().map_err(unreadable)? {
-            let length = bytes.len() as u64;
-            match archive.line(bytes) {
-                Ok(line) => {
-                    tail.refuse(path)?;
-                    archive.add(&line, length);
-                }
-                Err(problem) => tail.note(lines.number(), problem),
-            }
-        }
-        Ok(Some(archive))
-    }
-
-    fn begin(bytes: &mut [u8], path: &Path) -> Result<Self, JournalError> {
-        let length = bytes.len() as u64;
-        let header = read_header(bytes, path)?;
-        let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
-        let sweep = Sweep::parse(&header.definition, "definition", &[]);
-        let sweep = sweep.map_err(|error| refuse(error.to_string()))?;
-        let designs = SubsetDesigns::new(sweep.grid().len(), header.subset);
-        let designs = designs.map_err(|error| refuse(error.to_string()))?;
+    fn begin(header: JournalHeader, length: u64, path: &Path) -> Result<Self, String> {
+        let sweep = Sweep::parse(header.definition(), "definition", &[]);
+        let sweep = sweep.map_err(|error| error.to_string())?;
+        let designs = SubsetDesigns::new(sweep.grid().len(), header.subset());
+        let designs = designs.map_err(|error| error.to_string())?;
         Ok(Self {
             path: path.to_owned(),
-            seal: Seal::of(&header),
+            seal: header.seal(),
             header,
             sweep,
             designs,
@@ -128,39 +66,61 @@ impl Archive {
         })
     }
 
-    /// A line that may stand in this journal.
-    fn line(&self, bytes: &mut [u8]) -> Result<Line, String> {
-        let line = self.seal.read(bytes)?;
-        match &line {
-            Line::Design(entry) if self.position(entry).is_none() => {
-                Err(format!("there is no design {} in it", entry.design))
+    fn take(&mut self, line: Line, bytes: Range<u64>) -> Result<(), String> {
+        match line {
+            Line::Session(session) => {
+                // The rate is that of the last session: threads and settings of the machine change between them.
+                self.latest = LatestSession::default();
+                self.sessions.push(session);
             }
-            _ => Ok(line),
+            Line::Design(entry) => {
+                let position = self.position(&entry);
+                let none = || format!("there is no design {} in it", entry.design);
+                self.index.insert(position.ok_or_else(none)?, entry.rerun, bytes.start);
+                self.latest = LatestSession { designs: self.latest.designs + 1, seconds: entry.at };
+                self.reruns = self.reruns.max(entry.rerun);
+            }
         }
+        self.length = bytes.end;
+        self.lines += 1;
+        Ok(())
+    }
+
+    fn header(&self) -> &JournalHeader {
+        &self.header
+    }
+
+    fn is_empty(&self) -> bool {
+        self.done() == 0
+    }
+}
+
+impl Archive {
+    /// Reads the journal in `folder` without a claim to it: a run may be writing it.
+    ///
+    /// # Errors
+    /// If there is none, or it is damaged.
+    pub fn open(folder: &RunFolder) -> Result<Self, JournalError> {
+        let path = folder.journal();
+        // Also if the first line is torn: nothing was solved then.
+        let missing = || JournalError::Missing { folder: folder.path().to_owned() };
+        if !path.exists() {
+            return Err(missing());
+        }
+        store::read(&path)?.ok_or_else(missing)
+    }
+
+    /// Reads a journal from any source of bytes, said to be the file `path`; `None` if not even its first
+    /// line is complete.
+    ///
+    /// # Errors
+    /// If it cannot be read or is damaged.
+    pub fn read_from(source: impl BufRead, path: &Path) -> Result<Option<Self>, JournalError> {
+        store::read_from(source, path)
     }
 
     fn position(&self, entry: &JournalEntry) -> Option<u64> {
         self.designs.position(entry.index()?)
-    }
-
-    /// Notes a line at the end of the file.
-    pub(super) fn add(&mut self, line: &Line, length: u64) {
-        match line {
-            Line::Header(_) => {}
-            Line::Session(session) => {
-                self.latest = LatestSession::default();
-                self.sessions.push(session.clone());
-            }
-            Line::Design(entry) => {
-                self.latest = LatestSession { designs: self.latest.designs + 1, seconds: entry.at };
-                self.reruns = self.reruns.max(entry.rerun);
-                if let Some(position) = self.position(entry) {
-                    self.index.insert(position, entry.rerun, self.length);
-                }
-            }
-        }
-        self.length += length;
-        self.lines += 1;
     }
 
     /// The header.
@@ -178,21 +138,19 @@ impl Archive {
         &self.designs
     }
 
-    pub(super) fn seal(&self) -> &Seal {
-        &self.seal
-    }
-
-    pub(super) fn length(&self) -> u64 {
-        self.length
-    }
-
     /// The message if the journal has fewer lines than it had when the tables in `folder` were written.
     pub(crate) fn lost_lines(&self, folder: &RunFolder) -> Option<String> {
+        // Only whole lines are counted: a torn one was never stated.
         let stated = Contents::stated_in(folder)?.journal.lines;
         let lost = stated.checked_sub(self.lines).filter(|lost| *lost > 0)?;
         Some(format!(
             "{lost} of the {stated} lines are missing that it had when its tables were written"
         ))
+    }
+
+    /// Whether the line that counts for the design at `position` stands among the first `bytes` bytes.
+    pub(crate) fn stands_before(&self, position: u64, bytes: u64) -> bool {
+        self.index.offset(position).is_some_and(|offset| offset < bytes)
     }
 
     /// Refuses it if it has lost lines.
@@ -265,43 +223,6 @@ impl Archive {
     }
 }
 
-/// The header that the first line of a journal holds.
-fn read_header(bytes: &mut [u8], path: &Path) -> Result<JournalHeader, JournalError> {
-    let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
-    let object = Seal::default().open(bytes).map_err(refuse)?;
-    if let Some(found) = Line::format_of(object).filter(|found| *found != u64::from(FORMAT)) {
-        return Err(JournalError::OtherFormat { path: path.to_owned(), found });
-    }
-    match Line::parse(object) {
-        Ok(Line::Header(header)) if header.is_sound() => Ok(header),
-        Ok(_) => Err(refuse("squama writes no such line there".to_owned())),
-        Err(problem) => Err(refuse(problem)),
-    }
-}
-
-/// Damaged lines with nothing intact after them. They were torn by a crash, and are cut off; a
-/// damaged line before an intact one is refused, because nothing after it can be trusted to be
-/// complete.
-#[derive(Default)]
-struct Tail {
-    first: Option<(u64, String)>,
-}
-
-impl Tail {
-    /// Notes a damaged line.
-    fn note(&mut self, line: u64, problem: String) {
-        self.first.get_or_insert((line, problem));
-    }
-
-    /// Refuses the first damaged line, because an intact one follows.
-    fn refuse(&mut self, path: &Path) -> Result<(), JournalError> {
-        let damaged = self.first.take();
-        damaged.map_or(Ok(()), |(line, problem)| {
-            Err(JournalError::Damaged { path: path.to_owned(), line, problem })
-        })
-    }
-}
-
 /// Reads entries by where they stand.
 pub(crate) struct Entries<'a> {
     archive: &'a Archive,
@@ -337,16 +258,12 @@ impl Entries<'_> {
     fn at(&mut self, offset: u64) -> Result<JournalEntry, JournalError> {
         let read = self.lines.line(offset);
         let mut bytes = read.map_err(|error| self.archive.unreadable(&error))?;
-        match self.archive.line(&mut bytes) {
-            Ok(Line::Design(entry)) => Ok(*entry),
-            Ok(_) => Err(self.changed("it is no design any more")),
-            Err(problem) => Err(self.changed(&problem)),
-        }
-    }
-
-    /// The file is not as it was when it was read first.
-    fn changed(&self, problem: &str) -> JournalError {
+        let problem = match self.archive.seal.read(&mut bytes) {
+            Ok(Line::Design(entry)) => return Ok(*entry),
+            Ok(Line::Session(_)) => "it is no design any more".to_owned(),
+            Err(problem) => problem,
+        };
         let reason = format!("it has changed meanwhile, {problem}");
-        JournalError::Unreadable { path: self.archive.path.clone(), reason }
+        Err(JournalError::Unreadable { path: self.archive.path.clone(), reason })
     }
 }

@@ -5,6 +5,16 @@ use std::time::SystemTime;
 use results::{CsvFormat, DesignResult};
 use serde::{Deserialize, Serialize};
 
+/// A line of the journal of a run, behind the first.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Line {
+    /// A session begins.
+    Session(SessionStart),
+    /// A design is done.
+    Design(Box<JournalEntry>),
+}
+
 /// A finished design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -52,5 +62,43 @@ impl SessionStart {
     pub(crate) fn now(threads: usize, csv: CsvFormat) -> Self {
         let started = humantime::format_rfc3339_seconds(SystemTime::now()).to_string();
         Self { started, threads, csv }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use store::Seal;
+
+    use super::*;
+
+    fn line(result: DesignResult) -> Line {
+        let entry = JournalEntry { design: 417, rerun: 1, at: 1.5, seconds: 0.25, result };
+        Line::Design(Box::new(entry))
+    }
+
+    #[test]
+    fn a_line_is_json_and_reads_back() {
+        let settings = "solver.max_step=0.01".to_owned();
+        let coverage = Some(0.1 + 0.2);
+        let line = line(DesignResult { coverage, settings, ..DesignResult::default() });
+        let mut bytes = Seal::default().seal(&line);
+        insta::assert_snapshot!(String::from_utf8_lossy(&bytes), @r#"
+        {"crc":"bbd5f1e4","design":{"design":417,"rerun":1,"at":1.5,"seconds":0.25,"result":{"coverage":0.30000000000000004,"settings":"solver.max_step=0.01"}}}
+        "#);
+        assert_eq!(Seal::default().read(&mut bytes), Ok(line));
+    }
+
+    proptest! {
+        /// Every number of a result comes back with all its bits.
+        #[test]
+        fn numbers_are_read_back_bit_by_bit(number in any::<f64>().prop_filter("finite", |x| x.is_finite())) {
+            let result = DesignResult { coverage: Some(number), ..DesignResult::default() };
+            let mut bytes = Seal::default().seal(&line(result));
+            let Ok(Line::Design(entry)) = Seal::default().read(&mut bytes) else {
+                return Err(TestCaseError::fail("no design"));
+            };
+            prop_assert_eq!(entry.result.coverage.map(f64::to_bits), Some(number.to_bits()));
+        }
     }
 }

@@ -5,6 +5,7 @@ use std::num::NonZeroU64;
 use std::ops::Range;
 
 /// Designs of a page.
+// Pages of 4 kB: a tenth of the designs at random costs a page each at most, the whole grid eight bytes a design.
 const PAGE: u64 = 512;
 
 /// For each design the offset of the line that counts: eight bytes per design, on pages of which only those exist that hold
@@ -33,6 +34,7 @@ impl Index {
         match self.offset(position) {
             None => self.done += 1,
             // A line that is not listed yet is the first solution.
+            // Nearly all designs are solved once, and take no room in the list of reruns.
             Some(known) if self.lines(position).next().is_none() => {
                 self.reruns.insert((position, 0), known);
             }

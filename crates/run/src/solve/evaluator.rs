@@ -64,6 +64,7 @@ impl Evaluator {
         let (flexure, flexure_path) = taken_apart(bent, FlexureResult::without_path);
         let (samples, settings) = (self.samples(case, &work), String::new());
         let failures = Vec::new();
+        // Values at further tilts come from the same path, which is not followed twice.
         let at_tilts = puncture_path.as_ref().map(|path| path.at_tilts.clone());
         let at_tilts = at_tilts.unwrap_or_default();
         let result = DesignResult {
@@ -177,6 +178,7 @@ impl Evaluator {
             let punctured = guarded(|| self.substrate(case)).flatten().and_then(|substrate| {
                 guarded(|| samples::puncture(case, &substrate, &mut statistics, work))
             });
+            // Every sample failed for one reason, and the statistics say how many there were.
             if punctured.is_err() {
                 statistics.puncture_failed = Some(case.samples.count);
             }
@@ -194,6 +196,7 @@ impl Evaluator {
     }
 
     fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
+        // A footprint that cannot be meshed is the fault of no path.
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }

@@ -7,6 +7,7 @@ use sweep::Grid;
 
 /// The most designs of a group. A thread takes a group at a time, so groups must be few designs of a
 /// long sweep whose designs all share their springs.
+// Few enough that no thread is left alone with a long group at the end.
 const LARGEST: usize = 64;
 
 /// The designs of an iterator in groups of neighbours that share their footprint and coupling. The
@@ -24,6 +25,7 @@ impl<'g, I: Iterator<Item = u64>> Groups<'g, I> {
 
     fn springs(&self, index: u64) -> (Option<Footprint>, Coupling) {
         let case = self.grid.case(index);
+        // A design without a footprint fails later, with its reason; here it is a group of its own kind.
         (case.footprint().ok(), case.coupling)
     }
 }

@@ -18,6 +18,7 @@ pub(super) fn puncture(
 ) {
     let (mut force, mut penetration) = (Vec::new(), Vec::new());
     for number in 1..=case.samples.count as u64 {
+        // A sample whose scales would overlap is counted as failed, not drawn again: that would bend the distribution.
         let punctured = own(case, number).and_then(|row| punctured(case, substrate, &row));
         let measures = punctured.map(|result| result.measures);
         work.row_done();
@@ -38,6 +39,7 @@ pub(super) fn flexure(case: &Case, statistics: &mut SampleStatistics, work: &Des
         let Some(flexure) = flexure else { continue };
         if let Some(value) = FlexureResult::new(&flexure).measures.compliance {
             compliance.push(value);
+            // The closing range is told of those samples alone that have a compliance, so both are of one batch.
             closing_range.extend(flexure.closing_range());
         }
     }

@@ -23,6 +23,7 @@ pub(super) fn puncture(
     stiffness: &RowStiffness,
 ) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let input = sensitivity::punctured(case, stiffness.clone());
+    // Without variations first: how many scales the puncture reaches is known only once it is solved.
     let (straight, _) = puncture::differentiate(&input, &[])?;
     let farthest = straight.measures.scales.min(FARTHEST) as i32;
     let (mut parameters, mut variations) = (Vec::new(), Vec::new());
@@ -34,6 +35,7 @@ pub(super) fn puncture(
     }
     let (_, derivatives) = puncture::differentiate(&input, &variations)?;
     let mut derivatives = named(case, &parameters, derivatives);
+    // Scales that nothing reaches would fill the journal with zeros.
     derivatives.retain(|derivative| derivative.left != Some(0.0) || derivative.kink.is_some());
     Ok(derivatives)
 }
@@ -60,6 +62,7 @@ fn one_scale(
 pub(super) fn flexure(case: &Case) -> Result<Vec<ParameterDerivative>, OutOfRange> {
     let gaps = whole_gaps(&case.design.row()?, &case.flexure);
     let mut fixed = *case;
+    // Another gap would change how many gaps fit the strip, which is a jump and no derivative.
     fixed.flexure.gaps = Some(gaps);
     let (_, mut derivatives) = sensitivity::flexure(&fixed)?;
     derivatives.retain(|derivative| SCATTERED.contains(&derivative.parameter));

@@ -6,9 +6,10 @@ use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
 use skin::{Derivative, Neighbours, Variation};
 use substrate::{OneSided, RowStiffness, StiffnessSlopes};
-use sweep::{Case, Measure, PARAMETERS, Parameter};
+use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
+// The cube root of the rounding error, 6e-6, is best of central differences; a third of it stays clear of nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
 
 /// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
@@ -16,38 +17,45 @@ const MESH: &str = "the mesh of the substrate is graded by another length";
 
 /// The continuous parameters that a measure of `case` depends on.
 fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
-    let belongs = |p: &&Parameter| p.is_continuous() && of.sections().contains(&p.section);
+    let belongs = |p: &&Parameter| p.has(Role::Continuous) && of.sections().contains(&p.section);
     PARAMETERS.iter().filter(belongs).filter(|p| p.size(case).is_some()).collect()
 }
 
-/// The prefactor of the contact law, which stands before the exponent.
+/// The prefactor of the contact law, and the moduli that the forces have its product with.
 const PREFACTOR: &str = "c1";
-const EXPONENT: &str = "c2";
+const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_over_membrane"];
 
-/// The continuous parameters that vary when the paths of a measure are differentiated: all but the prefactor of the contact law, of which
-/// the forces have the product with the modulus alone.
-fn varied_parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
-    let mut parameters = parameters(case, of);
-    parameters.retain(|parameter| parameter.key != PREFACTOR);
-    parameters
+/// The parameters that the paths of a measure are differentiated by, each with its variation.
+///
+/// The prefactor of the contact law is none of them: the forces have only its product with the modulus, so its derivatives follow from
+/// those with respect to the modulus ([`with_prefactor`]), for nothing.
+fn variations<P>(
+    case: &Case,
+    of: Measure,
+    variation: impl Fn(&'static Parameter) -> Option<Variation<P>>,
+) -> (Vec<&'static Parameter>, Vec<Variation<P>>) {
+    let solved = parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR);
+    solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
 
-/// Derivatives of paths, and those with respect to the prefactor of the contact law, which follow from those with respect to the modulus.
-fn with_prefactor(case: &Case, derivatives: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
+/// The derivatives of paths, and behind them those with respect to the prefactor of the contact law; of each measure in the order of
+/// the list of parameters.
+fn with_prefactor(case: &Case, solved: &[ParameterDerivative]) -> Vec<ParameterDerivative> {
     let c1 = case.common.law.c1;
     let by_prefactor = |by_modulus: &ParameterDerivative| {
         let scaled = |derivative: Option<f64>| derivative.map(|d| d * by_modulus.at / c1);
         let (left, right) = (scaled(by_modulus.left), scaled(by_modulus.right));
         ParameterDerivative { parameter: PREFACTOR, at: c1, left, right, ..by_modulus.clone() }
     };
+    let place = |of: &ParameterDerivative| PARAMETERS.iter().position(|p| p.key == of.parameter);
     let of_measure = |of: &[ParameterDerivative]| {
-        let by_modulus = of.iter().find(|d| d.parameter.starts_with("contact_modulus_over_"));
-        let prefactor = by_modulus.map(by_prefactor);
-        let exponent = of.iter().position(|d| d.parameter == EXPONENT).unwrap_or(of.len());
-        let (before, behind) = of.split_at(exponent);
-        before.iter().cloned().chain(prefactor).chain(behind.iter().cloned()).collect::<Vec<_>>()
+        let by_modulus = of.iter().find(|derivative| MODULI.contains(&derivative.parameter));
+        let mut all = of.to_vec();
+        all.extend(by_modulus.map(by_prefactor));
+        all.sort_by_key(place);
+        all
     };
-    derivatives.chunk_by(|one, next| one.measure == next.measure).flat_map(of_measure).collect()
+    solved.chunk_by(|one, next| one.measure == next.measure).flat_map(of_measure).collect()
 }
 
 /// Punctures the design of `case`, and differentiates its measures.
@@ -55,10 +63,9 @@ pub(super) fn puncture(
     case: &Case,
     slopes: &StiffnessSlopes,
 ) -> Result<(Puncture, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = varied_parameters(case, Measure::Puncture);
-    let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: Some(slopes) };
-    let variations: Vec<_> =
-        parameters.iter().filter_map(|p| varied(p).variation(Varied::punctured)).collect();
+    let varied = |parameter| Varied { case, parameter, slopes: Some(slopes) };
+    let (parameters, variations) =
+        variations(case, Measure::Puncture, |p| varied(p).variation(Varied::punctured));
     let input = punctured(case, slopes.stiffness.clone());
     let (puncture, derivatives) = puncture::differentiate(&input, &variations)?;
     Ok((puncture, with_prefactor(case, &named(case, &parameters, derivatives))))
@@ -66,10 +73,9 @@ pub(super) fn puncture(
 
 /// Bends the design of `case`, and differentiates its measures.
 pub(super) fn flexure(case: &Case) -> Result<(Flexure, Vec<ParameterDerivative>), OutOfRange> {
-    let parameters = varied_parameters(case, Measure::Flexure);
-    let varied = |parameter: &&'static Parameter| Varied { case, parameter, slopes: None };
-    let variations: Vec<_> =
-        parameters.iter().filter_map(|p| varied(p).variation(Varied::bent)).collect();
+    let varied = |parameter| Varied { case, parameter, slopes: None };
+    let (parameters, variations) =
+        variations(case, Measure::Flexure, |p| varied(p).variation(Varied::bent));
     let (flexure, derivatives) = flexure::differentiate(&bent(case), &variations)?;
     Ok((flexure, with_prefactor(case, &named(case, &parameters, derivatives))))
 }
@@ -89,6 +95,7 @@ pub(super) fn coverage(case: &Case) -> Vec<ParameterDerivative> {
         let RowChange { gap, half_base, shift } = change;
         let back = RowChange { gap: -gap, half_base: -half_base, shift: -shift };
         let [left, right] = [-row.coverage_rate(&back), row.coverage_rate(&change)];
+        // Rounding alone makes the rates of both sides differ by some 1e-15; a scale that enters or leaves, by far more.
         let smooth = (left - right).abs() <= 1e-9;
         Derivative {
             measure: "coverage",

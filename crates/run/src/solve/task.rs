@@ -36,6 +36,7 @@ impl<'a> Task<'a> {
     /// Tells how much work `designs` are.
     pub fn measure(&self, designs: impl Iterator<Item = u64>) {
         let work = |index| work_of(&self.grid().case(index), self.sweep.measures());
+        // Saturating: 10⁹ designs of many samples are more than 2⁶⁴ paths only on paper.
         self.work.begin(designs.map(work).fold(0, u64::saturating_add));
     }
 
@@ -65,5 +66,6 @@ impl<'a> Task<'a> {
 
 /// Seconds to the microsecond.
 fn seconds(duration: Duration) -> f64 {
+    // Digits beyond are noise, and a tenth of the length of a line.
     (duration.as_secs_f64() * 1e6).round() / 1e6
 }

@@ -48,6 +48,7 @@ impl Parts {
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
         let gaps = row.map_or(1, |row| whole_gaps(&row, &case.flexure) as u64);
+        // A path of a row or of one gap is the unit: the meter needs shares, not seconds.
         let ideal = 1 + punctures + bends * if is_chain { gaps } else { 1 };
         Self { ideal, row: punctures, strip: bends * gaps, samples }
     }
@@ -88,6 +89,7 @@ impl<'m> DesignWork<'m> {
     }
 
     fn done(&self, units: u64) {
+        // No more than was promised, so that the share of the work never passes 1.
         let units = units.min(self.left.get());
         self.left.set(self.left.get() - units);
         self.meter.done.fetch_add(units, Ordering::Relaxed);

@@ -9,6 +9,7 @@ use std::thread::{self, Scope};
 use crate::progress::RunError;
 
 /// The most results that wait for the journal.
+// Enough that no thread waits for the disk, and no more than a few megabytes.
 const WAITING: usize = 1024;
 
 /// Solves the designs of `groups` on `threads` threads and hands each result to `sink` as soon as it
@@ -39,6 +40,7 @@ pub(crate) fn solve<T: Send>(
         let (sender, results) = sync_channel(WAITING);
         for worker in 0..threads {
             let (sender, next, solve) = (sender.clone(), &next, &solve);
+            // A thread that cannot be started ends those that were, or the scope would wait for them for ever.
             start(scope, move || work(|| next(worker), solve, &sender)).map_err(|error| {
                 abandoned.store(true, Ordering::Relaxed);
                 RunError::Threads { count: threads, reason: sweep::reason(&error) }
@@ -80,6 +82,7 @@ impl<G: Iterator<Item = Vec<u64>>> Queue<G> {
         {
             self.open[worker] = group.into();
         }
+        // From the front for itself, from the back for others: so both keep to neighbours.
         let own = self.open[worker].pop_front();
         own.or_else(|| self.open.iter_mut().max_by_key(|group| group.len())?.pop_back())
     }

@@ -2,8 +2,9 @@
 
 use results::columns::design_columns;
 use results::{Cell, Column, CsvFile, CsvFormat, DesignRow, RERUN_COLUMNS, RerunChange, RunFolder};
+use store::JournalError;
 
-use crate::journal::{Archive, JournalError};
+use crate::journal::Archive;
 
 /// Writes the table of what reruns have changed if there is anything to tell, and returns its name and its SHA-256.
 pub(super) fn write(
@@ -12,6 +13,7 @@ pub(super) fn write(
     format: CsvFormat,
 ) -> Result<Option<(String, String)>, JournalError> {
     let mut pairs = archive.entries()?.replaced().peekable();
+    // No empty table: its absence says that nothing was solved again.
     if pairs.peek().is_none() {
         return Ok(None);
     }
@@ -41,6 +43,7 @@ fn changes(columns: &[Column<DesignRow>], rerun: u64, rows: &[DesignRow; 2]) -> 
         columns.map(|column| (column.name.clone(), rows.each_ref().map(|row| column.cell(row))));
     let changed = values.filter(|(_, [old, new])| old != new);
     let mut changes: Vec<_> = changed.map(|(name, values)| change(name, values)).collect();
+    // A rerun that changes nothing is worth a row: it says that the settings do not matter.
     if changes.is_empty() {
         changes.push(change("".into(), [Cell::Empty, Cell::Empty]));
     }

@@ -39,6 +39,7 @@ impl<'a> OpenTables<'a> {
         let failures = CsvFile::create(folder, RunFolder::FAILURES, format, failures)?;
         let derivatives =
             || CsvFile::create(folder, RunFolder::SENSITIVITY, format, DERIVATIVE_COLUMNS);
+        // Not an empty table if nobody asked: whoever finds it would look for derivatives.
         let is_asked = sweep.measures().contains(&Measure::Sensitivity);
         let derivatives = is_asked.then(derivatives).transpose()?;
         Ok(Self { layouts, designs, failures, derivatives })

@@ -3,12 +3,13 @@
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
-use results::{OutputError, RunFolder};
+use results::RunFolder;
+use store::{OutputError, Program};
 use sweep::toml_source::quoted;
 
 use super::summary::Summary;
 use crate::journal::Archive;
-use crate::options::{Options, Program};
+use crate::options::Options;
 
 /// The information on a run that is neither its sweep nor its results.
 pub(crate) struct RunInfo<'a> {
@@ -54,6 +55,7 @@ impl<'a> RunInfo<'a> {
              sessions = {}\ndesigns = {designs}\ndone = {}\nfailed = {}\nmissing = {}\n",
             quoted(self.program.version),
             quoted(self.program.revision),
+            // A run that was killed before its first design has no session.
             started.unwrap_or("1970-01-01T00:00:00Z"),
             self.elapsed().as_secs_f64(),
             self.threads,

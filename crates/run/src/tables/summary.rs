@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use results::columns::SOUND_FORCE;
 use results::round_off::Leader;
 use results::{DesignResult, DesignRow, Outcome, incomparable_by};
 use sweep::{DesignNumber, Measure, Sweep};
@@ -72,7 +73,7 @@ static CONTESTS: [Contest; 5] = [
     },
     Contest {
         what: SOUND,
-        column: "sound_force",
+        column: SOUND_FORCE,
         is_better: f64::gt,
         value: |r| r.puncture?.measures.sound_force,
     },
@@ -98,6 +99,7 @@ impl Summary {
         for (best, contest) in self.best.iter_mut().zip(&CONTESTS) {
             contest.enter(row, best);
         }
+        // Folded designs have measures too; that their surface folds is why the largest of them may mean nothing.
         let fold = row.result.puncture.and_then(|puncture| puncture.measures.fold_force);
         self.folded += u64::from(fold.is_some());
     }
@@ -108,6 +110,7 @@ impl Summary {
 
     /// The best values, those that exist.
     pub fn best(&self) -> impl Iterator<Item = Best> {
+        // Where nothing folds it would repeat the largest critical force.
         let is_told = |contest: &Contest| contest.what != SOUND || self.folded > 0;
         let contests = CONTESTS.iter().zip(self.best).zip(self.apart);
         contests.filter(move |((contest, _), _)| is_told(contest)).filter_map(

@@ -6,20 +6,23 @@ use std::time::{Duration, Instant};
 use rayon::iter::ParallelIterator as _;
 use rayon::slice::ParallelSlice as _;
 use results::columns::tables;
-use results::{Contents, CsvFormat, DesignRow, OutputError, RunFolder, failure_columns};
+use results::{Contents, CsvFormat, DesignRow, RunFolder, failure_columns};
+use store::{JournalError, OutputError};
 
 use super::changes;
 use super::open_tables::OpenTables;
 use super::run_info::RunInfo;
 use super::summary::Summary;
-use crate::journal::{Archive, Journal, JournalError};
+use crate::journal::{Archive, Journal};
 use crate::options::Options;
 use crate::progress::{Finished, RunError};
 
 /// Writing the tables takes at most one part in this many of the time of a run.
+// Long runs write their tables as often as one wants, and lose five per cent by it at most.
 const SHARE: u32 = 20;
 
 /// Designs whose lines one thread makes at a time.
+// Enough lines for a thread to be worth waking; all portions in hand stay below a megabyte.
 const PORTION: usize = 32;
 
 /// Names of tables, each with its SHA-256, in the order in which people read them.
@@ -58,14 +61,17 @@ impl<'a> TableWriter<'a> {
     /// Writes the tables of what `journal` holds, the record of the run, and last of all what they are.
     pub fn write(&mut self, journal: &mut Journal) -> Result<Finished, RunError> {
         let begun = Instant::now();
+        // The tables must not tell of designs that a loss of power takes from the journal.
         journal.sync()?;
-        let archive = journal.archive();
+        let archive = journal.records();
         let (summary, tables) = self.write_tables(archive)?;
         let names: Vec<_> = tables.iter().map(|(name, _)| name.clone()).collect();
+        // Tables that this run does not have are those of an earlier one.
         self.folder.remove_tables_but(&names);
         let record = self.info.write(archive, &self.folder, &summary)?;
         let record = (RunFolder::RUN_INFO.to_owned(), record);
         let contents = self.contents(archive, tables.into_iter().chain([record]).collect())?;
+        // Last of all: from here on readers take the tables for what the run wrote.
         contents.write(&self.folder)?;
         self.folder.sync();
         self.written = Instant::now();
@@ -89,6 +95,7 @@ impl<'a> TableWriter<'a> {
     /// one, in the order of their designs; their lines are made by all threads.
     fn write_tables(&self, archive: &Archive) -> Result<(Summary, WrittenTables), RunError> {
         let (folder, format) = (&self.folder, self.format);
+        // A pool of its own: the threads of the solver sleep while tables are written, and the number of threads is kept.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
         let pool = pool.map_err(|error| RunError::Threads {
             count: self.threads,

@@ -71,19 +71,6 @@ impl FlexureMeasures {
         }
     }
 
-    /// The continuous measures by their names.
-    pub fn named(&mut self) -> [(&'static str, &mut Option<f64>); 7] {
-        [
-            ("compliance", &mut self.compliance),
-            ("initial_compliance", &mut self.initial_compliance),
-            ("first_contact_curvature", &mut self.first_contact_curvature),
-            ("max_moment", &mut self.max_moment),
-            ("axial_energy_share", &mut self.axial_energy_share),
-            ("membrane_strain_max", &mut self.membrane_strain_max),
-            ("contact_curvature", &mut self.contact_curvature),
-        ]
-    }
-
     /// The measures of the beginning of a path, for one that did not end as it should.
     pub(crate) fn without_final_values(self) -> Self {
         Self {

@@ -12,7 +12,8 @@ use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
 use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::{Contacts, SkinPoint, SkinState};
+use crate::crossing::{Crossing, PlaceWatch};
 use crate::record::{PathFunction, Record};
 use crate::{Common, Design, Sample, Status};
 
@@ -27,6 +28,8 @@ pub(crate) struct Bent {
     /// The largest change of any measure with a finer resolution; `None` where there is none.
     error: Option<f64>,
     steps: Vec<Vec<Step>>,
+    /// The equilibria at the end rotations that were asked for.
+    pub(crate) places: Vec<Option<SkinPoint>>,
 }
 
 impl Bent {
@@ -134,22 +137,19 @@ impl<'a> FlexureProblem<'a> {
 
     /// Bends the strip, with finer and finer resolution until it suffices.
     pub(crate) fn solve(&self) -> Result<Flexure, OutOfRange> {
-        Ok(self.flexure(self.resolved(&[])?.0))
+        Ok(self.flexure(self.resolved(&[], &[])?.0))
     }
 
-    /// The strip with the resolution that suffices.
-    pub(crate) fn resolved_strip(&self) -> Result<Strip, OutOfRange> {
-        self.strip(self.resolved(&[])?.1)
-    }
-
-    /// The strip bent with the resolution that suffices, the largest values of some functions followed.
+    /// The strip bent with the resolution that suffices, the largest values of some functions followed, with the equilibria at some
+    /// rotations of each end.
     pub(crate) fn resolved(
         &self,
         functions: &[PathFunction<Strip>],
+        end_rotations: &[f64],
     ) -> Result<(Bent, Resolution), OutOfRange> {
         let mut resolution = self.parameters.elements_per_gap.coarsest();
         loop {
-            let bent = self.bend(resolution, functions)?;
+            let bent = self.bend(resolution, functions, end_rotations)?;
             let suffices = bent.final_error().is_none_or(|error| error <= TOLERANCE);
             match resolution.finer() {
                 Some(finer) if !suffices && finer.is_usual() => resolution = finer,
@@ -162,6 +162,7 @@ impl<'a> FlexureProblem<'a> {
         &self,
         resolution: Resolution,
         functions: &[PathFunction<Strip>],
+        end_rotations: &[f64],
     ) -> Result<Bent, OutOfRange> {
         let strip = self.strip(resolution)?;
         let rest = SkinState::at_rest(&strip);
@@ -169,26 +170,35 @@ impl<'a> FlexureProblem<'a> {
         let mut steps = vec![strip.steps(&rest.z)];
         let mut path = Path::new(strip, rest, self.common.solver);
         let mut record = Record::new(&path, functions);
+        let repeats = path.system().repeats();
+        let turned = |&rotation: &f64| Crossing {
+            quantity: |strip: &Strip, state| strip.rotation(&state.z),
+            value: 2.0 * rotation / repeats,
+        };
+        let mut places = PlaceWatch::new(&path, end_rotations.iter().map(turned));
         let mut flush = false;
-        while let Some(point) = path.next() {
+        loop {
+            let from = path.point_shared();
+            let Some(point) = path.next() else { break };
             // Where a side lies flush in every gap at once, the moment moves the force from one end of it to the
             // other and nothing else moves: the path stands still in all that measures it.
             flush = alike && Contacts::flush(&point.state);
             if flush {
                 break;
             }
-            record.visit(&mut path, &point);
+            places.follow(&mut path, &from, &point);
+            record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
         let error = self.error(resolution, &path, &record)?;
-        Ok(Bent { record, path, status, error, steps })
+        Ok(Bent { record, path, status, error, steps, places: places.found })
     }
 
     /// The result of a strip that was bent.
     pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
-        let Bent { record, mut path, status, error, steps } = bent;
+        let Bent { record, mut path, status, error, steps, .. } = bent;
         let measures =
             FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
         let measures =

@@ -46,7 +46,7 @@ pub fn differentiate(
 ) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
-    let (mut bent, resolution) = problem.resolved(&FOLLOWED)?;
+    let (mut bent, resolution) = problem.resolved(&FOLLOWED, &[])?;
     let derivatives = match bent.status {
         Status::Complete => {
             let mut derivatives = problem.derivatives(&mut bent, resolution, variations)?;

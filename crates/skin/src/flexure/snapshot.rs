@@ -1,15 +1,13 @@
 //! A strip of membrane with scales as it stands at chosen curvatures.
 
 use geometry::OutOfRange;
-use solver::Path;
 
 use super::FlexureParameters;
 use super::frame::Frame;
 use super::problem::FlexureProblem;
 use super::strip::Strip;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contact, SkinState};
-use crate::crossing::{Crossing, follow};
+use crate::contacts::{Contact, SkinPoint, SkinState};
 use crate::record::Skin;
 use crate::{Common, Design};
 
@@ -47,17 +45,11 @@ pub fn snapshots(
     end_rotations_deg: &[f64],
 ) -> Result<Vec<Option<StripSnapshot>>, OutOfRange> {
     let problem = FlexureProblem::even(design, common, parameters)?;
-    let (row, strip) = (&problem.row, problem.resolved_strip()?);
-    let crossing = |&degrees: &f64| Crossing {
-        quantity: |strip: &Strip, state: &SkinState| strip.rotation(&state.z),
-        value: 2.0 * degrees.to_radians() / strip.repeats(),
-    };
-    let crossings: Vec<_> = end_rotations_deg.iter().map(crossing).collect();
-    let rest = SkinState::at_rest(&strip);
-    let mut path = Path::new(strip, rest, common.solver);
-    let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<SkinState>| Some(snapshot(row, path.system(), &state?));
-    Ok(states.into_iter().map(snapshot).collect())
+    let rotations: Vec<f64> = end_rotations_deg.iter().map(|angle| angle.to_radians()).collect();
+    let (bent, _) = problem.resolved(&[], &rotations)?;
+    let (row, strip) = (&problem.row, bent.path.system());
+    let snapshot = |point: Option<SkinPoint>| Some(snapshot(row, strip, &point?.state));
+    Ok(bent.places.into_iter().map(snapshot).collect())
 }
 
 /// The whole strip, from a state of the gaps that are solved for.

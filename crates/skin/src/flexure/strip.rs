@@ -1,13 +1,13 @@
 //! A strip of membrane with scales, bent by a moment, as a mixed complementarity system.
 
-use contact::{ContactLaw, CornerContact};
+use contact::ContactLaw;
 use geometry::Vec2;
 use membrane::{Derivatives, GapEnergies, Membrane, Section};
 use solver::{Blocks, Change, Condition, Control, NoTangent, Residual, System, Tangent};
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, Part, SkinState};
+use crate::contacts::{Contacts, PAIR_FORCES, Part, SkinMode, SkinState};
 
 /// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
@@ -289,7 +289,7 @@ impl Strip {
 }
 
 impl System for Strip {
-    type Mode = Vec<CornerContact>;
+    type Mode = SkinMode;
 
     fn size(&self) -> usize {
         self.layout.size()
@@ -316,7 +316,7 @@ impl System for Strip {
         self.contacts.forces()
     }
 
-    fn mode_at_rest(&self) -> Vec<CornerContact> {
+    fn mode_at_rest(&self) -> SkinMode {
         self.contacts.open()
     }
 

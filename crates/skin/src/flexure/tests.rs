@@ -22,7 +22,8 @@ fn work(path: &mut Path<Strip>, from: &SkinPoint, to: &SkinPoint) -> f64 {
 /// The largest difference between work and energy along a path, relative to the largest energy, and the parts of
 /// the membrane's stretching and of the contacts in the energy at its end.
 fn balance(design: &Design, common: &Common, parameters: &FlexureParameters) -> [f64; 3] {
-    let strip = FlexureProblem::even(design, common, parameters).unwrap().resolved_strip().unwrap();
+    let problem = FlexureProblem::even(design, common, parameters).unwrap();
+    let strip = problem.resolved(&[], &[]).unwrap().0.path.system().clone();
     let rest = SkinState::at_rest(&strip);
     let mut path = Path::new(strip, rest, common.solver);
     let (mut done, mut off, mut energies) = (0.0, 0.0_f64, [0.0; 3]);

@@ -1,7 +1,7 @@
 //! The strips of surface between the bases as neo-Hookean bars, which take the place of the springs along the row.
 
 use solver::{Residual, Tangent};
-use substrate::{SubstrateLaw, SurfaceStrip, neo_hookean};
+use substrate::{SurfaceStrip, neo_hookean};
 
 use super::system::Chain;
 
@@ -48,16 +48,6 @@ fn end([x, _, rotation]: [f64; 3]) -> End {
 }
 
 impl Chain {
-    /// This row on a substrate of that law.
-    pub(crate) fn with_law(mut self, law: SubstrateLaw) -> Self {
-        let nearest = || self.neighbours.first().map(|neighbour| -neighbour.direct[0]);
-        self.bars = match law {
-            SubstrateLaw::Linear => None,
-            SubstrateLaw::NeoHookean => nearest(),
-        };
-        self
-    }
-
     /// The strip of surface to the right of a scale.
     pub(super) fn strip(&self, scale: usize) -> SurfaceStrip {
         SurfaceStrip { width: self.contacts.gap_at_rest(scale), half_base: self.half_base }

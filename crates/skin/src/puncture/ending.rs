@@ -39,6 +39,7 @@ mod tests {
         let point = |&[force, displacement, tilt_deg]: &[f64; 3]| PuncturePoint {
             displacement,
             force,
+            lateral_force: 0.0,
             tilt_deg,
             contacts: 1,
             substrate_energy: 0.0,

@@ -1,6 +1,6 @@
 //! Gaps of the surface of the substrate: how far they are stretched along the path, and where they fold over.
 
-use solver::{Path, dip};
+use solver::{Bracket, Path, dip};
 
 use super::PuncturePoint;
 use super::system::Chain;
@@ -48,14 +48,7 @@ struct Crossing {
     pair: usize,
     folds: bool,
     /// Parts of the segment between which it lies, with the stretch there.
-    bracket: [Sample; 2],
-}
-
-/// A place on a segment, as a part of it, and the stretch there.
-#[derive(Clone, Copy)]
-struct Sample {
-    place: f64,
-    stretch: f64,
+    bracket: Bracket,
 }
 
 /// The folds of a path, and the equilibrium of the first.
@@ -110,9 +103,9 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
     for pair in 0..path.system().layout.scales() - 1 {
         let chain = path.system();
         let [start, end] = [&from.state, &to.state].map(|state| chain.gap_stretch(state, pair));
-        let ends = [Sample { place: 0.0, stretch: start }, Sample { place: 1.0, stretch: end }];
         if is_folded(start) != is_folded(end) {
-            crossings.push(Crossing { pair, folds: is_folded(end), bracket: ends });
+            let bracket = Bracket::new((0.0, start), (1.0, end));
+            crossings.push(Crossing { pair, folds: is_folded(end), bracket });
             continue;
         }
         let sign = if is_folded(start) { -1.0 } else { 1.0 };
@@ -126,10 +119,11 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
         let Some(inside) = path.between(from, to, place) else { continue };
         let stretch = path.system().gap_stretch(&inside.state, pair);
         if is_folded(stretch) != is_folded(start) {
-            let inside = Sample { place, stretch };
-            let [folds, unfolds] = [is_folded(stretch), is_folded(end)];
-            crossings.push(Crossing { pair, folds, bracket: [ends[0], inside] });
-            crossings.push(Crossing { pair, folds: unfolds, bracket: [inside, ends[1]] });
+            let inside = (place, stretch);
+            let [before, after] =
+                [Bracket::new((0.0, start), inside), Bracket::new(inside, (1.0, end))];
+            crossings.push(Crossing { pair, folds: is_folded(stretch), bracket: before });
+            crossings.push(Crossing { pair, folds: is_folded(end), bracket: after });
         }
     }
     crossings
@@ -140,28 +134,19 @@ fn is_folded(stretch: f64) -> bool {
 }
 
 impl Crossing {
-    /// The equilibrium at which the gap vanishes, and its place: by the secant through the ends of the bracket, with the Illinois
-    /// rule (Dowell & Jarratt 1971, doi 10.1007/BF01934364). If Newton's method fails, the last equilibrium that was found.
+    /// The equilibrium at which the gap vanishes, and its place. If Newton's method fails, the last equilibrium that was found.
     fn locate(&self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> (f64, SkinPoint) {
-        let [mut low, mut high] = self.bracket;
-        let mut near = (low.place, from.clone());
+        let mut bracket = self.bracket;
+        let mut near = (0.0, from.clone());
         for _ in 0..EVALUATIONS {
-            let place = (low.place * high.stretch - high.place * low.stretch)
-                / (high.stretch - low.stretch);
+            let place = bracket.secant();
             let Some(point) = path.between_from(from, to, place, &near.1) else { break };
             let stretch = path.system().gap_stretch(&point.state, self.pair);
             near = (place, point);
-            if stretch.abs() <= CLOSE || (high.place - low.place).abs() < f64::EPSILON {
+            if stretch.abs() <= CLOSE || bracket.width() < f64::EPSILON {
                 break;
             }
-            let sample = Sample { place, stretch };
-            if is_folded(stretch) == is_folded(high.stretch) {
-                high = sample;
-                low.stretch *= 0.5;
-            } else {
-                low = sample;
-                high.stretch *= 0.5;
-            }
+            bracket.narrow(place, stretch);
         }
         near
     }

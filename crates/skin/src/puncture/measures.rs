@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use solver::Path;
 
-use super::PuncturePoint;
 use super::fold::Fold;
 use super::system::Chain;
+use super::{Passage, PuncturePoint};
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
 
@@ -63,6 +63,9 @@ pub struct PunctureMeasures {
     pub fold_tilt_deg: Option<f64>,
     /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
     pub sound_force: Option<f64>,
+    /// How a guided needle came through.
+    #[serde(default, skip_serializing_if = "Passage::is_none")]
+    pub passage: Passage,
 }
 
 impl PunctureMeasures {
@@ -100,31 +103,6 @@ impl PunctureMeasures {
         }
     }
 
-    /// The continuous measures by their names.
-    pub fn named(&mut self) -> [(&'static str, &mut Option<f64>); 19] {
-        [
-            ("critical_force", &mut self.critical_force),
-            ("peak_force", &mut self.peak_force),
-            ("critical_displacement", &mut self.critical_displacement),
-            ("penetration", &mut self.penetration),
-            ("sink", &mut self.sink),
-            ("first_contact_displacement", &mut self.first_contact_displacement),
-            ("initial_stiffness", &mut self.initial_stiffness),
-            ("max_stiffness", &mut self.max_stiffness),
-            ("secant_stiffness", &mut self.secant_stiffness),
-            ("peak_displacement", &mut self.peak_displacement),
-            ("peak_tilt_deg", &mut self.peak_tilt_deg),
-            ("load_stability_force", &mut self.load_stability_force),
-            ("depth_stability_force", &mut self.depth_stability_force),
-            ("gap_stretch_min", &mut self.gap_stretch_min),
-            ("gap_stretch_max", &mut self.gap_stretch_max),
-            ("fold_force", &mut self.fold_force),
-            ("fold_displacement", &mut self.fold_displacement),
-            ("fold_tilt_deg", &mut self.fold_tilt_deg),
-            ("sound_force", &mut self.sound_force),
-        ]
-    }
-
     /// The measures of the beginning and of the peak of a path, for one that did not end as it should.
     pub(crate) fn without_final_values(self) -> Self {
         Self {
@@ -140,6 +118,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
+            passage: self.passage,
             ..Self::default()
         }
     }

@@ -12,6 +12,8 @@ pub struct PuncturePoint {
     pub displacement: f64,
     /// `F*`.
     pub force: f64,
+    /// Force of a guided needle along the row, to the right, in the unit of `F*`; 0 of a free one.
+    pub lateral_force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
     /// Closed contacts.
@@ -50,6 +52,7 @@ impl Skin for Chain {
         PuncturePoint {
             displacement: self.depth(&state.z),
             force: self.force(state),
+            lateral_force: self.lateral_force(state) / self.length,
             tilt_deg: self.angle_deg(state),
             contacts: Contacts::closed(state),
             substrate_energy: self.substrate_energy(state),

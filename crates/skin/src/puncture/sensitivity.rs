@@ -1,6 +1,5 @@
 //! Derivatives of the measures of a puncture.
 
-use contact::CornerContact;
 use geometry::OutOfRange;
 use solver::{AnchoredPoint, Path, PathAnchor};
 use substrate::RowStiffness;
@@ -9,7 +8,7 @@ use super::fold::{Fold, FoldWatch};
 use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
     self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
@@ -49,7 +48,7 @@ pub fn differentiate(
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
     let (start, longest) = problem.start()?;
-    let mut followed = problem.follow(start, longest, &FOLLOWED)?;
+    let mut followed = problem.follow(start, longest, &FOLLOWED, &[])?;
     let derivatives = match followed.status {
         Status::Complete => problem.derivatives(&mut followed, variations)?,
         _ => Vec::new(),
@@ -64,12 +63,16 @@ impl Problem<'_> {
         variations: &[Variation<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
-        let spots = self.spots(watch, path);
+        let (spots, sticking): (Vec<_>, Vec<_>) =
+            self.spots(watch, path).into_iter().partition(is_known);
         let system = path.system();
+        let missing = missing(system, &sticking, variations.len());
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(chain)).collect();
-        Ok(derivatives(system, spots, &variations?, &self.settings))
+        let mut derivatives = derivatives(system, spots, &variations?, &self.settings);
+        derivatives.extend(missing);
+        Ok(derivatives)
     }
 
     /// The places of the path at which measures are taken.
@@ -96,15 +99,17 @@ impl Problem<'_> {
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
         let (end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        let mut at_rest = rest(chain);
+        at_rest.state = chain.at_rest();
         vec![
-            spot(Some(end(path)), end_quantities),
+            spot(Some(chain.end_of(end(path))), end_quantities),
             spot(folded, fold_quantities),
             spot(highest, vec![force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),
             at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
-            spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
+            spot(Some(at_rest), vec![stiffness("initial_stiffness")]),
             spot(stiffest, vec![stiffness("max_stiffness")]),
         ]
     }
@@ -121,19 +126,48 @@ impl PunctureInput {
     }
 }
 
+/// Whether the place of a measure depends on the parameters alone. Where a needle sticks, the place at which it does is a matter of the
+/// way to it.
+fn is_known(spot: &MeasuredPoint<Chain>) -> bool {
+    spot.place.as_ref().is_none_or(|place| !Chain::has_history(&place.state))
+}
+
+/// Derivatives that are not known, each with the reason.
+fn missing(chain: &Chain, spots: &[MeasuredPoint<Chain>], parameters: usize) -> Vec<Derivative> {
+    let mut derivatives = Vec::new();
+    for MeasuredPoint { place, quantities } in spots {
+        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
+            let value = place.as_ref().map_or(0.0, |place| quantity.at(chain, place));
+            let kink = "the needle sticks: it depends on the way to this place";
+            derivatives.extend((0..parameters).map(|parameter| Derivative {
+                measure: quantity.measure,
+                parameter,
+                value,
+                left: None,
+                right: None,
+                kink: Some(kink.to_owned()),
+            }));
+        }
+    }
+    derivatives
+}
+
 impl Chain {
+    /// The end of a path, held by what ended it: the tilt, or under a guided needle one of its constraints.
+    fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
+        AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
+    }
+
     /// The place of the largest load: held by that where nothing else holds it.
-    fn extremum(
-        &self,
-        place: &AnchoredPoint<Vec<CornerContact>>,
-    ) -> AnchoredPoint<Vec<CornerContact>> {
+    fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);
         let anchor = if held { place.anchor } else { PathAnchor::Stationary(LOAD_RATE) };
         AnchoredPoint { anchor, ..place.clone() }
     }
 
     /// The equilibrium at which a gap vanishes.
-    fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<Vec<CornerContact>> {
+    fn folded_at(&self, point: &SkinPoint, fold: &Fold) -> AnchoredPoint<SkinMode> {
         let pair = (fold.left_scale as isize + self.layout.left.cast_signed()).cast_unsigned();
         AnchoredPoint {
             state: point.state.clone(),
@@ -145,7 +179,7 @@ impl Chain {
 
 /// Quantities at a place. Where load or depth turns back smoothly, the direction of the path tells the place.
 fn at_turn<const N: usize>(
-    place: Option<AnchoredPoint<Vec<CornerContact>>>,
+    place: Option<AnchoredPoint<SkinMode>>,
     quantities: [MeasuredQuantity<Chain>; N],
 ) -> MeasuredPoint<Chain> {
     let turns = place.as_ref().is_some_and(|p| matches!(p.anchor, PathAnchor::Stationary(_)));

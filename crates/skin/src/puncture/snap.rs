@@ -1,12 +1,11 @@
 //! How far along a path a needle can follow it, and where the row snaps.
 
-use solver::{Event, Path};
+use solver::{Bracket, Event, Path};
 
 use super::stability::Instability;
 use super::system::Chain;
-use super::{PunctureMeasures, PuncturePoint};
+use super::{At, PunctureMeasures, PuncturePoint};
 use crate::contacts::{SkinPoint, SkinState};
-use crate::crossing::Crossing;
 use crate::record::Skin;
 
 /// The largest depth is found where the rate of the depth is this part of that at the ends, or after so many equilibria.
@@ -30,7 +29,7 @@ pub struct Snap {
 
 /// Follows along a path how far a needle can follow it.
 #[derive(Debug, Default)]
-pub(super) struct Needle {
+pub(super) struct SnapWatch {
     /// Whether the load has turned back: before that a row is stable.
     has_unloaded: bool,
     /// Of every point that the path has left.
@@ -42,7 +41,7 @@ pub(super) struct Needle {
     snaps: Vec<Snap>,
 }
 
-impl Needle {
+impl SnapWatch {
     /// Follows the path from one point to the next.
     ///
     /// On a path that leaves a stable state the load rises as long as the stiffness has an even number of negative eigenvalues. So
@@ -60,7 +59,7 @@ impl Needle {
 
     /// At an extremum of the load the stiffness is singular, and what holds behind it is found half-way to the next point.
     fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
-        if !self.has_unloaded {
+        if !self.has_unloaded || path.system().needle.is_some() {
             return self.instability.push(Instability::default());
         }
         let is_singular = from.event == Some(Event::LoadExtremum);
@@ -103,26 +102,21 @@ impl Needle {
         self.snaps.last_mut().filter(|snap| snap.drop.is_none())
     }
 
-    /// Makes points of a longer row of those that are kept.
-    pub(super) fn replace_points(&mut self, longer: &impl Fn(&SkinPoint) -> SkinPoint) {
-        for limit in [&mut self.load_limit, &mut self.depth_limit].into_iter().flatten() {
-            *limit = longer(limit);
-        }
-    }
-
     /// Adds to the measures how far the path is stable. Returns the instability of every point of the path, and the snaps.
     pub(super) fn finish(
         mut self,
         path: &Path<Chain>,
         measures: &mut PunctureMeasures,
     ) -> (Vec<Instability>, Vec<Snap>) {
-        let end = if self.has_unloaded {
+        let is_guided = path.system().needle.is_some();
+        let end = if self.has_unloaded && !is_guided {
             self.at(path.system(), &path.point().state)
         } else {
             Instability::default()
         };
         self.instability.push(end);
-        measures.stable_under_load = Some(end.load == 0);
+        // The stiffness under a guided needle is not that of a dead load, and with friction not symmetric.
+        measures.stable_under_load = (!is_guided).then_some(end.load == 0);
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));
@@ -150,12 +144,11 @@ impl Snap {
             let points: Vec<_> = points.collect();
             points.into_iter().find(|point| is_below(path, point))
         };
-        let quantity = |chain: &Chain, state: &SkinState| chain.depth(&state.z);
-        let crossing = Crossing { quantity, value: depth };
+        let crossing = At::Displacement(depth).crossing();
         let landed = below.and_then(|below| crossing.between(path, &below, to));
         // A dip that is lost in round-off is none.
-        let landed = landed.unwrap_or_else(|| to.state.clone());
-        self.drop = Some(self.point.force - path.system().force(&landed));
+        let landed = landed.as_ref().unwrap_or(to);
+        self.drop = Some(self.point.force - path.system().force(&landed.state));
     }
 }
 
@@ -172,23 +165,16 @@ fn turning_point(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Op
     if arriving >= 0.0 {
         return None;
     }
-    let (mut low, mut high) = ((0.0, leaving), (1.0, arriving));
+    let mut bracket = Bracket::new((0.0, leaving), (1.0, arriving));
     let mut nearest = from.clone();
     for _ in 0..EVALUATIONS {
-        let place = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        let place = bracket.secant();
         nearest = path.between(from, to, place)?;
         let slope = rate(path, &nearest, &nearest.arriving);
         if slope.abs() <= FLAT * (leaving - arriving) {
             break;
         }
-        // The Illinois rule.
-        if slope < 0.0 {
-            high = (place, slope);
-            low.1 *= 0.5;
-        } else {
-            low = (place, slope);
-            high.1 *= 0.5;
-        }
+        bracket.narrow(place, slope);
     }
     Some(nearest)
 }

@@ -1,15 +1,14 @@
 //! A row of scales as it stands at chosen places of its path.
 
 use geometry::OutOfRange;
-use solver::{Path, Settings};
 
-use super::system::{Chain, Layout};
+use super::system::Chain;
 use super::{
     Problem, Puncture, PunctureParameters, PuncturePoint, RowStiffness, Rows, ScaleState, Status,
     scales,
 };
-use crate::contacts::{Contact, SkinState};
-use crate::crossing::{Crossing, follow};
+use crate::contacts::{Contact, SkinPoint, SkinState};
+use crate::crossing::Crossing;
 use crate::record::Skin;
 use crate::{Common, Design};
 
@@ -25,6 +24,19 @@ pub enum At {
     Force(f64),
     /// Where the punctured scale has first tilted by this angle, clockwise, degrees.
     Tilt(f64),
+}
+
+impl At {
+    /// The quantity that has a value at this place, and the value.
+    pub(super) fn crossing(self) -> Crossing<Chain> {
+        let quantity: fn(&Chain, &SkinState) -> f64 = match self {
+            Self::Displacement(_) => |chain, state| chain.depth(&state.z),
+            Self::Force(_) => |chain, state| chain.force(state),
+            Self::Tilt(_) => |chain, state| chain.angle_deg(state),
+        };
+        let (Self::Displacement(value) | Self::Force(value) | Self::Tilt(value)) = self;
+        Crossing { quantity, value }
+    }
 }
 
 /// A row of scales in equilibrium.
@@ -63,18 +75,24 @@ pub fn snapshots(
     parameters: &PunctureParameters,
     at: &[At],
 ) -> Result<Snapshots, OutOfRange> {
-    let stiffness = &substrate.into();
+    let stiffness = substrate.into();
     let mut parameters = *parameters;
-    let mut puncture = super::solve(design, stiffness, common, &parameters)?;
-    while reaches_short(&puncture, at) && parameters.critical_tilt_deg < STEEPEST_DEG {
+    loop {
+        let row = design.row()?;
+        let rows = Rows::Even(row);
+        let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
+        let (start, longest) = problem.start()?;
+        let mut followed = problem.follow(start, longest, &[], at)?;
+        let found = std::mem::take(&mut followed.watch.places.found);
+        let chain = followed.path.system();
+        let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, row.pitch(), &point?.state));
+        let at_places = found.into_iter().map(snapshot).collect();
+        let puncture = followed.puncture();
+        if !reaches_short(&puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
+            return Ok(Snapshots { puncture, at: at_places });
+        }
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
-        puncture = super::solve(design, stiffness, common, &parameters)?;
     }
-    let rows = Rows::Even(design.row()?);
-    let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-    let layout = layout(&puncture);
-    let at = along(problem.part(layout)?, common.solver, at);
-    Ok(Snapshots { puncture, at })
 }
 
 /// Whether a path that came to its end has not come to every place.
@@ -90,36 +108,19 @@ fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
     puncture.status == Status::Complete && at.iter().any(beyond)
 }
 
-/// The row of which `puncture` knows the scales.
-fn layout(puncture: &Puncture) -> Layout {
-    let left = puncture.scales.iter().filter(|state| state.scale < 0).count();
-    Layout { left, right: puncture.scales.len().saturating_sub(left + 1) }
-}
-
-fn along(chain: Chain, settings: Settings, at: &[At]) -> Vec<Option<RowSnapshot>> {
-    let crossing = |&at: &At| {
-        let quantity = move |chain: &Chain, state: &SkinState| match at {
-            At::Displacement(_) => chain.depth(&state.z),
-            At::Force(_) => chain.force(state),
-            At::Tilt(_) => chain.angle_deg(state),
-        };
-        let (At::Displacement(value) | At::Force(value) | At::Tilt(value)) = at;
-        Crossing { quantity, value }
+fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
+    // Contacts count from the first scale that is solved for, a snapshot from the first of the row.
+    let [before, _] = chain.surroundings.scales_to_ends();
+    let in_row = |contact: Contact| {
+        let [x, y] = contact.point;
+        let point = [x + before as f64 * pitch, y];
+        Contact { left: contact.left + before, point, ..contact }
     };
-    let crossings: Vec<_> = at.iter().map(crossing).collect();
-    let rest = SkinState::at_rest(&chain);
-    let mut path = Path::new(chain, rest, settings);
-    let states = follow(&mut path, &crossings);
-    let snapshot = |state: Option<SkinState>| Some(snapshot(path.system(), &state?));
-    states.into_iter().map(snapshot).collect()
-}
-
-fn snapshot(chain: &Chain, state: &SkinState) -> RowSnapshot {
     RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
         tilt_deg: chain.angle_deg(state),
         scales: scales(chain, state),
-        contacts: chain.contacts.closed_contacts(state),
+        contacts: chain.contacts.closed_contacts(state).into_iter().map(in_row).collect(),
     }
 }

@@ -77,7 +77,8 @@ impl Surroundings {
             scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
         };
         let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
-        let row = rows.row(Layout { left: layout.left + left, right: layout.right + right })?;
+        let row =
+            rows.row(Layout { left: layout.left + left, right: layout.right + right, ..layout })?;
         let end = left + layout.scales() - 1;
         let pairs: [Vec<usize>; 2] = [(0..left).rev().collect(), (end..end + right).collect()];
         let side = |(beyond, pairs): (Option<Beyond>, Vec<usize>)| {
@@ -123,12 +124,6 @@ fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, f64)>
 }
 
 impl Chain {
-    /// This row as a part of a longer one.
-    pub(crate) fn within(mut self, surroundings: Surroundings) -> Self {
-        self.surroundings = surroundings;
-        self
-    }
-
     /// Number of scales in the row: of one without ends those that are solved for.
     pub(super) fn row_length(&self) -> usize {
         let [left, right] = self.surroundings.scales_to_ends();

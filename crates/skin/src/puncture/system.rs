@@ -1,16 +1,26 @@
 //! A row of scales on springs under a dead load, as a mixed complementarity system.
 
-use contact::{ContactLaw, CornerContact};
+use contact::ContactLaw;
 use geometry::{Corner, Vec2};
 use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
-use substrate::{Neighbour, RowStiffness};
+use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
+use super::PunctureParameters;
+use super::needle::{FARTHEST, GuidedNeedle, Needle};
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, SkinState};
+use crate::contacts::{Contacts, PAIR_FORCES, SkinMode, SkinState};
 
 /// Unknowns of a scale and of its contacts with the next one.
 const BLOCK: usize = 3 + PAIR_FORCES;
+
+/// Depth in which the way of a guided needle is measured, over `t`: about what a tilt of 10° takes, but no more than some tops of a
+/// scale, since steps are parts of it and a needle is soon beyond a narrow top.
+const DEPTH: f64 = 0.5;
+const TOPS: f64 = 4.0;
+
+/// Depth at which the path of a guided needle ends if nothing else ends it.
+const DEEPEST: f64 = 2.0;
 
 /// Numbers of the rates that tell where load and depth turn back.
 pub(super) const LOAD_RATE: usize = 0;
@@ -22,12 +32,16 @@ pub(super) const DEPTH_RATE: usize = 1;
 /// x y φ · λ λ' λ" λ λ' λ" | … | x y φ · F · λ λ' λ" λ λ' λ" | … | x y φ
 /// scale 0  upper   lower       punctured                           last
 /// ```
+///
+/// The unknowns of a guided needle follow the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Scales to the left of the punctured one.
     pub(crate) left: usize,
     /// Scales to the right of the punctured one.
     pub(crate) right: usize,
+    /// Unknowns of a guided needle, behind the load; 0 under a free one.
+    pub(crate) needle: usize,
 }
 
 impl Layout {
@@ -42,12 +56,12 @@ impl Layout {
 
     /// Number of unknowns.
     pub(crate) fn size(self) -> usize {
-        BLOCK * self.scales() - PAIR_FORCES + 1
+        BLOCK * self.scales() - PAIR_FORCES + 1 + self.needle
     }
 
     /// First of the three unknowns of a scale.
     pub(crate) fn scale(self, scale: usize) -> usize {
-        BLOCK * scale + usize::from(scale > self.left)
+        BLOCK * scale + if scale > self.left { 1 + self.needle } else { 0 }
     }
 
     pub(crate) fn load(self) -> usize {
@@ -73,7 +87,7 @@ impl Layout {
 
     /// The scale that an unknown belongs to; of a contact force the left one of its pair.
     pub(crate) fn scale_of(self, unknown: usize) -> usize {
-        (unknown - usize::from(unknown > self.load())) / BLOCK
+        (unknown - if unknown > self.load() { 1 + self.needle } else { 0 }) / BLOCK
     }
 
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
@@ -89,7 +103,8 @@ impl Layout {
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
         let left = force / PAIR_FORCES;
-        BLOCK * left + 3 + force % PAIR_FORCES + usize::from(left >= self.left)
+        let behind_load = if left >= self.left { 1 + self.needle } else { 0 };
+        BLOCK * left + 3 + force % PAIR_FORCES + behind_load
     }
 }
 
@@ -116,44 +131,75 @@ pub(crate) struct Chain {
     pub(super) surroundings: Surroundings,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
-    controls: [Control; 3],
+    /// `None` of a free needle, which is a load.
+    pub(super) needle: Option<GuidedNeedle>,
+    /// The contact forces, and the constraints of a guided needle.
+    constraints: Vec<usize>,
+    pub(super) controls: Vec<Control>,
     /// Blocks of the tangent, where scales feel their nearest neighbours alone.
     blocks: Option<Blocks>,
     units: Vec<f64>,
 }
 
 impl Chain {
+    /// The part of a row that is solved for, with what lies beyond it. `length` is `L/t`.
     pub(crate) fn new(
         arrangement: Arrangement,
         stiffness: &RowStiffness,
         law: ContactLaw,
         layout: Layout,
-        load_position: f64,
-        critical_tilt: f64,
+        surroundings: Surroundings,
+        parameters: &PunctureParameters,
         length: f64,
     ) -> Self {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
         let RowStiffness { direct, neighbours, .. } = stiffness.with_lengths_over(a);
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
-        let forces = (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
+        let forces: Vec<usize> =
+            (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
+        // The tilt is clockwise: it decreases the rotation.
+        let critical_tilt = parameters.critical_tilt_deg.to_radians();
+        let load_arm = left + parameters.load_position * (right - left);
+        let depth = layout.load() + 1;
+        let contacts = forces.len();
+        let needle = match parameters.needle {
+            Needle::Free => None,
+            Needle::Guided { friction } => {
+                Some(GuidedNeedle::new(friction, load_arm, critical_tilt, depth, contacts))
+            }
+        };
+        let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
+        if needle.is_some() {
+            // The way of a guided needle is measured by its depth; scales may tilt either way, or not at all.
+            let scale = DEPTH.min(TOPS * (right - left).norm());
+            controls.insert(0, Control { index: depth, scale });
+        }
+        let of_needle = needle.iter().flat_map(GuidedNeedle::constraints);
+        let constraints = forces.iter().copied().chain(of_needle).collect();
+        let bars = match parameters.substrate_law {
+            SubstrateLaw::Linear => None,
+            SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
+        };
         Self {
             layout,
             contacts: Contacts::new(arrangement, law, scales, forces),
             length,
-            plane_modulus: 1.0,
+            plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
             direct,
+            // Coupling beyond the neighbours fills the matrix: the band elimination takes it.
+            blocks: (neighbours.len() <= 1).then(|| layout.blocks()),
             neighbours,
-            bars: None,
-            surroundings: Surroundings::default(),
-            load_arm: left + load_position * (right - left),
-            // The tilt is clockwise: it decreases the rotation.
-            blocks: (stiffness.neighbours.len() <= 1).then(|| layout.blocks()),
-            controls: [control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)],
+            bars,
+            surroundings,
+            load_arm,
+            needle,
+            constraints,
+            controls,
             units: layout.units(direct),
         }
     }
@@ -166,6 +212,9 @@ impl Chain {
 
     /// Depth of the loaded point below its place at rest.
     pub(crate) fn depth(&self, z: &[f64]) -> f64 {
+        if let Some(needle) = &self.needle {
+            return z[needle.depth];
+        }
         let pose = self.contacts.pose(z, self.layout.left);
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
@@ -182,6 +231,9 @@ impl Chain {
 
     /// Derivative of [`Chain::depth`] along a direction.
     pub(crate) fn depth_slope(&self, z: &[f64], direction: &[f64]) -> f64 {
+        if let Some(needle) = &self.needle {
+            return direction[needle.depth];
+        }
         let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(z);
         -(direction[at + 1] + arm.x * direction[at + 2])
@@ -240,23 +292,43 @@ impl Chain {
 }
 
 impl System for Chain {
-    type Mode = Vec<CornerContact>;
+    type Mode = SkinMode;
 
     fn size(&self) -> usize {
         self.layout.size()
     }
 
     fn half_bandwidth(&self) -> usize {
-        // From x of a scale to φ of the last that it is coupled with, with the load between them.
-        BLOCK * self.coupled_scales() + 3
+        // From x of a scale to φ of the last that it is coupled with, with the load between them. A guided needle is coupled with
+        // all scales that it may come to.
+        let coupled = self.needle.as_ref().map_or(0, |_| FARTHEST.unsigned_abs() as usize);
+        BLOCK * self.coupled_scales().max(coupled) + 3 + self.layout.needle
     }
 
     fn blocks(&self) -> Option<&Blocks> {
         self.blocks.as_ref()
     }
 
+    /// A guided needle keeps to the blocks as long as it touches the punctured scale alone.
+    fn is_in_blocks(&self, state: &SkinState) -> bool {
+        state.mode.needle.touches.iter().flatten().all(|touch| touch.scale == 0)
+    }
+
     fn load(&self) -> usize {
         self.layout.load()
+    }
+
+    /// The path of a guided needle ends by its constraints, or where it is as deep as two scales are thick and has tilted none.
+    fn target(&self) -> f64 {
+        if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
+    }
+
+    fn ends(&self, constraint: usize) -> bool {
+        self.needle.as_ref().is_some_and(|needle| needle.ends(constraint))
+    }
+
+    fn growing(&self) -> &[usize] {
+        self.needle.as_ref().map_or(&[], |needle| &needle.growing)
     }
 
     fn load_only_pushes(&self) -> bool {
@@ -267,11 +339,16 @@ impl System for Chain {
         &self.controls
     }
 
-    fn constraints(&self) -> &[usize] {
-        self.contacts.forces()
+    fn coordinates(&self) -> Vec<usize> {
+        let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
+        scales.flat_map(|at| at..at + 3).collect()
     }
 
-    fn mode_at_rest(&self) -> Vec<CornerContact> {
+    fn constraints(&self) -> &[usize] {
+        &self.constraints
+    }
+
+    fn mode_at_rest(&self) -> SkinMode {
         self.contacts.open()
     }
 
@@ -293,29 +370,55 @@ impl System for Chain {
         residual.clear(&self.units);
         self.for_springs(|row, column, value| residual.add(row, value * z[column]));
         self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
-        let at = self.layout.scale(self.layout.left);
-        let arm = self.loaded_arm(z);
-        residual.add(at + 1, z[load]);
-        residual.add(at + 2, z[load] * arm.x);
-        matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
-        matrix.add(at + 2, at + 2, -z[load] * arm.y);
+        if let Some(needle) = &self.needle {
+            self.add_needle(needle, state, residual, matrix);
+        } else {
+            let at = self.layout.scale(self.layout.left);
+            let arm = self.loaded_arm(z);
+            residual.add(at + 1, z[load]);
+            residual.add(at + 2, z[load] * arm.x);
+            matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
+            matrix.add(at + 2, at + 2, -z[load] * arm.y);
+        }
         self.contacts.linearise(state, residual, matrix);
     }
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
+        if let Some(needle) = &self.needle {
+            self.needle_conditions(needle, state, values);
+        }
     }
 
     fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
         self.contacts.condition_slopes(state, direction, slopes);
+        if let Some(needle) = &self.needle {
+            self.needle_slopes(needle, state, direction, slopes);
+        }
     }
 
     fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
-        self.contacts.condition(state, constraint)
+        let contacts = self.contacts.forces().len();
+        match &self.needle {
+            Some(needle) if constraint >= contacts => {
+                let mut values = Vec::new();
+                self.needle_conditions(needle, state, &mut values);
+                values[constraint - contacts]
+            }
+            _ => self.contacts.condition(state, constraint),
+        }
     }
 
     fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
-        self.contacts.slope(state, constraint, direction)
+        let contacts = self.contacts.forces().len();
+        match &self.needle {
+            Some(needle) if constraint >= contacts => {
+                let mut slopes = Vec::new();
+                self.needle_slopes(needle, state, direction, &mut slopes);
+                slopes[constraint - contacts]
+            }
+            _ => self.contacts.slope(state, constraint, direction),
+        }
     }
 
     /// The stretch of a gap, by its left scale: where it vanishes the surface folds over.
@@ -332,6 +435,12 @@ impl System for Chain {
     }
 
     fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
-        self.contacts.transition(state, change)
+        let Some(needle) = &self.needle else { return self.contacts.transition(state, change) };
+        if change.constraint >= self.contacts.forces().len() {
+            return self.needle_transition(needle, state, change);
+        }
+        let valid = self.contacts.transition(state, change);
+        self.release_notch(needle, state);
+        valid
     }
 }

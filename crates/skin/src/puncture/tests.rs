@@ -1,6 +1,7 @@
 //! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
 mod bars;
+mod needle;
 
 use std::collections::HashSet;
 
@@ -10,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use solver::{BandMatrix, Path, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
+use self::needle::integral;
 use super::stability::Instability;
 use super::surroundings::{Beyond, Reach, Surroundings};
 use super::system::{Chain, Layout};
@@ -67,13 +69,23 @@ fn path_on(
     law: ContactLaw,
     load_position: f64,
 ) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10 };
-    let tilt = 10.0_f64.to_radians();
-    let row = design.row().unwrap();
-    let row = Arrangement::Even(row);
-    let chain = Chain::new(row, stiffness, law, layout, load_position, tilt, design.length);
+    let layout = Layout { left: 10, right: 10, needle: 0 };
+    let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
+    let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
+}
+
+/// A row with nothing beyond its ends.
+fn whole(
+    stiffness: &RowStiffness,
+    design: &Design,
+    law: ContactLaw,
+    layout: Layout,
+    parameters: &PunctureParameters,
+) -> Chain {
+    let row = Arrangement::Even(design.row().unwrap());
+    Chain::new(row, stiffness, law, layout, Surroundings::default(), parameters, design.length)
 }
 
 /// Shows every segment of a path.
@@ -159,18 +171,7 @@ fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let chain = path.system();
-    let u = states.map(|state| chain.depth(&state.z));
-    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
-    let slopes = [
-        [-25.0, 48.0, -36.0, 16.0, -3.0],
-        [-3.0, -10.0, 18.0, -6.0, 1.0],
-        [1.0, -8.0, 0.0, 8.0, -1.0],
-        [-1.0, 6.0, -18.0, 10.0, 3.0],
-        [3.0, -16.0, 36.0, -48.0, 25.0],
-    ]
-    .map(slope);
-    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
-    (0..5).map(|k| weights[k] * states[k].z[chain.load()] * slopes[k]).sum::<f64>() / 90.0
+    integral(states.map(|state| [state.z[chain.load()], chain.depth(&state.z)]))
 }
 
 /// Work and energy along a path.
@@ -304,9 +305,9 @@ fn soft_contacts_store_their_part_of_the_work() {
 #[test]
 fn rows_grow_as_far_as_there_is_room() {
     use Reach::{Beyond, Near, Short};
-    let layout = Layout { left: 14, right: 17 };
+    let layout = Layout { left: 14, right: 17, needle: 0 };
     let grown = |reach, longest| {
-        let Layout { left, right } = layout.grown(reach, longest);
+        let Layout { left, right, .. } = layout.grown(reach, longest);
         [left, right]
     };
     assert_eq!(grown([Near, Short], 100), [22, 17]);
@@ -324,7 +325,11 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let row = Rows::Even(DOMINO.row().unwrap());
     let problem =
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
-    let cut = problem.grow(60).unwrap();
+    let grown = |longest| {
+        let start = problem.start().unwrap().0;
+        problem.follow(start, longest, &[], &[]).unwrap().puncture()
+    };
+    let cut = grown(60);
     assert_eq!(cut.status, Status::RowLimit);
     assert_eq!(cut.measures.scales, 60);
     assert!(cut.measures.first_contact_displacement.is_some());
@@ -332,7 +337,7 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     assert_eq!(cut.measures.critical_force, None);
     assert_eq!(cut.measures.peak_force, cut.path.last().map(|end| end.force));
     assert!(cut.path.last().unwrap().tilt_deg < 10.0);
-    let whole = problem.grow(4001).unwrap();
+    let whole = grown(4001);
     assert_eq!(whole.status, Status::Complete);
     assert!(whole.measures.scales > 60);
 }
@@ -441,18 +446,18 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let law = law(&design, Law::EXCHANGED, modulus);
         let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
-        let chain = |stiffness: &RowStiffness| {
-            let (layout, tilt) = (Layout { left: 7, right: 9 }, 40.0_f64.to_radians());
-            let row = Arrangement::Even(design.row().unwrap());
-            Chain::new(row, stiffness, law, layout, 1.0, tilt, design.length)
-        };
+        let parameters =
+            &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
+        let layout = Layout { left: 7, right: 9, needle: 0 };
+        let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
         let nearest: RowStiffness = (&springs).into();
-        let layout = Layout { left: 7, right: 9 };
         let rows = Rows::Even(design.row().unwrap());
         let endless = |stiffness: &RowStiffness| {
             let far = stiffness.with_lengths_over(design.half_base()).far_field(None).unwrap();
             let beyond = [(); 2].map(|()| Some(Beyond { far: far.clone(), scales: None }));
-            chain(stiffness).within(Surroundings::new(rows, layout, beyond).unwrap())
+            let surroundings = Surroundings::new(rows, layout, beyond).unwrap();
+            let row = rows.row(layout).unwrap();
+            Chain::new(row, stiffness, law, layout, surroundings, parameters, design.length)
         };
         for chain in [chain(&nearest), chain(&full), endless(&nearest), endless(&full)] {
             let rest = SkinState::at_rest(&chain);

@@ -2,20 +2,23 @@
 
 use solver::Path;
 
-use super::NumberList;
 use super::fold::FoldWatch;
-use super::snap::Needle;
+use super::growing::{GrowingPath, Segment};
+use super::snap::SnapWatch;
 use super::system::Chain;
-use super::tilts::TiltWatch;
+use super::{At, NumberList};
 use crate::contacts::SkinPoint;
+use crate::crossing::PlaceWatch;
 use crate::record::{PathFunction, Record};
 
 /// All that is looked for along the path of a puncture.
 pub(super) struct PathWatch {
     pub(super) record: Record<Chain>,
-    pub(super) needle: Needle,
+    pub(super) needle: SnapWatch,
     pub(super) folds: FoldWatch,
-    pub(super) tilts: TiltWatch,
+    pub(super) tilts: PlaceWatch<Chain>,
+    /// Of snapshots.
+    pub(super) places: PlaceWatch<Chain>,
 }
 
 impl PathWatch {
@@ -23,32 +26,37 @@ impl PathWatch {
         path: &Path<Chain>,
         tilts: NumberList,
         functions: &[PathFunction<Chain>],
+        places: &[At],
     ) -> Self {
+        let tilts = tilts.as_slice().iter().map(|&tilt| At::Tilt(tilt).crossing());
         Self {
             record: Record::new(path, functions),
-            needle: Needle::default(),
+            needle: SnapWatch::default(),
             folds: FoldWatch::default(),
-            tilts: TiltWatch::new(tilts),
+            tilts: PlaceWatch::new(path, tilts),
+            places: PlaceWatch::new(path, places.iter().map(|place| place.crossing())),
         }
     }
 
-    /// Follows the path from one point to the next.
-    pub(super) fn follow(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
+    /// Follows the path over a segment.
+    pub(super) fn follow(&mut self, path: &mut Path<Chain>, Segment { from, to, left }: &Segment) {
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
+        self.places.follow(path, from, to);
         self.folds.follow(path, [from, to], events_before);
-        self.record.visit(path, to);
+        self.record.visit(path, left, to);
     }
 
-    /// Makes points of a longer row of those that are kept; the path goes on from the `last`.
-    pub(super) fn replace_points(
-        &mut self,
-        longer: impl Fn(&SkinPoint) -> SkinPoint,
-        last: &SkinPoint,
-    ) {
-        self.needle.replace_points(&longer);
-        self.folds.first = self.folds.first.as_ref().map(&longer);
-        self.record.replace_points(longer, last);
+    /// Takes the points that were kept to the row as it is in the end.
+    pub(super) fn lengthen(&mut self, path: &GrowingPath) {
+        let longer = |point: &SkinPoint| path.lengthened(point);
+        let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
+        let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
+        let places = self.tilts.found.iter_mut().chain(&mut self.places.found);
+        for point in single.into_iter().chain(places).flatten() {
+            *point = longer(point);
+        }
+        self.record.replace_points(longer);
     }
 }

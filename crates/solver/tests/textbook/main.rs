@@ -2,6 +2,7 @@
 
 mod events;
 mod folds;
+mod friction;
 mod obstacle;
 mod peaks;
 mod problems;

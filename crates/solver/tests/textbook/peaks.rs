@@ -22,15 +22,17 @@ fn largest<S: System>(
     let rest = State::at_rest(&system);
     let mut path = Path::new(system, rest, steps(largest_step));
     let (mut peak, mut sampled) = (Peak::default(), f64::NEG_INFINITY);
+    let mut from = None;
     loop {
-        peak.visit(&path, of_path);
+        peak.visit(&path, from.as_ref(), of_path);
+        from = Some(path.point_shared());
         let Point { state, arriving, leaving, .. } = path.point();
         sampled = sampled.max(f(state, arriving)).max(f(state, leaving));
         if path.next().is_none() {
             break;
         }
     }
-    [sampled, peak.refined(&mut path, of_path).unwrap()]
+    [sampled, peak.summit(&mut path, of_path).unwrap().value]
 }
 
 #[test]

@@ -85,11 +85,13 @@ fn places<S: System>(system: S, largest_step: f64) -> usize {
     let rest = State::at_rest(&system);
     let mut path = Path::new(system, rest, steps(largest_step));
     let mut peak = Peak::default();
+    let mut from = None;
     while path.next().is_some() {
-        peak.visit(&path, slope);
+        peak.visit(&path, from.as_ref(), slope);
+        from = Some(path.point_shared());
     }
     count.set(0);
-    peak.refined(&mut path, slope).unwrap();
+    peak.summit(&mut path, slope).unwrap();
     count.get() / 3
 }
 

@@ -3,7 +3,7 @@
 use super::invalid::Problem;
 use super::suggestion;
 use crate::deviation::{BatchDeviation, Deviation};
-use crate::parameter::{PARAMETERS, WrongValue};
+use crate::parameter::{Parameter, Role, WrongValue};
 use crate::toml_source::{KeyValue, KeyValues, Value};
 
 /// The keys of a deviation.
@@ -27,13 +27,16 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     let [sd, within, scale_sd] = KEYS.map(|key| number(entries, key));
     let batch = match (sd?, within?) {
         (Some(_), Some(_)) => {
-            return Err(wrong(entry, "two distributions, expected one of the two".to_owned()));
+            return Err(wrong(
+                entry,
+                "has batch_sd and batch_within; keep one of the two".to_owned(),
+            ));
         }
         (sd, within) => sd.map(BatchDeviation::Normal).or(within.map(BatchDeviation::Uniform)),
     };
     let scale_sd = scale_sd?;
-    if scale_sd.is_some() && !Deviation::scatters(parameter) {
-        let problem = "nothing but gap_over_t (or gap_mm) and slant_deg differs from scale to scale, expected batch_sd or batch_within";
+    if scale_sd.is_some() && !parameter.has(Role::Scattered) {
+        let problem = "scale_sd is for gap_over_t (or gap_mm) and slant_deg only, expected batch_sd or batch_within";
         return Err(wrong(entry, problem.to_owned()));
     }
     if batch.is_none() && scale_sd.is_none() {
@@ -62,7 +65,7 @@ fn not_accepted(value: &Value, expected: String) -> Problem {
 }
 
 fn unknown(entry: &KeyValue) -> Problem {
-    let possible = PARAMETERS.iter().filter(|parameter| Deviation::is_possible(parameter));
+    let possible = Parameter::with(Role::Made);
     let known: Vec<_> = possible.map(|parameter| parameter.key).collect();
     let hint = match suggestion::nearest(&entry.key, &known) {
         Some(near) => format!("did you mean {near}?"),

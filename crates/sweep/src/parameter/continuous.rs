@@ -1,29 +1,13 @@
 //! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
 
 use super::Bound::Excluded;
-use super::{ALTERNATIVES, Parameter, ParameterKind, Scalar};
+use super::{Parameter, ParameterKind, Scalar};
 use crate::case::Case;
 
-/// The sections that describe the skin.
-const CONTINUOUS: [&str; 6] = ["designs", "scale", "substrate", "contact", "puncture", "flexure"];
-
 impl Parameter {
-    /// Whether measures change continuously with this parameter, so that they have derivatives with respect to it: a number that
-    /// describes the skin or how far it is loaded, not how it is solved or how it scatters.
-    pub fn is_continuous(&self) -> bool {
-        let is_number = matches!(
-            self.kind,
-            ParameterKind::Number { .. }
-                | ParameterKind::SignedNumber { .. }
-                | ParameterKind::Numbers { .. }
-        );
-        is_number && CONTINUOUS.contains(&self.section)
-    }
-
     /// The value of this parameter in `case`, which is its own: `None` if its alternative is given, from which it follows.
     fn own(&self, case: &Case) -> Option<Scalar> {
-        let mut first = ALTERNATIVES.iter().filter(|[_, second]| *second == self.key);
-        let first = first.find_map(|[first, _]| Self::named(first)).map(|first| first.get(case));
+        let first = self.instead().map(|first| first.get(case));
         let follows = first.is_some_and(|value| !matches!(value, Scalar::Word(_)));
         (!follows).then(|| self.get(case))
     }

@@ -2,25 +2,33 @@
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
-use skin::puncture::{NumberList, RowLength};
+use skin::puncture::{Needle, NumberList, RowLength};
 use substrate::{Coupling, SubstrateLaw};
 
 use crate::case::Case;
 use crate::parameter::Bound::{Excluded, Included};
-use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Scalar};
+use crate::parameter::Role::{
+    Continuous, EndsBending, EndsPuncture, Geometry, InsteadOf, Made, MovesSprings, Scattered,
+    UnitOfBending,
+};
+use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Role, Scalar, key};
 
 const LENGTH: Range = Range { low: Excluded(0.0), high: Included(1e6) };
 const POSITIVE: Range = Range { low: Excluded(0.0), high: Included(1e30) };
 const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
 
+/// The roles of a number that describes the skin and its load, and no more.
+const NUMBER: &[Role] = &[Continuous, Made];
+
 /// Every parameter, in the order of the documentation. Keys are unique over all sections, because
 /// an axis is named by its key alone.
 pub static PARAMETERS: &[Parameter] = &[
     Parameter {
-        key: "gap_over_t",
+        key: key::GAP,
         section: "designs",
         unit: "t",
         meaning: "gap d between neighbouring bases",
+        roles: &[Geometry, Continuous, Made, Scattered, MovesSprings],
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
@@ -28,10 +36,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "length_over_t",
+        key: key::LENGTH,
         section: "designs",
         unit: "t",
         meaning: "length L of a scale",
+        roles: &[Geometry, Continuous, Made, MovesSprings],
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
@@ -39,10 +48,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "slant_deg",
+        key: key::SLANT,
         section: "designs",
         unit: "deg",
         meaning: "slant of the scales from the vertical, to the right",
+        roles: &[Geometry, Continuous, Made, Scattered],
         kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Included(0.0), high: Excluded(90.0) },
@@ -54,6 +64,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "scale",
         unit: "-",
         meaning: "length of the base of a scale, L or 2L",
+        roles: &[MovesSprings],
         kind: ParameterKind::Word {
             words: &["L", "2L"],
             get: |c| usize::from(c.design.base == Base::TwoL),
@@ -61,10 +72,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "width_over_t",
+        key: key::WIDTH,
         section: "scale",
         unit: "t",
         meaning: "out-of-plane width b of the scales",
+        roles: &[Continuous, Made, MovesSprings],
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
@@ -72,10 +84,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "poisson_ratio",
+        key: key::POISSON_RATIO,
         section: "substrate",
         unit: "-",
         meaning: "Poisson's ratio of the substrate",
+        roles: &[Continuous, Made, MovesSprings],
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(0.5) },
@@ -87,6 +100,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "substrate",
         unit: "-",
         meaning: "neighbours that the substrate couples a scale with, the nearest or all that matter",
+        roles: &[MovesSprings],
         kind: ParameterKind::Word {
             words: &["nearest", "full"],
             get: |c| usize::from(c.coupling == Coupling::Full),
@@ -98,6 +112,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "substrate",
         unit: "-",
         meaning: "how the substrate answers where the gap between two bases is stretched or pressed: by linear springs, or as rubber, which cannot fold over",
+        roles: &[],
         kind: ParameterKind::Word {
             words: &["linear", "neo-hookean"],
             get: |c| usize::from(c.puncture.substrate_law == SubstrateLaw::NeoHookean),
@@ -111,6 +126,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "contact",
         unit: "-",
         meaning: "prefactor C1 of the contact law",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
@@ -122,6 +138,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "contact",
         unit: "-",
         meaning: "exponent C2 of the contact law",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(10.0) },
@@ -133,6 +150,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "scales in the row",
+        roles: &[],
         kind: ParameterKind::CountOrAuto {
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| match c.puncture.scales {
@@ -149,6 +167,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(1.0) },
@@ -156,10 +175,26 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "critical_tilt_deg",
+        key: key::NEEDLE,
+        section: "puncture",
+        unit: "-",
+        meaning: "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale",
+        roles: &[EndsPuncture],
+        kind: ParameterKind::Word {
+            words: &["free", "guided"],
+            get: |c| usize::from(c.puncture.needle.is_guided()),
+            set: |c, word| {
+                c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word];
+                settle_needle(c);
+            },
+        },
+    },
+    Parameter {
+        key: key::CRITICAL_TILT,
         section: "puncture",
         unit: "deg",
         meaning: "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each",
+        roles: &[Continuous, EndsPuncture],
         kind: ParameterKind::Numbers {
             noun: "an angle",
             range: Range { low: Excluded(0.0), high: Excluded(90.0) },
@@ -168,22 +203,26 @@ pub static PARAMETERS: &[Parameter] = &[
                 tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),
                 tilts => Scalar::List(tilts),
             },
-            set: |c, tilts| set_tilts(c, tilts, |tilt| tilt),
+            set: |c, tilts| {
+                c.critical_tilt = tilts;
+                settle_needle(c);
+            },
         },
     },
     Parameter {
-        key: "needle_friction",
+        key: key::NEEDLE_FRICTION,
         section: "puncture",
         unit: "-",
-        meaning: "friction between needle and scale, whose arctangent is the critical tilt, instead of that",
+        meaning: "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given",
+        roles: &[Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
         kind: ParameterKind::Numbers {
             noun: "a number",
-            range: POSITIVE,
+            range: Range { low: Included(0.0), high: Included(1e30) },
             word: Some("none"),
             get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
             set: |c, friction| {
                 c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
-                set_tilts(c, friction, |friction| friction.atan().to_degrees());
+                settle_needle(c);
             },
         },
     },
@@ -192,6 +231,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "puncture",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
@@ -203,6 +243,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "what is bent: one gap, since all deform alike, or the chain of all",
+        roles: &[],
         kind: ParameterKind::Word {
             words: &["unit-cell", "chain"],
             get: |c| usize::from(c.flexure.method == Method::Chain),
@@ -210,10 +251,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "membrane_length_over_t",
+        key: key::MEMBRANE_LENGTH,
         section: "flexure",
         unit: "t",
         meaning: "length of the membrane; a chain and imperfect strips round it to whole gaps",
+        roles: &[Continuous, Made, EndsBending],
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
@@ -225,6 +267,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "gaps of the strip, the same number for every design, instead of a length",
+        roles: &[InsteadOf(key::MEMBRANE_LENGTH)],
         kind: ParameterKind::CountOrAuto {
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| c.flexure.gaps,
@@ -236,6 +279,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "t",
         meaning: "thickness h of the membrane",
+        roles: &[Continuous, Made, UnitOfBending],
         kind: ParameterKind::Number {
             noun: "a length",
             range: LENGTH,
@@ -247,6 +291,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "t",
         meaning: "depth of the axis of the membrane below the bases of the scales",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a length",
             range: Range { low: Included(-1e6), high: Included(1e6) },
@@ -258,6 +303,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
+        roles: &[],
         kind: ParameterKind::CountOrAuto {
             range: CountRange { low: 1, high: 1000 },
             get: |c| match c.flexure.elements_per_gap {
@@ -275,6 +321,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "deg",
         meaning: "rotation of each end at which bending ends; below zero, bending the other way, scales outside",
+        roles: &[Continuous, Made, EndsBending],
         kind: ParameterKind::SignedNumber {
             noun: "an angle",
             size: Range { low: Excluded(0.0), high: Included(180.0) },
@@ -286,6 +333,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "flexure",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
+        roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
             range: POSITIVE,
@@ -297,6 +345,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "coefficient of variation of the gaps of imperfect rows",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(1.0) },
@@ -308,6 +357,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "deg",
         meaning: "standard deviation of the slants of imperfect rows",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "an angle",
             range: Range { low: Included(0.0), high: Included(30.0) },
@@ -319,6 +369,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "imperfect rows that are solved, if gaps or slants scatter",
+        roles: &[],
         kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1_000_000 },
             field: |c| &mut c.samples.count,
@@ -329,6 +380,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "imperfection",
         unit: "-",
         meaning: "seed of the random gaps and slants",
+        roles: &[],
         kind: ParameterKind::Count {
             range: CountRange { low: 0, high: 1_000_000_000 },
             field: |c| &mut c.samples.seed,
@@ -339,6 +391,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "first step, as a fraction of the whole path",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
@@ -350,6 +403,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "largest step, as a fraction of the whole path",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
@@ -361,6 +415,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "smallest step, as a fraction of the whole path, below which the path stops",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "a fraction",
             range: FRACTION,
@@ -372,6 +427,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "largest scaled residual of an equilibrium",
+        roles: &[],
         kind: ParameterKind::Number {
             noun: "a number",
             range: Range { low: Excluded(0.0), high: Included(0.01) },
@@ -383,6 +439,7 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "Newton iterations after which a step is cut to a third",
+        roles: &[],
         kind: ParameterKind::Count {
             range: CountRange { low: 1, high: 1000 },
             field: |c| &mut c.common.solver.max_iterations,
@@ -393,16 +450,18 @@ pub static PARAMETERS: &[Parameter] = &[
         section: "solver",
         unit: "-",
         meaning: "equilibria after which the path stops",
+        roles: &[],
         kind: ParameterKind::Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
             field: |c| &mut c.common.solver.max_points,
         },
     },
     Parameter {
-        key: "thickness_mm",
+        key: key::THICKNESS,
         section: "material",
         unit: "mm",
         meaning: "thickness t of the scales",
+        roles: &[Made],
         kind: ParameterKind::OptionalNumber {
             noun: "a length",
             range: POSITIVE,
@@ -410,10 +469,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "substrate_modulus_MPa",
+        key: key::SUBSTRATE_MODULUS,
         section: "material",
         unit: "MPa",
         meaning: "modulus E_s of the substrate",
+        roles: &[Made],
         kind: ParameterKind::OptionalNumber {
             noun: "a number",
             range: POSITIVE,
@@ -421,10 +481,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "membrane_modulus_MPa",
+        key: key::MEMBRANE_MODULUS,
         section: "material",
         unit: "MPa",
         meaning: "modulus E_m of the membrane",
+        roles: &[Made],
         kind: ParameterKind::OptionalNumber {
             noun: "a number",
             range: POSITIVE,
@@ -432,10 +493,11 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "scale_density_kg_m3",
+        key: key::DENSITY,
         section: "material",
         unit: "kg/m^3",
         meaning: "density of the scales",
+        roles: &[Made],
         kind: ParameterKind::OptionalNumber {
             noun: "a number",
             range: POSITIVE,
@@ -445,6 +507,19 @@ pub static PARAMETERS: &[Parameter] = &[
 ];
 
 /// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
+/// Makes tilts and friction of a puncture what the case says of them, in whatever order it was said.
+fn settle_needle(case: &mut Case) {
+    let friction = case.needle_friction;
+    if let Needle::Guided { friction: of_needle } = &mut case.puncture.needle {
+        *of_needle = friction.and_then(Scalar::number).unwrap_or(0.0);
+        return set_tilts(case, case.critical_tilt, |tilt| tilt);
+    }
+    match friction {
+        Some(friction) => set_tilts(case, friction, |friction| friction.atan().to_degrees()),
+        None => set_tilts(case, case.critical_tilt, |tilt| tilt),
+    }
+}
+
 fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
     let tilts = match value {
         Scalar::Number(number) => {

@@ -1,6 +1,7 @@
 //! Samples that are kept: an interruption loses none but those in hand.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use tolerance::NoAnalysis;
 
@@ -26,12 +27,32 @@ fn an_analysis_goes_on_where_it_was() {
     assert_eq!((&again.samples, &again.measures), (&at_once.samples, &at_once.measures));
     let file = |folder: &std::path::Path| fs::read(folder.join("0001.csv")).expect("a table");
     assert_eq!(file(&whole), file(&parts));
-    // A table that was changed is not believed.
+    // A table that was changed is not believed: the journal is.
     let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
     fs::write(parts.join("0001.csv"), damaged).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
     assert_eq!(file(&whole), file(&parts));
+    // A damaged line before intact ones is refused, and nothing is thrown away.
+    let [journal] = journals(&parts).try_into().expect("one journal");
+    let sound = fs::read_to_string(&journal).expect("text");
+    let third = sound.lines().nth(2).expect("a line");
+    let damaged = sound.replace(third, &third.replace("\"number\"", "\"numbar\""));
+    fs::write(&journal, &damaged).expect("written");
+    let refused = analysed(&sweep, &[], 250, &parts, false).expect_err("damaged").to_string();
+    assert!(refused.contains(".jsonl:3: damaged line"), "{refused}");
+    assert_eq!(fs::read_to_string(&journal).expect("text"), damaged);
+    // What a kill has torn at the end is solved again.
+    fs::write(&journal, &sound[..sound.len() - 20]).expect("written");
+    let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
+    assert_eq!(again.samples, at_once.samples);
+}
+
+/// The journals of samples in a folder.
+fn journals(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths.filter(|path| path.extension().is_some_and(|extension| extension == "jsonl")).collect()
 }
 
 #[test]
@@ -44,5 +65,12 @@ fn other_deviations_are_other_samples() {
     };
     let first = sampled("0.01");
     assert_ne!(first, sampled("0.02"));
+    // Whoever comes back to a definition finds its samples.
+    let kept = || -> Vec<Vec<u8>> {
+        journals(place.path()).iter().map(|path| fs::read(path).expect("bytes")).collect()
+    };
+    let before = kept();
+    assert_eq!(before.len(), 2);
     assert_eq!(first, sampled("0.01"));
+    assert_eq!(before, kept(), "nothing is solved again");
 }

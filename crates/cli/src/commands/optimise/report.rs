@@ -20,7 +20,7 @@ pub struct SearchReport<'a> {
 impl SearchReport<'_> {
     pub fn text(&self, duration: Duration, threads: usize) -> String {
         let mut text = format!(
-            "{}: {} looked at in {} on {}\n{}",
+            "{}: {} evaluated in {} on {}\n{}",
             self.goal.name(),
             counted(self.found.history.len() as u64, "design"),
             time(duration),
@@ -44,7 +44,9 @@ impl SearchReport<'_> {
         });
         match ends.collect::<Vec<_>>().join(", ") {
             ends if ends.is_empty() => ends,
-            ends => format!("\nFitness between the worst and the best: rescale = {{ {ends} }}\n"),
+            ends => format!(
+                "\nThe criteria were rescaled between their worst and best values: rescale = {{ {ends} }}\n"
+            ),
         }
     }
 
@@ -54,9 +56,11 @@ impl SearchReport<'_> {
         let mut rows: Vec<[String; 2]> = Vec::new();
         let row = |count: usize, why: String| [format!("{count} left out"), why];
         rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, why.to_string())));
-        rows.extend(left_out.missing.iter().map(|(column, n)| row(*n, format!("no {column}"))));
+        rows.extend(
+            left_out.missing.iter().map(|(column, n)| row(*n, format!("no value of {column}"))),
+        );
         if left_out.folded > 0 {
-            rows.push(row(left_out.folded, "their surface has folded".to_owned()));
+            rows.push(row(left_out.folded, "the surface folds".to_owned()));
         }
         aligned(&rows)
     }
@@ -73,9 +77,22 @@ impl SearchReport<'_> {
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(text, "\nIt cannot be better because of\n{}", aligned(&rows));
+            let _ = write!(
+                text,
+                "\nNo better one was found{}. It is limited by\n{}",
+                self.looked(),
+                aligned(&rows)
+            );
         }
-        text + &best.made.as_ref().map(skins::text).unwrap_or_default()
+        text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
+    }
+
+    /// Where the search looked: from so many starts, in so many regions.
+    fn looked(&self) -> String {
+        let Found { starts, regions, .. } = self.found;
+        let [starts, regions] = [(*starts, "start"), (*regions, "region")]
+            .map(|(count, name)| counted(count as u64, name));
+        format!(" from {starts} in {regions} of the space")
     }
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
@@ -91,9 +108,9 @@ impl SearchReport<'_> {
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let mut rows: Vec<[String; 2]> = Vec::new();
-        for (column, value) in worth.values(self.goal) {
+        for (column, value) in self.goal.values(worth) {
             let is_variable = self.goal.space.parameters().any(|p| p.key == column);
-            let is_of_skins = self.goal.quantity(column).is_some();
+            let is_of_skins = self.goal.statistic(column).is_some();
             if !is_variable && !is_of_skins && !rows.iter().any(|[known, _]| *known == column) {
                 rows.push([column.to_owned(), digits(value)]);
             }
@@ -119,18 +136,18 @@ impl SearchReport<'_> {
     /// How many designs a front has, and why they are fewer than was asked for.
     fn title(&self, front: &Front) -> String {
         let (found, asked) = (front.designs.len(), self.goal.points);
-        let mut title = format!("Beaten by no other: {}\n", counted(found as u64, "design"));
+        let mut title = format!("Pareto front: {}\n", counted(found as u64, "design"));
         if found < asked {
             let reasons = [
-                (front.same, "came to the design of another: the front has a step there"),
-                (front.beaten, "came to a design that another beats"),
-                (front.empty, "came to none"),
+                (front.same, "led to the design of another: the front has a step there"),
+                (front.beaten, "led to a design that another beats"),
+                (front.empty, "led to no design"),
             ];
             let of = |(count, why): &(usize, &str)| {
                 (*count > 0).then(|| format!("{} {why}", counted(*count as u64, "point")))
             };
             let reasons: Vec<String> = reasons.iter().filter_map(of).collect();
-            let _ = writeln!(title, "Fewer than the {asked} asked for: {}", reasons.join("; "));
+            let _ = writeln!(title, "Fewer than the {asked} requested: {}", reasons.join("; "));
         }
         title
     }
@@ -140,7 +157,7 @@ impl SearchReport<'_> {
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
         let named = |best: &BestDesign| {
-            let made = best.made.as_ref().map(skins::row).unwrap_or_default();
+            let made = best.confirmation.as_ref().map(skins::row).unwrap_or_default();
             [self.variables(&best.candidate), self.values(best), made].concat()
         };
         let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
@@ -165,11 +182,11 @@ impl SearchReport<'_> {
         let unmet = unmet(self.goal, self.found, &requirements);
         // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
         let obstacle =
-            if self.goal.is_about_skins() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
+            if self.goal.is_about_samples() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
         let mut text = format!("No design meets all requirements\n{obstacle}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
-            let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&rows));
+            let _ = write!(text, "\nThe nearest design\n{}", aligned(&rows));
         }
         text
     }
@@ -178,14 +195,14 @@ impl SearchReport<'_> {
 /// The obstacle to the requirements among all designs that were looked at: to those of what is drawn, if skins were made of none.
 pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> Unmet {
     let has_skins = found.history.iter().any(|c| matches!(c.verdict, Judgement::Judged(_)));
-    let is_told = |r: &&Requirement| has_skins || goal.quantity(&r.column).is_none();
+    let is_told = |r: &&Requirement| has_skins || goal.statistic(&r.column).is_none();
     let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
-        Judgement::Drawn(worth) => {
+        Judgement::Nominal(worth) => {
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
-                let is_drawn = goal.quantity(&requirement.column).is_none();
+                let is_drawn = goal.statistic(&requirement.column).is_none();
                 is_drawn.then(|| drawn.next()).flatten()
             };
             requirements.iter().map(value).collect()

@@ -10,6 +10,9 @@ use run::GapChange;
 use super::gap_changes::gap_changes_report;
 use crate::print::{aligned, counted, digits, shortfall};
 
+/// The mark of a design under which the surface of the substrate folds over.
+const FOLDED: char = '⚠';
+
 /// Designs that are listed before a list is cut short.
 const LISTED: usize = 10;
 
@@ -36,6 +39,12 @@ impl RankReport<'_> {
             let _ = write!(text, "\n{}", self.winners());
         }
         let _ = write!(text, "\n{}", self.front());
+        if text.contains(FOLDED) {
+            let _ = writeln!(
+                text,
+                "\n{FOLDED} the surface of the substrate folds over: do not trust the critical force"
+            );
+        }
         text
     }
 
@@ -56,7 +65,7 @@ impl RankReport<'_> {
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
-                let _ = writeln!(text, "  {name} is the same for all of them and does not count");
+                let _ = writeln!(text, "  {name} is the same for all of them, and is ignored");
             }
         }
         text
@@ -85,7 +94,7 @@ impl RankReport<'_> {
     /// The best of the designs whose surface has not folded over, if that of the winner has.
     fn unfolded(&self) -> String {
         let Some(best) = self.ranking.best_unfolded() else { return String::new() };
-        let title = "The surface of the substrate folds over under the best design. Best of those under which it does not";
+        let title = "The surface of the substrate folds under the best design. The best design without a fold";
         format!("\n{title}\n{}", self.table(&[&best], "fitness", fitness))
     }
 
@@ -112,9 +121,9 @@ impl RankReport<'_> {
         let count = winners.len();
         let listed: Vec<_> = winners.iter().take(LISTED).collect();
         let table = self.table(&listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
-        let title = "Best for some weights";
+        let title = "Best for some choice of weights";
         format!(
-            "{title}: {}, with their share of all weights\n{table}{}",
+            "{title}: {}, with their share of all choices\n{table}{}",
             designs(count),
             more(count)
         )
@@ -124,7 +133,7 @@ impl RankReport<'_> {
     fn front(&self) -> String {
         let front = self.ranking.front();
         let count = front.len();
-        let title = format!("Beaten by no other in every criterion: {}\n", designs(count));
+        let title = format!("Pareto front: {}\n", designs(count));
         if self.preferences().are_the_papers() || self.preferences().criteria.len() == 1 {
             return title;
         }
@@ -183,15 +192,26 @@ fn shown_columns(results: &Results, preferences: &Preferences) -> Vec<String> {
     columns
 }
 
+/// Whether the surface of the substrate folds over before the puncture of a design ends.
+fn is_folded(results: &Results, row: usize) -> bool {
+    results.column("fold_force").is_ok_and(|fold| !results.text(row, fold).is_empty())
+}
+
 fn shown_cells(results: &Results, preferences: &Preferences, row: usize) -> Vec<String> {
+    let columns = shown_columns(results, preferences);
+    // A force up to the fold can be trusted.
+    let is_doubtful = columns.iter().any(|column| column.starts_with("critical_force"));
     let cell = |column: &String| {
         let text = results.column(column).map_or("", |column| results.text(row, column));
         match text.parse::<f64>() {
+            _ if column == "design" && is_doubtful && is_folded(results, row) => {
+                format!("{text}{FOLDED}")
+            }
             Ok(number) if parameter_of(column).is_none() && column != "design" => digits(number),
             _ => text.to_owned(),
         }
     };
-    shown_columns(results, preferences).iter().map(cell).collect()
+    columns.iter().map(cell).collect()
 }
 
 /// The answer where no design meets the requirements.
@@ -202,15 +222,16 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
     let _ = write!(text, "\n{}", obstacle(unmet));
     if let Some(row) = unmet.nearest {
         let table = [shown_columns(results, preferences), shown_cells(results, preferences, row)];
-        let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&table));
+        let _ = write!(text, "\nThe nearest design\n{}", aligned(&table));
     }
     text
 }
 
 /// How far the nearest design is from each requirement, and which of them stands in the way.
 pub fn obstacle(unmet: &Unmet) -> String {
-    let mut rows =
-        vec![["requirement", "met by", "without it", "nearest has", "short by"].map(str::to_owned)];
+    let mut rows = vec![
+        ["requirement", "met by", "others met by", "nearest has", "short by"].map(str::to_owned),
+    ];
     rows.extend(unmet.requirements.iter().map(|requirement| {
         let [text, nearest, short] = distance(requirement);
         [text, designs(requirement.met), designs(requirement.met_without), nearest, short]

@@ -2,7 +2,6 @@
 
 use ranking::Requirement;
 use report::{Histogram, Shares, share_bars};
-use results::RunFolder;
 use results::columns::physical_source;
 use sweep::Sweep;
 use tolerance::{DesignTolerance, DeviationLevel, MeasureTolerance, SourceShare};
@@ -11,27 +10,23 @@ use super::report::is_shown;
 
 const SOURCES: &str = "sources.svg";
 
-/// Draws where the spread of the measures comes from, and a histogram of every measure that is required; returns the names of the
-/// files.
-pub fn write(
-    folder: &RunFolder,
+/// Where the spread of the measures comes from, and a histogram of every measure that is required, each under the name of its file.
+pub fn figures(
     sweep: &Sweep,
     requirements: &[Requirement],
     design: &DesignTolerance,
-) -> anyhow::Result<Vec<String>> {
-    let name = format!("{} design {}", sweep.name(), design.drawn.number);
+) -> Vec<(String, String)> {
+    let name = format!("{} design {}", sweep.name(), design.nominal.number);
     let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
     let shares: Vec<Shares> = shown.filter_map(shares).collect();
-    folder.write_text(SOURCES, &share_bars(&name, &shares))?;
-    let mut files = vec![SOURCES.to_owned()];
+    let mut files = vec![(SOURCES.to_owned(), share_bars(&name, &shares))];
     let required = |m: &&MeasureTolerance| requirements.iter().any(|r| r.column == m.name);
     for measure in design.measures.iter().filter(required) {
         let Some(svg) = histogram(&name, requirements, design, measure) else { continue };
         let file = format!("histogram-{}.svg", measure.name.replace('_', "-"));
-        folder.write_text(&file, &svg)?;
-        files.push(file);
+        files.push((file, svg));
     }
-    Ok(files)
+    files
 }
 
 fn shares(measure: &MeasureTolerance) -> Option<Shares> {

@@ -14,12 +14,12 @@
   /** The state as the part of the address behind `#`. */
   squama.written = () => {
     const parts = new URLSearchParams();
-    state.requirements.forEach((one) => parts.append("require", ranking.written(one)));
+    squama.required().forEach((one) => parts.append("require", ranking.written(one)));
     for (const [key, text] of Object.entries(texts)) if (text() !== atFirst[key]) parts.set(key, text());
     if (state.scale !== "paper") parts.set("scale", state.scale);
     if (state.sound) parts.set("sound", "yes");
     if (state.log) parts.set("log", "yes");
-    for (const key of ["against", "panels", "measure", "mapX", "mapY", "mapOf", "columns"]) if (state[key] !== null) parts.set(key, state[key]);
+    for (const key of ["measure", "map", "columns"]) if (state[key] !== null) parts.set(key, state[key]);
     for (const [axis, value] of Object.entries(state.shown)) parts.set(`show.${axis}`, String(value));
     if (state.sort !== "design") parts.set("sort", state.sort);
     for (const key of ["design", "pinned"]) if (state[key] !== null) parts.set(key, squama.number(state[key]));
@@ -34,11 +34,11 @@
     next.weights = right ? squama.hundredths(weights) : squama.equalWeights(next.criteria.length);
   };
 
-  /** A value of an axis by its text; "all" stands for all of them. */
-  const valueOf = (axis, text) => (text === "all" ? "all" : squama.different(axis).find((value) => String(value) === text));
+  /** A value of an axis by its text. */
+  const valueOf = (axis, text) => squama.different(axis).find((value) => String(value) === text);
 
   const readView = (parts, next) => {
-    for (const key of ["against", "panels", "measure", "mapX", "mapY", "mapOf"]) if (squama.numeric.includes(parts.get(key))) next[key] = parts.get(key);
+    for (const key of ["measure", "map"]) if (squama.numeric.includes(parts.get(key))) next[key] = parts.get(key);
     for (const axis of squama.varied) {
       const value = valueOf(axis, parts.get(`show.${axis}`));
       if (value !== undefined) next.shown[axis] = value;
@@ -48,10 +48,12 @@
     for (const key of ["design", "pinned"]) next[key] = squama.rowOf(parts.get(key));
   };
 
-  /** Takes the state from a text; what makes no sense is passed over. */
+  /** Takes the state from a text; what makes no sense is passed over, and requirements of that kind are named. */
   squama.read = (text) => {
     const parts = new URLSearchParams(text), next = squama.initial();
-    next.requirements = parts.getAll("require").map((one) => ranking.requirement(squama, one)).filter(Boolean);
+    const asked = parts.getAll("require").map((one) => [one, ranking.requirement(squama, one)]);
+    next.requirements = asked.map(([, one]) => one).filter(Boolean);
+    squama.unread = asked.filter(([, one]) => one === null).map(([one]) => one);
     readCriteria(parts, next);
     if (ranking.SCALES.includes(parts.get("scale"))) next.scale = parts.get("scale");
     next.sound = parts.get("sound") === "yes";

@@ -11,9 +11,9 @@
   ];
 
   /** Shows a drawing as large as the window; Escape or a click closes it. */
-  const enlarge = (svg) => {
+  const enlarge = async (svg) => {
     const large = squama.at("large");
-    large.querySelector("div").innerHTML = svg;
+    large.querySelector("div").innerHTML = await svg;
     large.showModal();
   };
   squama.at("large").addEventListener("click", (event) => event.currentTarget.close());
@@ -22,8 +22,9 @@
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
-    const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(solved.svg) });
-    button.innerHTML = solved.svg;
+    const drawn = squama.unpacked(solved.svg);
+    const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(drawn) });
+    drawn.then((svg) => { button.innerHTML = svg; });
     return [button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it.")];
   };
 
@@ -31,7 +32,7 @@
   squama.doubts = (row) => {
     const doubts = [];
     if (squama.folded(row)) {
-      const [at, whole] = ["fold_force", "critical_force"].map((name) => squama.cell(row, name));
+      const [at, whole] = [squama.fold, "critical_force"].map((name) => squama.cell(row, name));
       const part = typeof at === "number" && typeof whole === "number" && whole > 0 ? ` (${Math.round((100 * at) / whole)} % of the critical force)` : "";
       doubts.push(`Do not trust the critical force of this design: at a force of ${squama.short(at)}${part} the model lets the soft surface under the scales fold over itself, which no real material can do. Up to there its numbers hold.`);
     }
@@ -80,7 +81,7 @@
     squama.at("detail-title").textContent = `Design ${number}`;
     squama.at("drawing").replaceChildren(squama.drawing(row), squama.element("p", { class: "note" }, "At rest; the thick parts of the dashed line are covered."), ...squama.solvedDrawing(row));
     const columns = squama.columns.filter(({ name }) => name !== "design"), isAxis = ({ name }) => squama.axes.includes(name);
-    const isFirst = ({ name }) => squama.physical(name) || ["coverage", "critical_force", "sound_force", "fold_force", "penetration", "compliance"].includes(name);
+    const isFirst = ({ name }) => squama.physical(name) || [...squama.shown.first, squama.fold].includes(name);
     const values = columns.filter((column) => !isAxis(column));
     squama.at("detail-doubts").replaceChildren(...squama.doubts(row).map((text) => squama.element("p", { class: "doubt" }, `⚠ ${text}`)));
     const moves = squama.gap.known(row);

@@ -2,20 +2,16 @@
 // Filters under the headers of the table: another way to write requirements, `>0.5`, `0.1..0.5` or a part of a text.
 
 squama.filters = (() => {
-  const NUMBER = "[-+]?[0-9.]+(?:e[-+]?[0-9]+)?";
-  const RANGE = new RegExp(`^(${NUMBER})\\.\\.(${NUMBER})$`, "i");
-  const BOUND = new RegExp(`^([<>]=?|==?)?\\s*(${NUMBER})$`, "i");
+  const { number } = squama.ranking;
 
   /** Requirements that a filter on a column means; null while it is not whole. */
   const read = (column, filter) => {
     if (filter === "") return [];
-    const range = filter.match(RANGE);
-    if (range) return [{ column, sign: ">=", limit: Number(range[1]) }, { column, sign: "<=", limit: Number(range[2]) }];
-    const bound = filter.match(BOUND), isText = !squama.numeric.includes(column) || column === "design";
+    const ends = filter.split("..").map(number);
+    if (ends.length === 2 && ends.every(Number.isFinite)) return [{ column, sign: ">=", limit: ends[0] }, { column, sign: "<=", limit: ends[1] }];
+    const [, sign, rest] = filter.match(/^([<>]=?|==?)?(.*)$/), limit = number(rest), isText = !squama.numeric.includes(column) || column === "design";
     if (isText) return [{ column, sign: "~", limit: filter }];
-    if (!bound || !Number.isFinite(Number(bound[2]))) return null;
-    const sign = { undefined: "==", "=": "==" }[bound[1]] ?? bound[1];
-    return [{ column, sign, limit: Number(bound[2]) }];
+    return Number.isFinite(limit) ? [{ column, sign: { undefined: "==", "=": "==" }[sign] ?? sign, limit }] : null;
   };
 
   /** The filter that means the requirements on a column. */

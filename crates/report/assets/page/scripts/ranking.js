@@ -9,9 +9,6 @@ squama.ranking = (() => {
   const PAPER = ["max:coverage", "max:critical_force", "min:penetration", "max:compliance"];
   const MOST_CRITERIA = 8;
 
-  // Columns of which small values are good, by the beginnings of their names.
-  const SMALL_IS_GOOD = ["areal_mass", "bend_radius", "flexural_rigidity", "gap_stretch", "initial_flexural_rigidity", "membrane_strain_max", "penetration", "sink"];
-
   /** Whether two numbers are the same but for round-off. */
   const same = (a, b) => Math.abs(a - b) <= ROUND_OFF * Math.max(Math.abs(a), Math.abs(b));
 
@@ -35,9 +32,12 @@ squama.ranking = (() => {
     if (!sign) return null;
     const at = text.indexOf(sign);
     const column = text.slice(0, at).trim(), rest = text.slice(at + sign.length).trim();
-    const limit = sign === "~" ? rest : Number(rest);
+    const limit = sign === "~" ? rest : number(rest);
     return table.has(column) && rest !== "" && (sign === "~" || Number.isFinite(limit)) ? { column, sign, limit } : null;
   };
+
+  /** Reads a number with a decimal point or comma; NaN of anything else. */
+  const number = (text) => (/^[-+]?([0-9]+([.,][0-9]*)?|[.,][0-9]+)(e[-+]?[0-9]+)?$/i.test(text.trim()) ? Number(text.trim().replace(",", ".")) : NaN);
 
   /** A requirement as commands write it. */
   const written = ({ column, sign, limit }) => `${column} ${sign} ${limit}`;
@@ -49,7 +49,7 @@ squama.ranking = (() => {
   };
 
   /** The goal that a column has unless something else is said. */
-  const plainGoal = (column) => (SMALL_IS_GOOD.some((beginning) => column.startsWith(beginning)) ? "min" : "max");
+  const plainGoal = (table, column) => table.goal(column) ?? "max";
 
   /** What a value is worth, larger being better (R1); NaN if an inverse or a logarithm does not exist. */
   const worth = (scale, goal, value) => {
@@ -194,5 +194,5 @@ squama.ranking = (() => {
     return { nearest, binding };
   };
 
-  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
+  return { ROUND_OFF, SIGNS, SCALES, PAPER, MOST_CRITERIA, same, number, meets, requirement, written, criterion, plainGoal, meeting, contest, scores, order, front, unmet };
 })();

@@ -21,9 +21,11 @@
       squama.dropdown({ "aria-label": "Column", onchange: (event) => change(k, { column: event.target.value, sign: isText ? ">=" : one.sign, limit: isText ? 0 : one.limit }) }, columns(one.column), one.column),
       squama.dropdown({ "aria-label": `How ${label} stands to the limit`, onchange: (event) => change(k, { sign: event.target.value }) },
         isText ? [["~", "has"]] : [[">=", "≥"], ["<=", "≤"], [">", ">"], ["<", "<"], ["==", "="]], one.sign),
-      squama.element("input", { type: isText ? "text" : "number", step: "any", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
-        const limit = isText ? event.target.value : event.target.valueAsNumber;
-        if (isText || Number.isFinite(limit)) change(k, { limit });
+      squama.element("input", { type: "text", inputmode: isText ? null : "decimal", value: one.limit, "aria-label": `Limit of ${label}`, oninput: (event) => {
+        const limit = isText ? event.target.value : ranking.number(event.target.value), isRead = isText || Number.isFinite(limit);
+        event.target.setAttribute("aria-invalid", String(!isRead));
+        // What cannot be read requires nothing: no limit acts that is not shown.
+        change(k, { limit: isRead ? limit : null });
       } }),
       squama.element("small", {}, isText ? "" : range(one.column)),
       squama.element("button", { type: "button", "aria-label": `Remove the requirement on ${label}`, onclick: () => squama.require(state.requirements.filter((_, other) => other !== k)) }, "✕"));
@@ -39,35 +41,37 @@
     }
     list.querySelectorAll("input").forEach((input, k) => {
       const { limit } = state.requirements[k];
-      if (document.activeElement !== input) input.value = limit;
+      if (document.activeElement !== input && limit !== null) input.value = limit;
     });
   };
 
   /** The design that comes nearest to requirements that none meets, and what stands in the way. */
   const nearest = () => {
     const rows = squama.rows.filter((one) => !state.sound || !squama.folded(one));
-    const { nearest: own, binding } = ranking.unmet(squama, rows, state.requirements);
+    const { nearest: own, binding } = ranking.unmet(squama, rows, squama.required());
     const names = binding.map((one) => ranking.written(one)).join(" or ");
     return [
       "No design meets all of them. ",
-      ...(own === null ? [] : ["The one that comes nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${state.requirements.filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
+      ...(own === null ? [] : ["The one that comes nearest is ", squama.element("button", { type: "button", onclick: () => squama.choose(own) }, squama.title(own)), ` with ${squama.required().filter(({ sign }) => sign !== "~").map(({ column }) => `${squama.label(column)} ${squama.short(squama.cell(own, column))}`).join(", ")}. `]),
       binding.length > 0 ? `Without ${names} there would be designs.` : "No single one of them alone stands in the way.",
     ];
   };
 
   const show = () => {
     showList();
-    const left = squama.meeting.length;
-    const of = state.requirements.length === 0 && !state.sound ? [`No requirements: all ${squama.count} designs take part.`]
-      : left > 0 || state.requirements.length === 0 ? [`${left} of ${squama.count} designs meet ${state.requirements.length === 1 ? "it" : "them"}.`] : nearest();
-    text.replaceChildren(...of);
+    const left = squama.meeting.length, unread = state.requirements.length - squama.required().length;
+    const of = squama.required().length === 0 && !state.sound ? [`No requirements: all ${squama.count} designs take part.`]
+      : left > 0 || squama.required().length === 0 ? [`${left} of ${squama.count} designs meet ${squama.required().length === 1 ? "it" : "them"}.`] : nearest();
+    text.replaceChildren(...(unread > 0 ? [squama.element("strong", { class: "warning" }, "⚠ A limit that is no number requires nothing. ")] : []), ...of);
+    squama.at("unread").hidden = squama.unread.length === 0;
+    squama.at("unread").textContent = `⚠ The link asks for what this page cannot read, and what therefore requires nothing: ${squama.unread.join("; ")}.`;
     squama.at("sound").checked = state.sound;
   };
 
   const first = ["coverage", "critical_force_N", "critical_force", ...squama.numeric].filter((name) => squama.numeric.includes(name) && name !== "design");
   adder.addEventListener("click", () => {
     const column = first.find((name) => !state.requirements.some((one) => one.column === name)) ?? first[0];
-    const sign = ranking.plainGoal(column) === "min" ? "<=" : ">=";
+    const sign = ranking.plainGoal(squama, column) === "min" ? "<=" : ">=";
     // The middle of what there is.
     const numbers = squama.numbers(column).filter((value) => !Number.isNaN(value)).sort();
     squama.require([...state.requirements, { column, sign, limit: Number((numbers[Math.floor(numbers.length / 2)] ?? 0).toPrecision(2)) }]);

@@ -31,7 +31,7 @@ squama.initial = () => {
     .filter((one) => one && squama.numeric.includes(one.column));
   return {
     requirements: [], criteria, weights: squama.equalWeights(criteria.length), scale: "paper", sound: false,
-    shown: {}, against: null, panels: null, measure: null, mapX: null, mapY: null, mapOf: null, log: false, sort: "design", columns: null, design: null, pinned: null,
+    shown: {}, measure: null, map: null, log: false, sort: "design", columns: null, design: null, pinned: null,
   };
 };
 
@@ -40,10 +40,16 @@ squama.state = squama.initial();
 /** Weights of the criteria, as parts of one. */
 squama.weights = () => squama.state.weights.map((hundredth) => hundredth / 100);
 
+/** The requirements whose limits can be read. */
+squama.required = () => squama.state.requirements.filter(({ limit }) => limit !== null);
+
+/** What a link asked for and nobody could read. */
+squama.unread = [];
+
 /** The designs that are ranked by the state as it is. */
 squama.contestNow = () => {
-  const { requirements, criteria, scale, sound } = squama.state;
-  squama.meeting = squama.ranking.meeting(squama, requirements, (row) => !sound || !squama.folded(row));
+  const { criteria, scale, sound } = squama.state;
+  squama.meeting = squama.ranking.meeting(squama, squama.required(), (row) => !sound || !squama.folded(row));
   return squama.ranking.contest(squama, criteria.length > 0 ? squama.comparable.ranked(squama.meeting, criteria) : [], criteria, scale);
 };
 

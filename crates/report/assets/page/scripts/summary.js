@@ -30,21 +30,21 @@
     return groups.flatMap((rows) => bestOf(rows, `${name}${words(rows[0])}`, column, goal));
   };
 
-  const folds = () => (squama.has("fold_force") ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
+  const folds = () => (squama.has(squama.fold) ? [["can be trusted", `${squama.count - squama.foldedRows.length} designs; of ${squama.foldedRows.length}, marked ⚠, the surface folds over before the critical tilt, so that their critical force is not to be trusted`]] : []);
   const physical = () => [["critical_force_N", "largest critical force, N", "max"], ["bend_radius_mm", "smallest bend radius, mm", "min"], ["areal_mass_kg_m2", "least areal mass, kg/m²", "min"]]
     .filter(([column]) => squama.numeric.includes(column)).flatMap(([column, name, goal]) => best(name, column, goal));
 
   facts("summary-list", [
-    ...squama.run.map(({ name, value }) => [name, value]),
-    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
-    ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
-    ...folds(),
     ...best("best coverage", "coverage", "max"),
     ...best("largest critical force", "critical_force", "max"),
     ...best("least penetration", "penetration", "min"),
     ...best("largest compliance", "compliance", "max"),
     ...physical(),
+    ["covered designs", String(squama.numbers("coverage").filter((value) => value > 0).length)],
+    ["on the Pareto front", squama.element("span", { id: "front-count" }, "…")],
+    ...folds(),
   ]);
+  facts("run-list", squama.run.map(({ name, value }) => [name, value]));
   facts("shared-list", squama.shared.map(({ key, value, meaning }) => [`${meaning} (${key})`, value]));
 
   let timer = null;

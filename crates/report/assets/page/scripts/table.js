@@ -3,11 +3,11 @@
 
 (() => {
   const { state, filters } = squama;
-  const HEIGHT = 27;
+  // As high as a finger where one points.
+  const coarse = matchMedia("(pointer: coarse), (max-width: 40rem)");
+  const height = () => (coarse.matches ? 44 : 27);
   const AROUND = 12;
-  const FIRST = ["coverage", "critical_force", "sound_force", "penetration", "compliance"];
-  const LAST = ["peak_force", "max_stiffness", "contacts", "fold_force", "gap_stretch_min", "gap_stretch_max", "flexure_contact", "contact_curvature", "membrane_strain_max", "puncture_status", "flexure_status"];
-  const atFirst = [...new Set(["design", ...squama.axes, ...FIRST, ...squama.names.filter(squama.physical), ...squama.names.filter((name) => name.endsWith("_p05")), ...LAST])].filter(squama.has);
+  const atFirst = [...new Set(["design", ...squama.axes, ...squama.shown.first, ...squama.names.filter(squama.physical), ...squama.names.filter((name) => name.endsWith("_p05")), ...squama.shown.last])].filter(squama.has);
 
   const table = squama.at("table"), scroll = table.parentElement;
   const body = squama.element("tbody"), head = squama.element("thead"), above = squama.element("tbody", { "aria-hidden": "true" }), below = squama.element("tbody", { "aria-hidden": "true" });
@@ -41,7 +41,8 @@
   const filter = (name) => squama.element("input", { type: "text", "aria-label": `filter ${squama.label(name)}`, "data-column": name, oninput: (event) => {
     const requirements = filters.read(name, event.target.value.trim());
     event.target.setAttribute("aria-invalid", String(requirements === null));
-    if (requirements) filters.set(name, requirements);
+    // What cannot be read requires nothing: no limit acts that is not shown.
+    filters.set(name, requirements ?? []);
   } });
 
   const showHead = () => {
@@ -92,8 +93,8 @@
   let from = -1, to = -1;
   const window_ = () => {
     if (rows.length <= 150) return [0, rows.length];
-    const first = Math.max(0, Math.floor(scroll.scrollTop / HEIGHT) - AROUND);
-    return [first, Math.min(rows.length, first + Math.ceil(scroll.clientHeight / HEIGHT) + 2 * AROUND)];
+    const first = Math.max(0, Math.floor(scroll.scrollTop / height()) - AROUND);
+    return [first, Math.min(rows.length, first + Math.ceil(scroll.clientHeight / height()) + 2 * AROUND)];
   };
 
   /** Makes the rows that are in sight, where they are not there yet. */
@@ -103,8 +104,8 @@
     [from, to] = [first, last];
     const focused = body.contains(document.activeElement) ? Number(document.activeElement.dataset.row) : null;
     body.replaceChildren(...rows.slice(first, last).map((row, k) => rowElement(row, first + k)));
-    above.rows[0].cells[0].style.height = `${first * HEIGHT}px`;
-    below.rows[0].cells[0].style.height = `${(rows.length - last) * HEIGHT}px`;
+    above.rows[0].cells[0].style.height = `${first * height()}px`;
+    below.rows[0].cells[0].style.height = `${(rows.length - last) * height()}px`;
     [above.hidden, below.hidden] = [first === 0, last === rows.length];
     reach();
     if (focused !== null) body.querySelector(`[data-row="${focused}"]`)?.focus({ preventScroll: true });
@@ -135,7 +136,7 @@
   const focus = (place) => {
     if (place < 0 || place >= rows.length) return;
     const top = head.offsetHeight;
-    if (place < from || place >= to) scroll.scrollTop = place * HEIGHT - scroll.clientHeight / 2 + top;
+    if (place < from || place >= to) scroll.scrollTop = place * height() - scroll.clientHeight / 2 + top;
     fill();
     body.querySelector(`[data-row="${rows[place]}"]`)?.focus();
   };

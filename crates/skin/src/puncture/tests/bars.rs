@@ -11,7 +11,8 @@ use super::*;
 fn bar_path(design: &Design, constants: Law, coupling: Coupling) -> Path<Chain> {
     let stiffness = RowStiffness::of(&design.footprint(0.5).unwrap(), coupling).unwrap();
     let path = path_on(&stiffness, design, law(design, constants, HARD), 1.0);
-    let chain = path.system().clone().with_law(SubstrateLaw::NeoHookean);
+    let mut chain = path.system().clone();
+    chain.bars = chain.neighbours.first().map(|nearest| -nearest.direct[0]);
     let rest = SkinState::at_rest(&chain);
     Path::new(chain, rest, Settings::default())
 }
@@ -72,14 +73,17 @@ fn at_rest_bars_are_the_springs_that_they_replace() {
 /// A row that leans to the left is displaced as the mirror image of one that leans to the right.
 #[test]
 fn the_mirror_image_of_a_row_has_the_mirror_image_of_its_forces() {
-    let layout = Layout { left: 3, right: 3 };
+    let layout = Layout { left: 3, right: 3, needle: 0 };
     let last = layout.scales() - 1;
     let stiffness = RowStiffness::of(&LIVELY.footprint(0.5).unwrap(), Coupling::Nearest).unwrap();
     let chain = |slant_deg: f64, of_substrate: SubstrateLaw| {
         let scale = Parallelogram::leaning(LIVELY.half_base(), slant_deg).unwrap();
         let row = Arrangement::Even(Row::new(scale, LIVELY.gap).unwrap());
         let law = law(&LIVELY, Law::PRINTED, HARD);
-        Chain::new(row, &stiffness, law, layout, 1.0, 0.1, LIVELY.length).with_law(of_substrate)
+        let parameters =
+            PunctureParameters { substrate_law: of_substrate, ..PunctureParameters::default() };
+        let beyond = Surroundings::default();
+        Chain::new(row, &stiffness, law, layout, beyond, &parameters, LIVELY.length)
     };
     let forces = |chain: &Chain, displacement: &dyn Fn(usize) -> [f64; 3]| {
         let (mut state, mut residual) = (SkinState::at_rest(chain), Residual::new(chain.size()));

@@ -1,0 +1,211 @@
+//! What is promised of results holds of searches, tolerances, sensitivities, rankings and comparisons too.
+
+use std::fs;
+use std::time::Duration;
+
+use crate::{FEW, Place};
+
+/// A sweep that needs no mechanics, with deviations.
+const COVERED: &str = "name = 'covered'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.1, 0.3]\nlength_over_t = 1\n\
+    slant_deg = [30, 45]\n[tolerance]\ngap_over_t = { batch_sd = 0.01 }\n";
+
+/// Its variables, and a goal.
+const GOAL: &str = "name = 'goal'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+    slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\nmaximize = 'coverage'\nsamples = 16\n";
+
+/// The commands that write tables into the folder `out`, each with a file that it makes.
+const WRITERS: [(&str, &str); 9] = [
+    ("optimise my/goal.toml --out out", "goal.toml"),
+    ("optimise my/goal.toml --out out --fresh", "optimum.csv"),
+    ("optimise my/goal.toml --out out", "history.csv"),
+    ("tolerance x.toml --samples 2 --out out", "yield.csv"),
+    ("tolerance x.toml --samples 2 --out out", "tolerance.csv"),
+    ("sensitivity --global my/box.toml --samples 4 --out out", "sobol.csv"),
+    ("rank r --maximize coverage --out out", "ranking.csv"),
+    ("compare r r --out out", "differences.csv"),
+    ("design x.toml --design 1 --out out", "measures.csv"),
+];
+
+/// A place with a sweep, its results in `r`, and a goal.
+fn place() -> Place {
+    let place = Place::with(COVERED);
+    fs::create_dir(place.path("my")).expect("a folder");
+    fs::write(place.path("my/goal.toml"), GOAL).expect("writable");
+    let (variables, _) = GOAL.split_once("[goal]").expect("a goal");
+    fs::write(place.path("my/box.toml"), variables).expect("writable");
+    place.squama("run x.toml -q --out r").assert().code(0);
+    place
+}
+
+#[test]
+fn no_command_writes_over_a_file_of_a_stranger() {
+    for (command, file) in WRITERS {
+        let place = place();
+        fs::create_dir(place.path("out")).expect("a folder");
+        let file = format!("out/{file}");
+        fs::write(place.path(&file), "mine").expect("writable");
+        let message = place.refused(command);
+        assert!(message.starts_with(&format!("error: {file}: cannot be written")), "{message}");
+        assert_eq!(place.read(&file), "mine", "{command}");
+        // Its own it writes again.
+        fs::remove_file(place.path(&file)).expect("a file");
+        for _ in 0..2 {
+            let again = command.replace("--out out", "--out again").replace("--fresh", "");
+            let again =
+                if command.starts_with("optimise") { format!("{again} --resume") } else { again };
+            place.squama(&again).assert().code(0);
+        }
+    }
+}
+
+#[test]
+fn a_table_that_is_not_made_any_more_goes_and_a_strangers_stays() {
+    let place = place();
+    place.prints("tolerance x.toml --samples 4 --require coverage>=0.1 --out out");
+    assert!(place.list("out").contains("yield.csv"));
+    place.prints("tolerance x.toml --samples 4 --out out");
+    assert!(!place.list("out").contains("yield.csv"));
+    fs::write(place.path("out/yield.csv"), "mine").expect("writable");
+    place.refused("tolerance x.toml --samples 4 --out out");
+    assert_eq!(place.read("out/yield.csv"), "mine");
+}
+
+#[test]
+fn a_goal_is_not_written_over_by_its_search() {
+    let place = Place::new();
+    let goal = format!("# Mine.\n{GOAL}");
+    fs::write(place.path("goal.toml"), &goal).expect("writable");
+    for start in ["", "--resume", "--fresh"] {
+        place.refused(&format!("optimise goal.toml --out . {start}"));
+        assert_eq!(place.read("goal.toml"), goal);
+    }
+    assert_eq!(place.list("."), "goal.toml");
+}
+
+#[test]
+fn a_changed_optimum_is_noticed_and_mended() {
+    let place = place();
+    place.prints("optimise my/goal.toml --out found");
+    place.prints("report r --front found");
+    for file in ["optimum.csv", "goal.toml"] {
+        let sound = place.read(&format!("found/{file}"));
+        fs::write(place.path(format!("found/{file}")), sound.replace('1', "2")).expect("writable");
+        let message = place.refused("report r --front found");
+        assert!(
+            message.starts_with(&format!("error: found/{file}: was changed after")),
+            "{message}"
+        );
+        place.prints("optimise my/goal.toml --out found --resume");
+        assert_eq!(place.read(&format!("found/{file}")), sound);
+        place.prints("report r --front found");
+    }
+}
+
+#[test]
+fn samples_of_each_definition_are_kept() {
+    let place = place();
+    let tolerance = "tolerance x.toml --samples 20 --design 1 --out out";
+    place.prints(tolerance);
+    let journals = |place: &Place| {
+        let names = place.list("out/samples");
+        let names = names.split(' ').filter(|name| name.contains(".jsonl"));
+        names.map(|name| place.read(&format!("out/samples/{name}"))).collect::<Vec<_>>()
+    };
+    let [first] = journals(&place).try_into().expect("one journal");
+    place.prints(&format!("{tolerance} --set designs.length_over_t=2"));
+    assert_eq!(journals(&place).len(), 2);
+    place.prints(tolerance);
+    assert!(journals(&place).contains(&first), "nothing is solved again");
+}
+
+#[test]
+fn a_million_designs_are_refused_at_once() {
+    let many = "{ from = 0.1, to = 1, step = 0.001 }";
+    let slants = "{ from = 0, to = 70, step = 0.01 }";
+    let text = COVERED.replace("[0.1, 0.3]", many).replace("[30, 45]", slants);
+    let place = Place::with(&text);
+    let message = place.refused("tolerance x.toml --samples 2");
+    assert!(message.contains("designs, at most 100000 at a time"), "{message}");
+}
+
+#[test]
+fn what_a_kill_has_left_is_removed_by_the_next_command() {
+    let place = place();
+    place.prints("optimise my/goal.toml --out found");
+    let abandoned = ".x.csv.squama-1-2.partial";
+    for command in [
+        "rank r --maximize coverage --out out",
+        "compare r r --out out",
+        "tolerance x.toml --samples 2 --out out",
+        "sensitivity --global my/box.toml --samples 4 --out out",
+        "design x.toml --design 1 --out out",
+        "export r --xlsx out/x.xlsx",
+        "plot r --out out",
+        "report r --out out/page.html",
+        "optimise my/goal.toml --out out",
+    ] {
+        fs::create_dir_all(place.path("out")).expect("a folder");
+        fs::write(place.path(format!("out/{abandoned}")), "half").expect("writable");
+        place.squama(command).assert().code(0);
+        assert!(!place.path(format!("out/{abandoned}")).exists(), "{command}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_no_stores() {
+    use std::os::unix::fs::symlink;
+
+    let pipe = |place: &Place, file: &str| {
+        let made = std::process::Command::new("mkfifo").arg(place.path(file)).status();
+        assert!(made.expect("mkfifo").success());
+    };
+    for device in ["", "/dev/zero"] {
+        for (file, command) in [
+            ("r/contents.toml", "rank r --maximize coverage"),
+            ("r/derived/ranking.toml", "export r --xlsx x.xlsx"),
+            ("r/run.toml", "export r --xlsx x.xlsx"),
+            ("r/ranking.toml", "report r"),
+            ("found/evaluations.jsonl", "optimise my/goal.toml --out found --resume"),
+            ("found/derived/search.toml", "report r --front found"),
+            ("found/optimum.csv", "report r --front found"),
+        ] {
+            let place = place();
+            place.prints("rank r --maximize coverage");
+            place.prints("optimise my/goal.toml --out found");
+            fs::remove_file(place.path(file)).expect("a file");
+            if device.is_empty() {
+                pipe(&place, file);
+            } else {
+                symlink(device, place.path(file)).expect("a link");
+            }
+            let mut squama = place.squama(command);
+            let assert = squama.timeout(Duration::from_secs(60)).assert().code(2);
+            let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+            assert_eq!(message.lines().count(), 1, "{command} {device} {file}: {message}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_may_have_a_name_that_is_no_text() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt as _;
+
+    let place = Place::with(FEW);
+    place.squama("run x.toml -q --out r").assert().code(0);
+    let strange = OsStr::from_bytes(b"r\xff");
+    fs::rename(place.path("r"), place.path(strange)).expect("a folder");
+    for command in ["rank", "report", "plot", "export", "status", "compare"] {
+        let mut squama = place.squama(command);
+        squama.arg(strange);
+        match command {
+            "compare" => squama.arg(strange),
+            "plot" => squama.args(["--out", "figures"]),
+            "export" => squama.args(["--xlsx", "x.xlsx"]),
+            _ => &mut squama,
+        };
+        squama.assert().code(0);
+    }
+}

@@ -1,0 +1,104 @@
+//! What a goal may say of samples: quantiles and yields, which need deviations.
+
+use ranking::{Goal, Relation};
+use results::columns::{Cell, design_columns, measure_of};
+use results::{Column, DesignResult, DesignRow, FlexureResult, Outcome, PunctureResult, QUANTILES};
+use sweep::{InvalidDefinition, Sweep};
+
+use super::refusal::{no_effect, not_accepted};
+use super::section::{GoalSection, Written};
+use crate::statistic::Statistic;
+
+const DEVIATIONS: &str = "it beside a [tolerance], e.g. gap_over_t = { batch_sd = 0.02 } there";
+const ONE_SCATTER: &str =
+    "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
+
+/// Why a statistic cannot be had from a sweep; `None` if it can, or the column is none.
+pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
+    let Written { column, key, place } = *named;
+    let statistic = Statistic::named(column)?;
+    let is_column = design_columns(sweep).iter().any(|known| known.name == column);
+    let expected = match (sweep.deviations().is_empty(), sweep.is_imperfect(), statistic) {
+        (true, ..) | (false, true, _) if is_column => return None,
+        (true, ..) => DEVIATIONS.to_owned(),
+        (false, true, _) => ONE_SCATTER.to_owned(),
+        (false, false, Statistic::Yield) => return None,
+        (false, false, Statistic::Quantile { column, .. }) => not_of_numbers(&column, sweep)?,
+    };
+    Some(not_accepted(place, key, column, expected))
+}
+
+/// What is expected in place of a quantile of `column`; `None` if it is one of numbers.
+fn not_of_numbers(column: &str, sweep: &Sweep) -> Option<String> {
+    let columns = design_columns(sweep);
+    let Some(known) = columns.iter().find(|known| known.name == column) else {
+        let names: Vec<&str> = columns.iter().map(|known| known.name.as_ref()).collect();
+        let is_asked =
+            |name: &&&str| measure_of(name).is_some_and(|m| sweep.measures().contains(&m));
+        let asked = names.iter().find(is_asked).copied();
+        let near = sweep::nearest(column, &names).or(asked).unwrap_or("coverage");
+        return Some(format!("a quantile of a column of designs.csv, e.g. {}", quantiles(near)));
+    };
+    let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
+    if !is_measured {
+        return Some("a quantile of a column of what `measures` asks for".to_owned());
+    }
+    holds_text(known, sweep)
+        .then(|| format!("a quantile of a column of numbers, e.g. {}", quantiles("critical_force")))
+}
+
+/// The quantiles of a column, by their names.
+fn quantiles(column: &str) -> String {
+    QUANTILES.map(|(ending, _)| format!("{column}_{ending}")).join(", ")
+}
+
+/// Whether a column is one of texts, by what it has to say of a design without a path.
+fn holds_text(column: &Column<DesignRow>, sweep: &Sweep) -> bool {
+    let (number, case) = (sweep.grid().number(0), sweep.grid().case(0));
+    let result = DesignResult {
+        puncture: Some(PunctureResult::without_path(Outcome::Internal)),
+        flexure: Some(FlexureResult::without_path(Outcome::Internal)),
+        ..DesignResult::default()
+    };
+    matches!(column.cell(&DesignRow { number, case, result }), Cell::Text(_))
+}
+
+/// What would be right in place of a name that is nearly that of a quantile, as `critical_force_p5`.
+pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
+    let (base, ending) = column.rsplit_once("_p")?;
+    let is_nearly = known.contains(&base) && ending.starts_with(|c: char| c.is_ascii_digit());
+    is_nearly.then(|| format!("one of the quantiles {}", quantiles(base)))
+}
+
+/// Lines about yields that can have no meaning, and a count of samples that none asks for.
+pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
+    let is_yield = |column: &str| column == Statistic::YIELD;
+    let mut refused = Vec::new();
+    for (requirement, place) in &goal.requirements {
+        let is_bound = matches!(requirement.relation, Relation::AtLeast | Relation::Above);
+        let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
+        let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
+        if is_yield(&requirement.column) && (!is_bound || !is_share || is_strict) {
+            let expected = "the least share of samples, at most 1, e.g. yield >= 0.9";
+            refused.push(not_accepted(place, "goal.require", requirement, expected));
+        }
+    }
+    for (criterion, place) in &goal.objectives {
+        if is_yield(&criterion.column) && criterion.goal == Goal::Minimize {
+            refused.push(not_accepted(place, "goal.minimize", "yield", "it in maximize"));
+        }
+    }
+    let plain = |column: &str| Statistic::named(column).is_none();
+    let has_bounds = goal.requirements.iter().any(|(requirement, _)| plain(&requirement.column));
+    let mut yields = goal.columns().filter(|named| is_yield(named.column) && !has_bounds);
+    refused.extend(yields.next().map(|Written { column, key, place }| {
+        let expected = "a requirement that samples are to meet beside it, e.g. \"coverage >= 0.5\"";
+        not_accepted(place, key, column, expected)
+    }));
+    let is_sampled = goal.columns().any(|named| !plain(named.column));
+    if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_sampled) {
+        let reason = "the goal names no yield or quantile";
+        refused.push(no_effect(place, "goal.skins", reason));
+    }
+    refused
+}

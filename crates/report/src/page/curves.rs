@@ -1,0 +1,115 @@
+//! The curves of the designs that were solved again, all in one chart, of which the page shows those of two designs.
+
+use super::simplified::simplified;
+use super::{Page, PageDesign};
+use crate::axis::{ChartAxis, ends};
+use crate::chart::{Area, ChartPanel};
+use crate::figures::sheet;
+use crate::svg::{Element, Spot, polyline};
+
+const PANEL: [f64; 2] = [400.0, 250.0];
+/// Room around a panel: left, above, below.
+const MARGINS: [f64; 3] = [78.0, 44.0, 52.0];
+/// The smallest highest value of a curve over the lowest that a logarithmic axis shows.
+const DECADES: f64 = 100.0;
+
+/// The chart of one kind of curve: which of a design it is, and the labels of its axes.
+struct Kind {
+    points: fn(&PageDesign) -> &[[f64; 2]],
+    /// Dimensionless, and in newtons and millimetres.
+    labels: [[&'static str; 2]; 2],
+}
+
+const KINDS: [Kind; 2] = [
+    Kind {
+        points: |design| &design.puncture,
+        labels: [
+            ["displacement $u/t$, dimensionless", "force $F^*$, dimensionless"],
+            ["displacement (mm)", "force (N)"],
+        ],
+    },
+    Kind {
+        points: |design| &design.flexure,
+        labels: [
+            ["curvature $κ^*$, dimensionless", "moment $M^*$, dimensionless"],
+            ["curvature (1/mm)", "moment (N mm)"],
+        ],
+    },
+];
+
+/// Draws force against displacement and moment against curvature, as far as there are any; `None` if there are none.
+pub(super) fn figure(page: &Page, is_log: bool) -> Option<String> {
+    let has_curves =
+        |kind: &&Kind| page.solved.iter().any(|design| (kind.points)(design).len() > 1);
+    let kinds = KINDS.iter().zip(page.is_physical).filter(|(kind, _)| has_curves(kind));
+    let kinds: Vec<_> = kinds.collect();
+    let [left, above, below] = MARGINS;
+    let step = left + PANEL[0] + 20.0;
+    let area = |k: usize| Area {
+        left: left + k as f64 * step,
+        top: above,
+        width: PANEL[0],
+        height: PANEL[1],
+    };
+    let panels = kinds.iter().enumerate();
+    let inside: Vec<_> = panels
+        .flat_map(|(k, (kind, is_physical))| {
+            panel(page, kind, kind.labels[usize::from(*is_physical)], is_log, area(k))
+        })
+        .collect();
+    let [width, height] = [step * kinds.len() as f64, above + PANEL[1] + below];
+    (!inside.is_empty()).then(|| sheet(width, height, "Curves", inside))
+}
+
+/// Draws the curves of one kind, each as large as the panel, and the axes that any two of them may need: the page chooses the
+/// axes of two curves, and scales both to them. A logarithmic axis upwards is the same for all.
+fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) -> Vec<Element> {
+    let solved = || page.solved.iter().filter(|design| (kind.points)(design).len() > 1);
+    let size = |design: &PageDesign| [0, 1].map(|k| highest(design, kind, k));
+    let ends =
+        [0, 1].map(|k| ends(solved().map(|design| size(design)[k]).filter(|size| *size > 0.0)));
+    let logarithmic = ChartAxis::logarithmic(labels[1], ends[1].0 / DECADES, ends[1].1);
+    let axis = |k: usize, high: f64| ChartAxis::exact(labels[k], 0.0, high);
+    let [across, up] = [0, 1].map(|k| rungs(ends[k]));
+    let up = if is_log { vec![1.0] } else { up };
+    let own = |high: f64| if is_log { logarithmic.clone() } else { axis(1, high) };
+    let mut drawn = Vec::new();
+    for (name, ticks) in [("x", &across), ("y", &up)] {
+        for &high in ticks {
+            let (x, y) = (&axis(0, high), &own(high));
+            let title = String::new();
+            let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+            let ticks = if name == "x" { panel.x_ticks() } else { panel.y_ticks() };
+            let rung = Element::group("rung").with("data-axis", name);
+            drawn.push(rung.with("data-high", high.to_string()).containing(ticks));
+        }
+    }
+    let (x, y) = (&axis(0, 1.0), &own(1.0));
+    let panel = ChartPanel { area, x, y, title: String::new(), x_labels: true, y_labels: true };
+    drawn.extend([panel.border(), panel.x_name(), panel.y_name(56.0)]);
+    let curve = |design: &PageDesign| {
+        let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };
+        // What a logarithmic axis has no place for is left out.
+        let points = (kind.points)(design).iter();
+        let places = points.filter_map(|&[x, y]| panel.place(x / width, y / height));
+        let spots: Vec<Spot> = simplified(&places.collect::<Vec<_>>());
+        let curve = polyline(&spots).with("class", "curve").with("data-x", width.to_string());
+        curve.with("data-y", height.to_string()).with("data-design", design.number.as_str())
+    };
+    let origin = format!("{} {}", area.left, area.bottom());
+    let curves = Element::group("curves").at("stroke-width", 2.2).containing(solved().map(curve));
+    let whole = Element::group("panel").with("data-origin", origin);
+    vec![whole.containing(drawn).containing([curves])]
+}
+
+/// Returns the largest coordinate of a curve.
+fn highest(design: &PageDesign, kind: &Kind, k: usize) -> f64 {
+    (kind.points)(design).iter().map(|point| point[k]).fold(0.0, f64::max)
+}
+
+/// Returns ends of axes at round numbers, from that of the smallest curve to that of the largest.
+fn rungs((low, high): (f64, f64)) -> Vec<f64> {
+    let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
+    let steps = decades.flat_map(|decade| [1.0, 2.0, 5.0].map(|step| step * 10f64.powi(decade)));
+    steps.filter(|step| *step >= low && *step < 5.0 * high).collect()
+}

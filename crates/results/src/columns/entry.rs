@@ -1,0 +1,217 @@
+//! How the entry of a measured value is written: what most values of a kind share, and what a single one has besides.
+
+use skin::flexure::FlexureMeasures;
+use skin::puncture::{PunctureMeasures, TiltMeasures};
+
+use super::cell::Cell;
+use super::measured_value::{
+    Goal, MeasuredValue, Physical, Place, SampledValue, Shown, TiltValue, Value,
+};
+use crate::design::design_result::DesignResult;
+use crate::design::sample_statistics::{SampleStatistics, Statistics};
+use crate::quantity::Quantity;
+
+// The tables in which values stand besides `designs.csv`.
+pub(super) const NONE: &[&str] = &[];
+pub(super) const COVERAGE: &[&str] = &["coverage"];
+pub(super) const FORCE: &[&str] = &["critical_force"];
+pub(super) const DEPTH: &[&str] = &["penetration"];
+pub(super) const BOTH: &[&str] = &["critical_force", "penetration"];
+pub(super) const COMPLIANCE: &[&str] = &["compliance"];
+
+/// A value of which nothing is known yet.
+pub(super) const BLANK: MeasuredValue = MeasuredValue {
+    name: "",
+    unit: "-",
+    meaning: "",
+    tables: NONE,
+    place: Place::Nowhere,
+    value: Value::SamplesAlone,
+    physical: &[],
+    good: None,
+    samples: None,
+    at_tilts: None,
+    shown: Shown::Chosen,
+    is_of_guided_needle: false,
+};
+
+type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
+type FlexureField = fn(&mut FlexureMeasures) -> &mut Option<f64>;
+
+pub(super) const fn same(quantity: Quantity) -> Physical {
+    Physical { quantity, other: None }
+}
+
+pub(super) const fn other_thing(
+    quantity: Quantity,
+    name: &'static str,
+    meaning: &'static str,
+) -> Physical {
+    Physical { quantity, other: Some((name, meaning)) }
+}
+
+/// A number of a puncture.
+pub(super) const fn number(
+    name: &'static str,
+    unit: &'static str,
+    place: Place,
+    meaning: &'static str,
+    field: PunctureField,
+) -> MeasuredValue {
+    MeasuredValue {
+        name,
+        unit,
+        meaning,
+        tables: FORCE,
+        place,
+        value: Value::Puncture(field),
+        ..BLANK
+    }
+}
+
+pub(super) const fn force(
+    name: &'static str,
+    place: Place,
+    meaning: &'static str,
+    field: PunctureField,
+) -> MeasuredValue {
+    const IN_NEWTON: &[Physical] = &[same(Quantity::Force)];
+    MeasuredValue { physical: IN_NEWTON, ..number(name, "E_s L t/(1-nu^2)", place, meaning, field) }
+}
+
+pub(super) const fn depth(
+    name: &'static str,
+    place: Place,
+    meaning: &'static str,
+    field: PunctureField,
+) -> MeasuredValue {
+    const IN_MM: &[Physical] = &[same(Quantity::Length)];
+    MeasuredValue { physical: IN_MM, ..number(name, "t", place, meaning, field) }
+}
+
+pub(super) const fn stiffness(
+    name: &'static str,
+    place: Place,
+    meaning: &'static str,
+    field: PunctureField,
+) -> MeasuredValue {
+    const PER_MM: &[Physical] = &[same(Quantity::Stiffness)];
+    MeasuredValue { physical: PER_MM, ..number(name, "E_s t", place, meaning, field) }
+}
+
+/// A number of bending.
+pub(super) const fn bending(
+    name: &'static str,
+    unit: &'static str,
+    place: Place,
+    meaning: &'static str,
+    field: FlexureField,
+) -> MeasuredValue {
+    MeasuredValue {
+        name,
+        unit,
+        meaning,
+        tables: COMPLIANCE,
+        place,
+        value: Value::Flexure(field),
+        ..BLANK
+    }
+}
+
+/// A count, a text, or a number without derivatives.
+pub(super) const fn other(
+    name: &'static str,
+    tables: &'static [&'static str],
+    meaning: &'static str,
+    cell: fn(&DesignResult) -> Cell,
+) -> MeasuredValue {
+    MeasuredValue { name, meaning, tables, value: Value::Other(cell), ..BLANK }
+}
+
+pub(super) const fn failed_samples(
+    name: &'static str,
+    tables: &'static [&'static str],
+    meaning: &'static str,
+    count: fn(&SampleStatistics) -> Option<usize>,
+) -> MeasuredValue {
+    MeasuredValue { name, meaning, tables, value: Value::Samples(count), ..BLANK }
+}
+
+impl MeasuredValue {
+    /// An entry of that name.
+    pub(super) const fn named(
+        self,
+        name: &'static str,
+        unit: &'static str,
+        meaning: &'static str,
+    ) -> Self {
+        Self { name, unit, meaning, ..self }
+    }
+
+    /// Only runs with a guided needle have it.
+    pub(super) const fn guided(self) -> Self {
+        Self { is_of_guided_needle: true, ..self }
+    }
+
+    /// Large values are good.
+    pub(super) const fn large(self) -> Self {
+        Self { good: Some(Goal::Maximize), ..self }
+    }
+
+    /// Small values are good.
+    pub(super) const fn small(self) -> Self {
+        Self { good: Some(Goal::Minimize), ..self }
+    }
+
+    /// The tables in which it stands.
+    pub(super) const fn within(self, tables: &'static [&'static str]) -> Self {
+        Self { tables, ..self }
+    }
+
+    /// Where on its path it is measured.
+    pub(super) const fn at(self, place: Place) -> Self {
+        Self { place, ..self }
+    }
+
+    /// What it is in physical units.
+    pub(super) const fn physical(self, physical: &'static [Physical]) -> Self {
+        Self { physical, ..self }
+    }
+
+    pub(super) const fn valued(self, value: Value) -> Self {
+        Self { value, ..self }
+    }
+
+    /// Its statistics over imperfect samples, and the value in words.
+    pub(super) const fn sampled(
+        self,
+        noun: &'static str,
+        statistics: fn(&SampleStatistics) -> Option<Statistics>,
+    ) -> Self {
+        Self { samples: Some(SampledValue { noun, statistics }), ..self }
+    }
+
+    /// Its value where the tilt is one of several.
+    pub(super) const fn at_tilts(
+        self,
+        meaning: &'static str,
+        value: fn(&TiltMeasures) -> f64,
+    ) -> Self {
+        Self { at_tilts: Some(TiltValue { meaning, value }), ..self }
+    }
+
+    /// A page shows it among its first columns.
+    pub(super) const fn first(self) -> Self {
+        Self { shown: Shown::First, ..self }
+    }
+
+    /// A page shows it behind the columns in physical units.
+    pub(super) const fn then(self) -> Self {
+        Self { shown: Shown::Then, ..self }
+    }
+
+    /// A page shows it behind all others.
+    pub(super) const fn last(self) -> Self {
+        Self { shown: Shown::Last, ..self }
+    }
+}

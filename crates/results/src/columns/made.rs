@@ -1,0 +1,199 @@
+//! The columns that follow from the entries of the measured values: themselves, their statistics over imperfect samples, and
+//! both in physical units.
+
+use std::borrow::Cow;
+use std::sync::LazyLock;
+
+use sweep::Sweep;
+
+use super::cell::Cell;
+use super::column::Column;
+use super::measured_value::{Goal, MeasuredValue, Physical, Value};
+use super::values::VALUES;
+use crate::design::row::DesignRow;
+use crate::design::sample_statistics::{QUANTILES, Statistics};
+use crate::quantity::{MASS_NEEDS, Quantity, areal_mass};
+
+/// A column that follows from the entry of a measured value.
+pub(super) struct ValueColumn {
+    pub(super) value: &'static MeasuredValue,
+    pub(super) quantity: Option<Quantity>,
+    /// Which of [`STATISTICS`] it is, over imperfect samples.
+    statistic: Option<usize>,
+    pub(super) name: Cow<'static, str>,
+    pub(super) unit: &'static str,
+    pub(super) meaning: Cow<'static, str>,
+}
+
+/// The statistics over imperfect samples, in the order of their columns: the end of the name, and words.
+const STATISTICS: [(&str, &str); 4] = [
+    ("mean", "mean"),
+    (QUANTILES[0].0, "5 % quantile"),
+    (QUANTILES[1].0, "median"),
+    (QUANTILES[2].0, "95 % quantile"),
+];
+
+/// Every column of measured values, in the order of `designs.csv`, where the tables of their own begin with what they are about.
+pub(super) static COLUMNS: LazyLock<Vec<ValueColumn>> = LazyLock::new(|| {
+    let mut columns: Vec<_> = VALUES.iter().filter(|value| value.is_nominal()).map(of).collect();
+    columns.extend(VALUES.iter().flat_map(of_samples));
+    columns.extend(in_physical_units());
+    columns
+});
+
+/// The column of the value itself.
+fn of(value: &'static MeasuredValue) -> ValueColumn {
+    let (name, meaning) = (value.name.into(), value.meaning.into());
+    ValueColumn { value, quantity: None, statistic: None, name, unit: value.unit, meaning }
+}
+
+/// The columns of the statistics of a value, or of a count of samples.
+fn of_samples(value: &'static MeasuredValue) -> Vec<ValueColumn> {
+    let statistics = value.samples.iter().flat_map(|samples| {
+        STATISTICS.iter().enumerate().map(|(k, (ending, words))| ValueColumn {
+            statistic: Some(k),
+            name: format!("{}_{ending}", value.name).into(),
+            meaning: format!("{words} of the {} over the imperfect samples", samples.noun).into(),
+            ..of(value)
+        })
+    });
+    let count = matches!(value.value, Value::Samples(_)).then(|| of(value));
+    count.into_iter().chain(statistics).collect()
+}
+
+/// What the tables are about first, then where a skin gives way, then everything else; statistics and the mass last.
+fn in_physical_units() -> impl Iterator<Item = ValueColumn> {
+    let mut values: Vec<_> = VALUES.iter().collect();
+    values.sort_by_key(
+        |value| if value.leads() { 0 } else { 2 - usize::from(value.place.is_limit()) },
+    );
+    let nominal = |value: &&'static MeasuredValue| -> Vec<_> {
+        value.physical.iter().map(|physical| physical_column(value, physical)).collect()
+    };
+    let sampled = VALUES.iter().filter(|value| value.samples.is_some());
+    let sampled = sampled.filter_map(|value| Some((value, value.physical.first()?)));
+    let mass = VALUES.iter().filter(|value| matches!(value.value, Value::ArealMass)).map(of);
+    let nominal: Vec<_> = values.iter().flat_map(nominal).collect();
+    nominal.into_iter().chain(sampled.flat_map(|(v, p)| physical_statistics(v, p))).chain(mass)
+}
+
+fn physical_column(value: &'static MeasuredValue, physical: &Physical) -> ValueColumn {
+    let Physical { quantity, other } = *physical;
+    let (stem, meaning) = other.unwrap_or((value.name, value.meaning));
+    let name = format!("{stem}_{}", quantity.suffix()).into();
+    ValueColumn {
+        quantity: Some(quantity),
+        name,
+        unit: quantity.unit(),
+        meaning: meaning.into(),
+        ..of(value)
+    }
+}
+
+/// The statistics of a value in physical units. A quantile of an inverse is the inverse of the opposite quantile, but its mean
+/// is not the inverse of the mean, and is left out.
+fn physical_statistics(
+    value: &'static MeasuredValue,
+    Physical { quantity, other }: &'static Physical,
+) -> impl Iterator<Item = ValueColumn> {
+    let inverse = quantity.is_inverse();
+    of_samples(value).into_iter().enumerate().skip(usize::from(inverse)).map(move |(k, column)| {
+        let stem = other.map_or(value.name, |(name, _)| name);
+        let (ending, words) = STATISTICS[k];
+        let meaning =
+            || format!("{words} of the {} over the imperfect samples", stem.replace('_', " "));
+        ValueColumn {
+            quantity: Some(*quantity),
+            statistic: Some(if inverse { STATISTICS.len() - k } else { k }),
+            name: format!("{stem}_{ending}_{}", quantity.suffix()).into(),
+            unit: quantity.unit(),
+            meaning: other.map_or(column.meaning, |_| meaning().into()),
+            ..column
+        }
+    })
+}
+
+impl MeasuredValue {
+    /// Which of its values, in such a unit, are good, where that is plain.
+    pub(super) fn good_as(&self, quantity: Option<Quantity>) -> Option<Goal> {
+        let is_inverse = quantity.is_some_and(Quantity::is_inverse);
+        self.good.map(|goal| if is_inverse { goal.inverse() } else { goal })
+    }
+
+    /// Whether every sweep has it, without imperfections and materials.
+    fn is_nominal(&self) -> bool {
+        !matches!(self.value, Value::Samples(_) | Value::SamplesAlone | Value::ArealMass)
+    }
+}
+
+impl ValueColumn {
+    /// The column of that name.
+    pub(super) fn named(name: &str) -> Option<&'static Self> {
+        COLUMNS.iter().find(|column| column.name == name)
+    }
+
+    /// What the column is in the unit of the model: of one in physical units the column that it is made from.
+    pub(super) fn dimensionless(&self) -> Option<&'static Self> {
+        COLUMNS.iter().find(|column| {
+            column.quantity.is_none()
+                && std::ptr::eq(column.value, self.value)
+                && column.statistic == self.statistic
+        })
+    }
+
+    /// Whether it is one of imperfect samples.
+    fn is_of_samples(&self) -> bool {
+        self.statistic.is_some() || matches!(self.value.value, Value::Samples(_))
+    }
+
+    /// Whether it is in physical units, or the mass.
+    pub(super) fn is_physical(&self) -> bool {
+        self.quantity.is_some() || matches!(self.value.value, Value::ArealMass)
+    }
+
+    /// Whether the designs of `sweep` have it in `table`, or in any.
+    pub(super) fn stands(&self, sweep: &Sweep, table: Option<&str>) -> bool {
+        let is_given = match self.value.value {
+            Value::ArealMass => MASS_NEEDS.iter().all(|key| sweep.gives(key)),
+            _ => self.quantity.is_none_or(|quantity| quantity.is_given(sweep)),
+        };
+        is_given
+            && table.is_none_or(|table| self.value.tables.contains(&table))
+            && (sweep.is_imperfect() || !self.is_of_samples())
+            && (sweep.is_guided() || !self.value.is_of_guided_needle)
+    }
+
+    fn cell(&self, row: &DesignRow) -> Cell {
+        if let Value::ArealMass = self.value.value {
+            return areal_mass(&row.case).into();
+        }
+        let statistic =
+            |k: usize, of: Statistics| if k == 0 { of.mean } else { of.quantiles[k - 1] };
+        let dimensionless = match (self.statistic, &self.value.samples) {
+            (Some(k), Some(samples)) => {
+                (samples.statistics)(&row.result.samples).map(|of| statistic(k, of)).into()
+            }
+            _ => self.value.cell(&row.result),
+        };
+        match (self.quantity, dimensionless) {
+            (None, cell) => cell,
+            (Some(quantity), Cell::Number(value)) => quantity.physical(value, &row.case).into(),
+            (Some(_), _) => Cell::Empty,
+        }
+    }
+
+    /// Whether a table of its own is about it.
+    pub(super) fn leads(&self) -> bool {
+        self.quantity.is_none() && self.statistic.is_none() && self.value.leads()
+    }
+
+    /// The name without the unit of a physical quantity.
+    pub(super) fn stem(&self) -> &str {
+        let unit = self.quantity.map_or("", Quantity::suffix);
+        self.name.strip_suffix(unit).unwrap_or(&self.name).trim_end_matches('_')
+    }
+
+    pub(super) fn column(&'static self) -> Column<DesignRow> {
+        Column::made(self.name.clone(), self.unit, &self.meaning, |row| self.cell(row))
+    }
+}

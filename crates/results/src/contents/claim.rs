@@ -1,0 +1,159 @@
+//! The claim of a command to the files that it writes into a folder.
+//!
+//! A record in `derived/` names them before the first of them is written, and their SHA-256 after the last: so what a kill leaves
+//! is known for what it is, a changed file is noticed, and no file is written over that squama has not written.
+
+use std::fs::{self, File};
+
+use store::{OutputError, lock_folder, sha256_of};
+
+use super::derivation::Derivation;
+use crate::folder::{FileEntry, Maker, RunFolder};
+
+/// The claim of one command to its files in one folder, which it writes alone.
+#[derive(Debug)]
+pub struct Claim<'f> {
+    folder: &'f RunFolder,
+    maker: Maker,
+    made: Derivation,
+    _lock: File,
+}
+
+impl<'f> Claim<'f> {
+    /// Refuses to write the files of `maker` into `folder` where a file of such a name is a stranger's.
+    ///
+    /// # Errors
+    /// If there is one.
+    pub fn check(folder: &RunFolder, maker: Maker) -> Result<(), OutputError> {
+        let made = Derivation::read(folder, maker.key());
+        // A record that was damaged tells no names, but that there were some.
+        if made.is_none() && folder.holds(&format!("{}/{}.toml", RunFolder::DERIVED, maker.key())) {
+            return Ok(());
+        }
+        let known = made.map(|made| made.files).unwrap_or_default();
+        let mut strange = FileEntry::products(maker).filter(|file| !known.contains_key(file.name));
+        strange.try_for_each(|file| require_none(folder, file.name))
+    }
+
+    /// The claim of `maker` to its files in `folder`. Those of an earlier time are removed, unless somebody has changed them: no
+    /// table of one definition stands beside one of another.
+    ///
+    /// # Errors
+    /// If a file is a stranger's, another process is writing there, or the disk does not take the record.
+    pub fn take(folder: &'f RunFolder, maker: Maker) -> Result<Self, OutputError> {
+        folder.make()?;
+        let lock = lock_folder(folder.path())?;
+        Self::check(folder, maker)?;
+        Self::release(folder, maker);
+        let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));
+        let (product, command) = maker.names();
+        let (product, command) = (product.to_owned(), command.to_owned());
+        let (from, files) = (String::new(), names.collect());
+        let made = Derivation { product, command, from, made_from: None, files };
+        made.write(folder, maker.key())?;
+        Ok(Self { folder, maker, made, _lock: lock })
+    }
+
+    /// Claims one more file.
+    ///
+    /// # Errors
+    /// If it is a stranger's, or the disk does not take the record.
+    pub fn add(&mut self, name: &str) -> Result<(), OutputError> {
+        require_none(self.folder, name)?;
+        self.made.files.insert(name.to_owned(), String::new());
+        self.made.write(self.folder, self.maker.key())
+    }
+
+    /// States what was written.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or the disk does not take the record.
+    pub fn state(mut self) -> Result<(), OutputError> {
+        let folder = self.folder;
+        self.made.files.retain(|name, _| folder.holds(name));
+        for (name, digest) in &mut self.made.files {
+            let path = folder.file(name);
+            let read = File::open(&path).and_then(sha256_of);
+            *digest = read.map_err(|error| OutputError::file(&path, &error))?;
+        }
+        self.made.write(folder, self.maker.key())?;
+        folder.sync();
+        Ok(())
+    }
+
+    /// Removes the files of `maker` in `folder` that are as they were written, and its record.
+    pub fn release(folder: &RunFolder, maker: Maker) {
+        if let Some(made) = Derivation::read(folder, maker.key()) {
+            made.remove(folder);
+            RunFolder::new(folder.file(RunFolder::DERIVED))
+                .remove(&format!("{}.toml", maker.key()));
+        }
+    }
+}
+
+/// Refuses to write the file `name` if there is anything of that name.
+fn require_none(folder: &RunFolder, name: &str) -> Result<(), OutputError> {
+    let path = folder.file(name);
+    let is_there = fs::symlink_metadata(&path).is_ok();
+    if is_there { Err(OutputError::strange(&path)) } else { Ok(()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::folder::FILES;
+
+    #[test]
+    fn no_command_claims_a_file_of_a_stranger_and_every_one_its_own() {
+        for file in FILES.iter().filter(|file| file.maker != Maker::Run) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            let write = |text: &str| fs::write(folder.file(file.name), text).expect("writable");
+            if FileEntry::products(file.maker).all(|product| product.name != file.name) {
+                continue;
+            }
+            write("a stranger's");
+            let refused = Claim::take(&folder, file.maker).expect_err(file.name).to_string();
+            assert!(
+                refused.contains(file.name) && refused.contains("has not written"),
+                "{refused}"
+            );
+            assert_eq!(fs::read_to_string(folder.file(file.name)).expect("text"), "a stranger's");
+            folder.remove(file.name);
+            for text in ["first", "second"] {
+                let claim = Claim::take(&folder, file.maker).expect(file.name);
+                assert!(!folder.holds(file.name), "that of before is gone");
+                write(text);
+                claim.state().expect("written");
+            }
+            // What a kill leaves between the claim and the statement is its own, too.
+            drop(Claim::take(&folder, file.maker).expect(file.name));
+            write("half of it");
+            Claim::take(&folder, file.maker).expect(file.name);
+            assert!(!folder.holds(file.name));
+        }
+    }
+
+    #[test]
+    fn what_somebody_has_changed_is_not_removed_with_the_rest() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = RunFolder::new(place.path());
+        let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
+        for name in ["tolerance.csv", "yield.csv"] {
+            fs::write(folder.file(name), "written").expect("writable");
+        }
+        claim.state().expect("written");
+        fs::write(folder.file("yield.csv"), "changed").expect("writable");
+        Claim::release(&folder, Maker::Tolerance);
+        assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
+    }
+
+    #[test]
+    fn one_command_writes_at_a_time() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = RunFolder::new(place.path());
+        let _claim = Claim::take(&folder, Maker::Comparison).expect("a claim");
+        let refused = Claim::take(&folder, Maker::Design).expect_err("in use").to_string();
+        assert!(refused.contains("another squama is writing there"), "{refused}");
+    }
+}

@@ -1,0 +1,208 @@
+//! The needle: a dead load, or a body that is guided straight down.
+//!
+//! A guided needle has a sharp tip that keeps its place `X` along the row. It touches a face of a scale and rubs on it, slides to the
+//! end of the face, over the corner or into the notch that a neighbour's face makes with it, and on.
+//!
+//! | File | What it holds |
+//! |---|---|
+//! | `mode.rs` | what the needle touches and how it rubs there: the part of the state that is not a number |
+//! | `outline.rs` | the tip seen from a face: gap, way along the face, their derivatives |
+//! | `forces.rs` | equations, tangent, and the conditions under which they hold |
+//! | `transition.rs` | what comes next where a condition ceases to hold |
+//! | `passage.rs` | measures of a path: where the needle leaves its face, how its path ends |
+
+mod forces;
+mod mode;
+mod outline;
+mod passage;
+mod transition;
+
+use contact::{CornerContact, CornerEdge};
+use geometry::Vec2;
+use solver::{Condition, Newton};
+
+use super::system::Chain;
+use crate::contacts::{Contacts, SkinState};
+
+pub(crate) use mode::NeedleMode;
+use mode::{Place, Rub, Touch};
+use outline::{Face, Tip};
+pub(super) use passage::PassageWatch;
+pub use passage::{CriticalEvent, Passage};
+
+/// How the needle is held.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Needle {
+    /// A dead load that hangs on its point of the scale and follows it sideways, as in Shafiei et al. (2021).
+    #[default]
+    Free,
+    /// A sharp tip that moves straight down, with this coefficient of friction.
+    Guided {
+        /// `μ_n`; 0 for a needle that does not rub.
+        friction: f64,
+    },
+}
+
+impl Needle {
+    /// Whether the tip keeps its place along the row.
+    pub fn is_guided(self) -> bool {
+        self != Self::Free
+    }
+}
+
+/// Scales on each side of the punctured one that a guided needle may come to. It moves by less than its own depth along the row.
+pub(super) const FARTHEST: i64 = 8;
+
+/// Unknowns of a touch: `N`, `T`, the ways slid forward and backward, and those of three conditions that never act.
+const OF_TOUCH: usize = 7;
+
+/// Constraints of a touch, in this order.
+const CONSTRAINTS: usize = 6;
+const PUSH: usize = 0;
+const FORWARD: usize = 1;
+const BACKWARD: usize = 2;
+const LOW: usize = 3;
+const HIGH: usize = 4;
+const TILT: usize = 5;
+
+/// Unknowns of a guided needle, behind the load: its depth, those of two touches, and that of its coming through.
+pub(super) const NEEDLE_UNKNOWNS: usize = 1 + 2 * OF_TOUCH + 1;
+
+/// Number of the constraint of coming through.
+const THROUGH: usize = 2 * CONSTRAINTS;
+
+/// A guided needle on a row.
+#[derive(Clone, Debug)]
+pub(crate) struct GuidedNeedle {
+    friction: f64,
+    /// The tip at rest, from the node of the punctured scale.
+    tip: Vec2,
+    critical_tilt: f64,
+    /// The first of its unknowns: the depth.
+    pub(super) depth: usize,
+    /// Constraints of the row that are not the needle's: they come first.
+    contacts: usize,
+    /// Numbers of the constraints that only grow.
+    pub(super) growing: [usize; 4],
+}
+
+impl GuidedNeedle {
+    pub(super) fn new(
+        friction: f64,
+        tip: Vec2,
+        critical_tilt: f64,
+        depth: usize,
+        contacts: usize,
+    ) -> Self {
+        let growing = [FORWARD, BACKWARD, CONSTRAINTS + FORWARD, CONSTRAINTS + BACKWARD];
+        let growing = growing.map(|number| contacts + number);
+        Self { friction, tip, critical_tilt, depth, contacts, growing }
+    }
+
+    /// The unknowns of its constraints, in their order.
+    pub(super) fn constraints(&self) -> Vec<usize> {
+        let of_touch = |touch: usize| {
+            let first = self.push(touch);
+            [first, first + 2, first + 3, first + 4, first + 5, first + 6]
+        };
+        let mut constraints: Vec<usize> = (0..2).flat_map(of_touch).collect();
+        constraints.push(self.depth + NEEDLE_UNKNOWNS - 1);
+        constraints
+    }
+
+    /// Unknown of the normal force of a touch; that of the tangential one is the next.
+    fn push(&self, touch: usize) -> usize {
+        self.depth + 1 + OF_TOUCH * touch
+    }
+
+    /// Number of a constraint of a touch among those of the row.
+    fn number(&self, touch: usize, constraint: usize) -> usize {
+        self.contacts + CONSTRAINTS * touch + constraint
+    }
+
+    /// The constraint at which a path has ended.
+    pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
+        let mut conditions = Vec::new();
+        chain.needle_conditions(self, end, &mut conditions);
+        let ends = [TILT, CONSTRAINTS + TILT, THROUGH].into_iter();
+        // It has vanished to the tolerance of Newton's method.
+        ends.filter(|&number| conditions[number].abs() < 1e-8)
+            .map(|number| self.contacts + number)
+            .next()
+    }
+
+    /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or the needle is through.
+    pub(super) fn ends(&self, constraint: usize) -> bool {
+        let ends = [TILT, CONSTRAINTS + TILT, THROUGH];
+        constraint.checked_sub(self.contacts).is_some_and(|number| ends.contains(&number))
+    }
+}
+
+impl Chain {
+    /// The state of rest, the needle set down. Whether its tip sticks or slides at first, and which way, shows in the rates.
+    pub(super) fn at_rest(&self) -> SkinState {
+        let mut rest = SkinState::at_rest(self);
+        let Some(needle) = &self.needle else { return rest };
+        rest.active[needle.number(0, PUSH)] = true;
+        let face = Face::new(&self.contacts.scale(self.layout.left), Place::Top);
+        let touch = |rub| [Some(Touch { scale: 0, place: Place::Top, rub }), None];
+        rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: 0.0 });
+        let at = self.tip(&rest.z, 0, Place::Top).map_or(face.length, |tip| tip.way);
+        if needle.friction == 0.0 {
+            rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: at });
+            return rest;
+        }
+        rest.mode.needle.touches = touch(Rub::Stick { at });
+        let control = self.controls[0];
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
+        let push = needle.push(0);
+        if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
+            let [normal, tangential] = [rates[push], rates[push + 1]];
+            if tangential.abs() > needle.friction * normal {
+                let (sign, constraint) =
+                    if tangential > 0.0 { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+                rest.mode.needle.touches = touch(Rub::Slip { sign, from: at });
+                rest.active[needle.number(0, constraint)] = true;
+            }
+        }
+        rest
+    }
+
+    /// Whether the equations of a state keep something of the way to it.
+    pub(super) fn has_history(state: &SkinState) -> bool {
+        state.mode.needle.touches.iter().flatten().any(Touch::has_history)
+    }
+
+    /// The tip at a place of a scale; `None` of a free needle, and of a scale that is not solved for or too far away.
+    fn tip(&self, z: &[f64], scale: i64, place: Place) -> Option<Tip> {
+        let needle = self.needle.as_ref()?;
+        let number = self.scale_numbered(scale)?;
+        let away = self.contacts.place(number) - self.contacts.place(self.layout.left);
+        let face = Face::new(&self.contacts.scale(number), place);
+        let at = needle.tip - Vec2::new(away, z[needle.depth]);
+        Some(Tip::new(&face, &self.contacts.pose(z, number), at))
+    }
+
+    /// Index of a scale, counted from the punctured one.
+    fn scale_numbered(&self, scale: i64) -> Option<usize> {
+        let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
+        (number < self.layout.scales() && scale.abs() <= FARTHEST).then_some(number)
+    }
+
+    /// The face that the needle would come to next besides the one that it touches: a neighbour's.
+    fn next_touch(touch: &Touch) -> Option<(i64, Place)> {
+        match touch.place {
+            Place::Left => Some((touch.scale - 1, Place::Top)),
+            Place::TopLeft => None,
+            Place::Top | Place::TopRight | Place::Right => Some((touch.scale + 1, Place::Left)),
+        }
+    }
+
+    /// Whether the top right corner of a scale lies on the left face of its right neighbour, so that the tip is stopped there by that
+    /// face, and does not pass over the corner.
+    fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
+        let upper = self.scale_numbered(scale).map(|left| Contacts::contacts_of(left).start);
+        let contact = upper.and_then(|contact| state.mode.get(contact));
+        contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
+    }
+}

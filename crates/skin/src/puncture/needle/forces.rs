@@ -1,0 +1,280 @@
+//! The equations of a guided needle, and the conditions under which they hold.
+
+use solver::{Residual, Tangent};
+
+use super::mode::{Place, Rub, Touch};
+use super::outline::{COORDINATES, Tip};
+use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
+use crate::contacts::SkinState;
+use crate::puncture::system::Chain;
+
+/// Value of a condition that does not exist: any number above zero.
+const HOLDS: f64 = 1.0;
+
+/// A foot may lie beyond the end of a face by this much, over `t`: corners that lie on it do so to round-off and their approach.
+const BESIDE: f64 = 1e-9;
+
+/// Difference of the unknowns over which slopes of conditions are differences, relative to the largest rate.
+const STEP: f64 = 1e-6;
+
+impl Chain {
+    /// Adds the equations of a guided needle: its balance (L1), the gaps that are closed, and the laws of its tangential forces (L2).
+    pub(in crate::puncture) fn add_needle(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        let load = self.layout.load();
+        residual.add(needle.depth, state.z[load]);
+        matrix.add(needle.depth, load, 1.0);
+        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
+            let Some(touch) = touch else {
+                // A touch that is not there has no tangential force.
+                let drag = needle.push(number) + 1;
+                residual.add(drag, state.z[drag]);
+                matrix.add(drag, drag, 1.0);
+                continue;
+            };
+            let Some(scale) = self.scale_numbered(touch.scale) else { continue };
+            let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { continue };
+            let at = self.layout.scale(scale);
+            let rows = [at, at + 1, at + 2, needle.depth];
+            let push = needle.push(number);
+            add_balance(&tip, rows, push, &state.z, residual, matrix);
+            residual.add(push, tip.gap);
+            add_row(push, rows, 1.0, tip.gap_slopes(), matrix);
+            add_law(needle.friction, touch, &tip, (rows, push), &state.z, residual, matrix);
+            for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
+                // How far the tip has slid: it only counts, and tells the path where it turns back.
+                let (Rub::Slip { from, .. }, true) =
+                    (touch.rub, state.active[needle.number(number, constraint)])
+                else {
+                    continue;
+                };
+                let slid = push + 1 + constraint;
+                residual.add(slid, state.z[slid]);
+                residual.add(slid, sign * (from - tip.way));
+                matrix.add(slid, slid, 1.0);
+                add_row(slid, rows, -sign, tip.way_slopes(), matrix);
+            }
+        }
+    }
+
+    /// Appends the conditions of the constraints of a guided needle.
+    pub(in crate::puncture) fn needle_conditions(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        values: &mut Vec<f64>,
+    ) {
+        let first = values.len();
+        values.resize(first + THROUGH + 1, HOLDS);
+        let values = &mut values[first..];
+        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
+            let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
+            if let Some(touch) = touch {
+                self.touch_conditions(needle, state, number, touch, of_touch);
+            } else {
+                let other = state.mode.needle.touches[1 - number].as_ref();
+                of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
+            }
+            let tip = touch.as_ref().and_then(|t| self.tip(&state.z, t.scale, t.place));
+            let left = match (touch.map(|touch| touch.place), tip) {
+                (Some(Place::Left), Some(tip)) => tip.way,
+                (Some(Place::Right), Some(tip)) => tip.length - tip.way,
+                _ => HOLDS,
+            };
+            values[THROUGH] = values[THROUGH].min(left);
+        }
+    }
+
+    /// The conditions of the constraints of a touch but for that of its normal force.
+    fn touch_conditions(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        number: usize,
+        touch: &Touch,
+        values: &mut [f64],
+    ) {
+        let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { return };
+        let push = needle.push(number);
+        let forces = [state.z[push], state.z[push + 1]];
+        let friction = needle.friction;
+        values[PUSH] = tip.gap;
+        match touch.rub {
+            Rub::Slip { from, .. } => {
+                for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
+                    if state.active[needle.number(number, constraint)] {
+                        values[constraint] =
+                            state.z[push + 1 + constraint] + sign * (from - tip.way);
+                    }
+                }
+                if touch.place != Place::Left {
+                    values[LOW] = tip.way;
+                }
+                let is_stopped = touch.place == Place::Top && self.is_notched(state, touch.scale);
+                if touch.place != Place::Right && !is_stopped {
+                    values[HIGH] = tip.length - tip.way;
+                }
+            }
+            Rub::Stick { .. } => {
+                values[FORWARD] = friction * forces[0] - forces[1];
+                values[BACKWARD] = friction * forces[0] + forces[1];
+            }
+            Rub::Passing { forward } => {
+                let force = tip.force(forces);
+                let seen = |onward: bool| {
+                    let beside = self.tip(&state.z, touch.scale, touch.place.next(onward)?)?;
+                    Some(beside.parts(force))
+                };
+                let [before, after] = [false, true].map(|onward| seen(onward).unwrap_or(forces));
+                // The force turns from that of a tip which slides onto the corner to that of one which slides away from it.
+                [values[LOW], values[HIGH]] = if forward {
+                    [friction * before[0] - before[1], after[1] - friction * after[0]]
+                } else {
+                    [-friction * before[0] - before[1], after[1] + friction * after[0]]
+                };
+            }
+            Rub::Held { .. } => {}
+        }
+        if let Some(scale) = self.scale_numbered(touch.scale) {
+            let [_, _, rotation] = self.displacement(&state.z, scale);
+            values[TILT] = needle.critical_tilt - rotation.abs();
+        }
+    }
+
+    /// The gap to the face that the needle would come to next, while its foot lies within it.
+    ///
+    /// A tip that sticks on a corner which lies on the neighbour's face meets that face without pressing on it: corner and face bear
+    /// their force alone, until the tip slides.
+    fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
+        let here = self.tip(&state.z, touch.scale, touch.place);
+        if let (Rub::Stick { .. }, Place::Top, Some(here)) = (touch.rub, touch.place, here)
+            && here.way > here.length - BESIDE
+            && self.is_notched(state, touch.scale)
+        {
+            return HOLDS;
+        }
+        let next = Self::next_touch(touch);
+        let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
+        let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.way));
+        faced.map_or(HOLDS, |tip| tip.gap)
+    }
+
+    /// Appends the derivatives of the conditions of a guided needle along a direction.
+    pub(in crate::puncture) fn needle_slopes(
+        &self,
+        needle: &GuidedNeedle,
+        state: &SkinState,
+        direction: &[f64],
+        slopes: &mut Vec<f64>,
+    ) {
+        let largest = direction.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
+        let step = STEP / largest;
+        let at = |step: f64| {
+            let mut moved = state.clone();
+            for (z, rate) in moved.z.iter_mut().zip(direction) {
+                *z += step * rate;
+            }
+            let mut values = Vec::new();
+            self.needle_conditions(needle, &moved, &mut values);
+            values
+        };
+        let (before, after) = (at(-step), at(step));
+        slopes.extend(before.iter().zip(after).map(|(a, b)| (b - a) / (2.0 * step)));
+    }
+
+    /// Force of the needle on the scales along the row, to the right.
+    pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
+        let Some(needle) = &self.needle else { return 0.0 };
+        let touches = state.mode.needle.touches.iter().enumerate();
+        let lateral = |(number, touch): (usize, &Option<Touch>)| {
+            let touch = touch.as_ref()?;
+            let push = needle.push(number);
+            let tip = self.tip(&state.z, touch.scale, touch.place)?;
+            Some(tip.force([state.z[push], state.z[push + 1]]).x)
+        };
+        touches.filter_map(lateral).sum()
+    }
+
+    /// `T` and `ξ` of both touches: friction takes `∫ T dξ`.
+    #[cfg(test)]
+    pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> [[f64; 2]; 2] {
+        std::array::from_fn(|number| {
+            let touch = state.mode.needle.touches[number].as_ref();
+            let tip = touch.and_then(|t| self.tip(&state.z, t.scale, t.place));
+            let push = self.needle.as_ref().map(|needle| needle.push(number));
+            push.zip(tip).map_or([0.0; 2], |(push, tip)| [state.z[push + 1], tip.way])
+        })
+    }
+}
+
+/// The force of a touch in the balances of its scale and, with the other sign, of the needle.
+fn add_balance(
+    tip: &Tip,
+    rows: [usize; COORDINATES],
+    push: usize,
+    z: &[f64],
+    residual: &mut Residual,
+    matrix: &mut impl Tangent,
+) {
+    let forces = [z[push], z[push + 1]];
+    let (by_gap, by_way) = (tip.gap_slopes(), tip.way_slopes());
+    let curvature = tip.curvature(forces);
+    for (i, row) in rows.into_iter().enumerate() {
+        let sign = if i + 1 == COORDINATES { -1.0 } else { 1.0 };
+        residual.add(row, -sign * forces[0] * by_gap[i]);
+        residual.add(row, sign * forces[1] * by_way[i]);
+        add_row(row, rows, sign, curvature[i], matrix);
+        matrix.add(row, push, -sign * by_gap[i]);
+        matrix.add(row, push + 1, sign * by_way[i]);
+    }
+}
+
+/// The law of the tangential force, in its row.
+fn add_law(
+    friction: f64,
+    touch: &Touch,
+    tip: &Tip,
+    (rows, push): ([usize; COORDINATES], usize),
+    z: &[f64],
+    residual: &mut Residual,
+    matrix: &mut impl Tangent,
+) {
+    let row = push + 1;
+    match touch.rub {
+        Rub::Slip { .. } | Rub::Held { .. } => {
+            let ratio = match touch.rub {
+                Rub::Slip { sign, .. } => sign * friction,
+                Rub::Held { ratio } => ratio,
+                Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
+            };
+            residual.add(row, z[row]);
+            residual.add(row, -ratio * z[push]);
+            matrix.add(row, row, 1.0);
+            matrix.add(row, push, -ratio);
+        }
+        Rub::Stick { .. } | Rub::Passing { .. } => {
+            let at = if let Rub::Stick { at } = touch.rub { at } else { 0.0 };
+            residual.add(row, tip.way);
+            residual.add(row, -at);
+            add_row(row, rows, 1.0, tip.way_slopes(), matrix);
+        }
+    }
+}
+
+/// Adds `factor` times the slopes by the coordinates of a touch to a row.
+fn add_row(
+    row: usize,
+    columns: [usize; COORDINATES],
+    factor: f64,
+    slopes: [f64; COORDINATES],
+    matrix: &mut impl Tangent,
+) {
+    for (column, slope) in columns.into_iter().zip(slopes) {
+        matrix.add(row, column, factor * slope);
+    }
+}

@@ -1,0 +1,108 @@
+//! The tip of a needle, seen from a scale.
+
+use contact::Pose;
+use geometry::{Corner, Parallelogram, Vec2};
+
+use super::mode::Place;
+
+/// A face of a scale, in the frame of the scale; a corner is one without length, whose direction is half-way between its neighbours'.
+pub(super) struct Face {
+    origin: Vec2,
+    along: Vec2,
+    pub(super) length: f64,
+}
+
+impl Face {
+    pub(super) fn new(scale: &Parallelogram, place: Place) -> Self {
+        let between = |from: Corner, to: Corner| {
+            let (origin, end) = (scale.corner(from), scale.corner(to));
+            let length = (end - origin).norm();
+            Self { origin, along: (end - origin) / length, length }
+        };
+        let left = || between(Corner::BottomLeft, Corner::TopLeft);
+        let top = || between(Corner::TopLeft, Corner::TopRight);
+        let right = || between(Corner::TopRight, Corner::BottomRight);
+        let corner = |one: Self, other: Self| Self {
+            origin: other.origin,
+            along: (one.along + other.along).normalize(),
+            length: 0.0,
+        };
+        match place {
+            Place::Left => left(),
+            Place::TopLeft => corner(left(), top()),
+            Place::Top => top(),
+            Place::TopRight => corner(top(), right()),
+            Place::Right => right(),
+        }
+    }
+}
+
+/// The tip of a needle at a face of a scale.
+///
+/// With the tip at `P`, the node of the scale at `O`, the origin of the face at `E`, its direction `t` and its outward normal `n`, all
+/// deformed, and `r = P − O`,
+///
+/// ```text
+/// g = (P − E)·n        ξ = (P − E)·t                                                   (L4)
+/// ∂g = −n, −r·t, −n_y        ∂ξ = −t, r·n, −t_y          for O, φ and the depth D of the tip
+/// ```
+pub(super) struct Tip {
+    arm: Vec2,
+    normal: Vec2,
+    along: Vec2,
+    /// `g`.
+    pub(super) gap: f64,
+    /// `ξ`.
+    pub(super) way: f64,
+    pub(super) length: f64,
+}
+
+/// Coordinates that a gap of the needle depends on: `x, y, φ` of the scale, and the depth.
+pub(super) const COORDINATES: usize = 4;
+
+/// Numbers of the rotation and of the depth among them.
+const TURN: usize = 2;
+const DEPTH: usize = 3;
+
+impl Tip {
+    /// The tip at a place on a scale, whose node at rest is `away` from it.
+    pub(super) fn new(face: &Face, pose: &Pose, away: Vec2) -> Self {
+        let arm = away - pose.displacement;
+        let along = pose.turn(face.along);
+        let normal = Vec2::new(-along.y, along.x);
+        let from_origin = arm - pose.turn(face.origin);
+        let (gap, way) = (from_origin.dot(&normal), from_origin.dot(&along));
+        Self { arm, normal, along, gap, way, length: face.length }
+    }
+
+    pub(super) fn gap_slopes(&self) -> [f64; COORDINATES] {
+        [-self.normal.x, -self.normal.y, -self.arm.dot(&self.along), -self.normal.y]
+    }
+
+    pub(super) fn way_slopes(&self) -> [f64; COORDINATES] {
+        [-self.along.x, -self.along.y, self.arm.dot(&self.normal), -self.along.y]
+    }
+
+    /// Second derivatives of `−N g + T ξ`.
+    pub(super) fn curvature(&self, [push, drag]: [f64; 2]) -> [[f64; COORDINATES]; COORDINATES] {
+        let mut curvature = [[0.0; COORDINATES]; COORDINATES];
+        let turning = -push * self.along - drag * self.normal;
+        for (i, value) in [(0, turning.x), (1, turning.y), (DEPTH, turning.y)] {
+            curvature[i][TURN] = value;
+            curvature[TURN][i] = value;
+        }
+        curvature[TURN][TURN] =
+            push * self.arm.dot(&self.normal) - drag * self.arm.dot(&self.along);
+        curvature
+    }
+
+    /// The force on the scale under the normal force `N` and the tangential one `T`.
+    pub(super) fn force(&self, [push, drag]: [f64; 2]) -> Vec2 {
+        drag * self.along - push * self.normal
+    }
+
+    /// `N` and `T` of a force on the scale.
+    pub(super) fn parts(&self, force: Vec2) -> [f64; 2] {
+        [-force.dot(&self.normal), force.dot(&self.along)]
+    }
+}

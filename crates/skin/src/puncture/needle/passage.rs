@@ -1,0 +1,105 @@
+//! Where a guided needle leaves its face, and how its path ends.
+
+use serde::{Deserialize, Serialize};
+
+use super::mode::{Place, Rub, Touch};
+use crate::contacts::SkinState;
+use crate::puncture::PuncturePoint;
+use crate::puncture::growing::Segment;
+use crate::puncture::system::Chain;
+use crate::record::Skin;
+
+/// What ends the path of a guided needle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CriticalEvent {
+    /// A scale that the needle touches is critically tilted.
+    Tilt,
+    /// The needle is through to the soft surface between two bases.
+    Through,
+}
+
+impl CriticalEvent {
+    /// Short name, as in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Tilt => "tilt",
+            Self::Through => "through",
+        }
+    }
+}
+
+/// How a guided needle has come through the row; nothing of a free one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Passage {
+    /// What ended the path; `None` if something else did.
+    pub critical_event: Option<CriticalEvent>,
+    /// `F*` where the needle first left the face that it was set down on; `None` if it never did.
+    pub passing_force: Option<f64>,
+    /// `u*` there.
+    pub passing_displacement: Option<f64>,
+    /// Tilt of the punctured scale there, degrees.
+    pub passing_tilt_deg: Option<f64>,
+    /// How far the needle moved inward on that face, over `t`: at the end, or where it left it.
+    pub needle_shift: Option<f64>,
+}
+
+impl Passage {
+    /// Whether there is nothing to tell, as of a free needle.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// Watches a path for the place at which the needle leaves its face.
+#[derive(Debug, Default)]
+pub(in crate::puncture) struct PassageWatch {
+    passed: Option<(PuncturePoint, f64)>,
+}
+
+impl PassageWatch {
+    pub(in crate::puncture) fn follow(
+        &mut self,
+        chain: &Chain,
+        Segment { from, to, .. }: &Segment,
+    ) {
+        if self.passed.is_none() && !is_on_its_face(&to.state) {
+            let mut state = from.state.clone();
+            state.z.clone_from(&to.state.z);
+            let shift = chain.shift(&state).unwrap_or(0.0);
+            self.passed = Some((chain.path_point(to), shift));
+        }
+    }
+
+    pub(in crate::puncture) fn finish(&self, chain: &Chain, end: &SkinState) -> Passage {
+        let Some(needle) = &chain.needle else { return Passage::default() };
+        let ended = needle.ended_at(chain, end);
+        let passed = self.passed.as_ref();
+        Passage {
+            critical_event: ended.map(|constraint| {
+                let is_through = constraint == needle.contacts + super::THROUGH;
+                if is_through { CriticalEvent::Through } else { CriticalEvent::Tilt }
+            }),
+            passing_force: passed.map(|(point, _)| point.force),
+            passing_displacement: passed.map(|(point, _)| point.displacement),
+            passing_tilt_deg: passed.map(|(point, _)| point.tilt_deg),
+            needle_shift: passed.map(|(_, shift)| *shift).or_else(|| chain.shift(end)),
+        }
+    }
+}
+
+/// Whether the needle touches nothing but the face on which it was set down.
+fn is_on_its_face(state: &SkinState) -> bool {
+    let on_top = |touch: &Touch| {
+        touch.scale == 0 && touch.place == Place::Top && !matches!(touch.rub, Rub::Held { .. })
+    };
+    state.mode.needle.touches.iter().flatten().all(on_top)
+}
+
+impl Chain {
+    /// How far the tip has moved inward on the top of the punctured scale.
+    fn shift(&self, state: &SkinState) -> Option<f64> {
+        let at = |z: &[f64]| Some(self.tip(z, 0, Place::Top)?.way);
+        Some(at(&vec![0.0; state.z.len()])? - at(&state.z)?)
+    }
+}

@@ -1,0 +1,179 @@
+//! What a guided needle does next where a condition ceases to hold.
+
+use solver::Change;
+
+use super::mode::{Place, Rub, Touch};
+use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
+use crate::contacts::SkinState;
+use crate::puncture::system::Chain;
+
+impl Chain {
+    /// Takes the needle to its next mode. Returns the constraint whose condition has to hold as the path goes on; `None` where there is
+    /// nothing that the needle could go on to.
+    ///
+    /// | Before | Condition | After |
+    /// |---|---|---|
+    /// | one scale touched | the tip meets a face of the next | both are touched, in a notch |
+    /// | two scales touched | a normal force vanishes | the other alone |
+    /// | sticks | `\|T\| = μ N` | slides, forward or backward |
+    /// | slides | `ξ` turns back | sticks where it is |
+    /// | slides | the end of the face | passes over the corner |
+    /// | passes over a corner | the force has turned to that of sliding on along the next face | slides there |
+    /// | passes over a corner | the force has turned back | sticks at the end of the face on which it came |
+    pub(in crate::puncture) fn needle_transition(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        change: Change,
+    ) -> Option<usize> {
+        let number = change.constraint.checked_sub(needle.contacts)?;
+        let (slot, constraint) = (number / CONSTRAINTS, number % CONSTRAINTS);
+        let valid = match (constraint, change.activated) {
+            (PUSH, true) => self.enter_notch(needle, state, slot)?,
+            (PUSH, false) => self.leave(needle, state, slot)?,
+            (FORWARD | BACKWARD, true) => {
+                let at = self.way(state, slot)?;
+                let sign = if constraint == FORWARD { 1.0 } else { -1.0 };
+                rub(state, slot, Rub::Slip { sign, from: at })?;
+                constraint
+            }
+            (FORWARD | BACKWARD, false) => {
+                let at = self.way(state, slot)?;
+                rub(state, slot, Rub::Stick { at })?;
+                constraint
+            }
+            (LOW | HIGH, _) => {
+                // These have no force: they never act.
+                state.active[change.constraint] = false;
+                self.turn_corner(needle, state, slot, constraint == HIGH)?
+            }
+            _ => return None,
+        };
+        Some(needle.number(slot, valid))
+    }
+
+    /// Opens a notch where the corner that made it no longer lies on the neighbour's face: the tip stays at the corner.
+    pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
+        for slot in 0..2 {
+            let Some(touch) = state.mode.needle.touches[slot] else { continue };
+            if matches!(touch.rub, Rub::Held { .. }) && !self.is_notched(state, touch.scale) {
+                self.move_to(needle, state, slot, Place::TopRight, Rub::Passing { forward: true });
+            }
+        }
+    }
+
+    /// `ξ` of a touch.
+    fn way(&self, state: &SkinState, slot: usize) -> Option<f64> {
+        let touch = state.mode.needle.touches[slot]?;
+        Some(self.tip(&state.z, touch.scale, touch.place)?.way)
+    }
+
+    /// The tip meets the next scale.
+    fn enter_notch(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        slot: usize,
+    ) -> Option<usize> {
+        let other = state.mode.needle.touches[1 - slot]?;
+        let (scale, place) = Self::next_touch(&other)?;
+        let at = self.tip(&state.z, scale, place)?.way;
+        let is_held = |scale, place| place == Place::Top && self.is_notched(state, scale);
+        let (new_is_held, other_is_held) =
+            (is_held(scale, place), is_held(other.scale, other.place));
+        let rub = if new_is_held { Rub::Held { ratio: 0.0 } } else { needle.resting(at) };
+        state.mode.needle.touches[slot] = Some(Touch { scale, place, rub });
+        if other_is_held {
+            let push = needle.push(1 - slot);
+            let ratio = state.z[push + 1] / state.z[push];
+            let ratio = if ratio.is_finite() { ratio } else { 0.0 };
+            needle.end_sliding(state, 1 - slot);
+            state.mode.needle.touches[1 - slot] = Some(Touch { rub: Rub::Held { ratio }, ..other });
+        }
+        Some(PUSH)
+    }
+
+    /// A touch lets go, and the other is left alone.
+    fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
+        let other = state.mode.needle.touches[1 - slot]?;
+        needle.end_sliding(state, slot);
+        state.z[needle.push(slot) + 1] = 0.0;
+        state.mode.needle.touches[slot] = None;
+        if let Rub::Held { .. } = other.rub {
+            let at = self.way(state, 1 - slot)?;
+            rub(state, 1 - slot, needle.resting(at))?;
+        }
+        Some(PUSH)
+    }
+
+    /// The tip comes to an end of its face, or the force has turned to one of the ends of a corner.
+    fn turn_corner(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        slot: usize,
+        onward: bool,
+    ) -> Option<usize> {
+        let touch = state.mode.needle.touches[slot]?;
+        let next = touch.place.next(onward)?;
+        needle.end_sliding(state, slot);
+        let Rub::Passing { forward } = touch.rub else {
+            self.move_to(needle, state, slot, next, Rub::Passing { forward: onward });
+            return Some(if onward { LOW } else { HIGH });
+        };
+        let face_length = self.tip(&state.z, touch.scale, next)?.length;
+        let at = if onward { 0.0 } else { face_length };
+        let inward = if onward { LOW } else { HIGH };
+        if needle.friction == 0.0 {
+            self.move_to(needle, state, slot, next, needle.resting(at));
+            return Some(inward);
+        }
+        if forward == onward {
+            let (sign, sliding) = if onward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+            self.move_to(needle, state, slot, next, Rub::Slip { sign, from: at });
+            state.active[needle.number(slot, sliding)] = true;
+            return Some(inward);
+        }
+        // The force is still that of sliding onto the corner: whether the tip sticks there shows at once.
+        self.move_to(needle, state, slot, next, Rub::Stick { at });
+        Some(if onward { BACKWARD } else { FORWARD })
+    }
+
+    /// Takes a touch to another place on its scale: the force stays, its parts are those along the normal and the face there.
+    fn move_to(
+        &self,
+        needle: &GuidedNeedle,
+        state: &mut SkinState,
+        slot: usize,
+        place: Place,
+        rub: Rub,
+    ) {
+        let Some(touch) = state.mode.needle.touches[slot] else { return };
+        let seen = |place| self.tip(&state.z, touch.scale, place);
+        let (Some(before), Some(after)) = (seen(touch.place), seen(place)) else { return };
+        let push = needle.push(slot);
+        let force = before.force([state.z[push], state.z[push + 1]]);
+        [state.z[push], state.z[push + 1]] = after.parts(force);
+        state.mode.needle.touches[slot] = Some(Touch { place, rub, ..touch });
+    }
+}
+
+impl GuidedNeedle {
+    /// How a tip rubs that has come to rest at a place.
+    fn resting(&self, at: f64) -> Rub {
+        if self.friction == 0.0 { Rub::Slip { sign: 0.0, from: at } } else { Rub::Stick { at } }
+    }
+
+    /// Takes the ways that a touch has slid out of the active set.
+    fn end_sliding(&self, state: &mut SkinState, slot: usize) {
+        for constraint in [FORWARD, BACKWARD] {
+            state.active[self.number(slot, constraint)] = false;
+            state.z[self.push(slot) + 1 + constraint] = 0.0;
+        }
+    }
+}
+
+fn rub(state: &mut SkinState, slot: usize, rub: Rub) -> Option<()> {
+    state.mode.needle.touches[slot].as_mut()?.rub = rub;
+    Some(())
+}

@@ -1,0 +1,310 @@
+//! Rows under a needle that is guided straight down.
+
+use approx::assert_relative_eq;
+use substrate::Springs;
+
+use super::*;
+use crate::puncture::needle::NEEDLE_UNKNOWNS;
+use crate::puncture::{self, CriticalEvent, Needle, Puncture, RowLength};
+
+fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
+    Design { gap, length, slant_deg, base: Base::L, width: 1.0 }
+}
+
+/// A needle set down so far inside the top right corner.
+fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
+    let load_position = 1.0 - inside / (2.0 * design.half_base());
+    let needle = Needle::Guided { friction };
+    PunctureParameters { load_position, needle, ..PunctureParameters::default() }
+}
+
+fn springs(design: &Design) -> Springs {
+    calibrate(&design.footprint(0.5).unwrap()).unwrap()
+}
+
+fn guided(design: &Design, friction: f64, inside: f64) -> Puncture {
+    let parameters = parameters(design, friction, inside);
+    puncture::solve(design, &springs(design), &Common::default(), &parameters).unwrap()
+}
+
+/// The path of a row of 21 scales, in steps of at most this part of its way.
+fn guided_path(design: &Design, friction: f64, inside: f64, step: f64) -> Path<Chain> {
+    let layout = Layout { left: 10, right: 10, needle: NEEDLE_UNKNOWNS };
+    let stiffness = (&springs(design)).into();
+    let law = law(design, Law::PRINTED, HARD);
+    let chain = whole(&stiffness, design, law, layout, &parameters(design, friction, inside));
+    let settings = Settings { first_step: step, max_step: step, ..Settings::default() };
+    let rest = chain.at_rest();
+    Path::new(chain, rest, settings)
+}
+
+/// Designs, frictions and places that stick, slide in both directions, and pass: over the corner on the right, over that on the left.
+const CASES: [(f64, f64, f64, f64, f64); 7] = [
+    (0.1, 1.0, 0.0, 0.0, 0.0),
+    (0.1, 1.0, 45.0, 0.0, 0.0),
+    (0.1, 1.0, 60.0, 0.176, 0.0),
+    (0.2, 0.8, 30.0, 0.3, 0.05),
+    (0.1, 0.2, 0.0, 0.3, 0.05),
+    (0.3, 0.2, 60.0, 0.3, 0.05),
+    (0.2, 0.1, 0.0, 0.0, 0.0),
+];
+
+/// `∫ F du` by the values of both at five places.
+pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
+    let u = values.map(|[_, u]| u);
+    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
+    let slopes = [
+        [-25.0, 48.0, -36.0, 16.0, -3.0],
+        [-3.0, -10.0, 18.0, -6.0, 1.0],
+        [1.0, -8.0, 0.0, 8.0, -1.0],
+        [-1.0, 6.0, -18.0, 10.0, 3.0],
+        [3.0, -16.0, 36.0, -48.0, 25.0],
+    ]
+    .map(slope);
+    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
+    (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
+}
+
+/// Forces that an independent program has found for a needle without friction that stays on its top.
+#[test]
+fn a_needle_slides_inward_on_a_top() {
+    for (gap, length, slant, expected) in [
+        (0.1, 1.0, 0.0, 0.188),
+        (0.5, 1.0, 0.0, 0.127),
+        (0.1, 0.2, 0.0, 1.16),
+        (0.3, 0.5, 45.0, 0.0314),
+    ] {
+        let puncture = guided(&design(gap, length, slant), 0.0, 0.0);
+        assert_eq!(puncture.status, Status::Complete);
+        assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
+        assert_eq!(puncture.measures.passage.passing_force, None);
+        // The last digit given is half a per cent of the value.
+        let force = puncture.measures.critical_force.unwrap();
+        assert_relative_eq!(force, expected, max_relative = 5e-3);
+        assert_eq!(puncture.measures.stable_under_load, None);
+    }
+    let shift = guided(&design(0.1, 1.0, 0.0), 0.0, 0.0).measures.passage.needle_shift.unwrap();
+    assert_relative_eq!(shift, 0.12, max_relative = 0.02);
+}
+
+/// A tip that never slides, whether on a top or on a corner that comes to lie on the neighbour.
+#[test]
+fn a_needle_that_is_held_sideways() {
+    for (slant, expected) in [(0.0, 0.2804), (45.0, 0.4314)] {
+        let puncture = guided(&design(0.1, 1.0, slant), 1e9, 0.0);
+        let force = puncture.measures.critical_force.unwrap();
+        assert_relative_eq!(force, expected, max_relative = 5e-4);
+    }
+}
+
+/// Where the row pushes a scale back below the needle it passes over the corner, which lies on the neighbour's face.
+#[test]
+fn a_needle_passes_into_the_notch() {
+    for (slant, friction, inside, force, tilt) in [
+        (45.0, 0.0, 0.0, 0.214, 6.9),
+        (60.0, 0.0, 0.0, 0.148, 3.5),
+        (60.0, 0.176, 0.0, 0.266, 4.2),
+        (75.0, 0.0, 0.0, 0.105, 1.5),
+        (75.0, 0.0, 0.2, 0.88, 2.7),
+        (75.0, 0.3, 0.0, 2.18, 4.4),
+    ] {
+        let Puncture { status, measures, .. } = guided(&design(0.1, 1.0, slant), friction, inside);
+        let passage = measures.passage;
+        assert_eq!(status, Status::Complete);
+        assert_relative_eq!(passage.passing_force.unwrap(), force, max_relative = 0.01);
+        assert_relative_eq!(passage.passing_tilt_deg.unwrap(), tilt, max_relative = 0.02);
+        assert!(measures.critical_force > passage.passing_force);
+    }
+}
+
+#[test]
+fn the_tangent_agrees_with_finite_differences() {
+    for (gap, length, slant, friction, inside) in CASES {
+        let design = design(gap, length, slant);
+        for_segments(guided_path(&design, friction, inside, 0.1), |path, from, to| {
+            if path.spans(from, to)[0].abs() < 1e-6 {
+                // Two events at one place: forces that begin to act are too small for differences.
+                return;
+            }
+            let Some(between) = path.between(from, to, 0.5) else { return };
+            check_tangent(path.system(), &between.state, 1e-5).unwrap();
+        });
+    }
+}
+
+/// The needle's work is stored, or taken by friction.
+#[test]
+fn work_is_stored_or_rubbed_away() {
+    let mut most = 0.0_f64;
+    for (gap, length, slant, friction, inside) in CASES {
+        let design = design(gap, length, slant);
+        let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
+        for_segments(guided_path(&design, friction, inside, 0.01), |path, from, to| {
+            done += work(path, from, to);
+            let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
+            // The end in the mode of the segment.
+            let mut end = inner[2].clone();
+            end.z.clone_from(&to.state.z);
+            let chain = path.system();
+            let states = [&from.state, &inner[0], &inner[1], &inner[2], &end];
+            let rubbing = states.map(|state| chain.rubbing(state));
+            rubbed += (0..2).map(|k| integral(rubbing.map(|both| both[k]))).sum::<f64>();
+            let stored = chain.substrate_energy(&to.state) + chain.contacts.energy(&to.state);
+            off = off.max((done - stored - rubbed).abs());
+        });
+        assert!(off < 1e-8 * done, "{:e} {design:?} {friction}", off / done);
+        assert!(rubbed > -1e-12, "{rubbed}");
+        most = most.max(rubbed / done);
+    }
+    assert!(most > 0.01, "{most}");
+}
+
+/// One scale on its springs, `k u = f` in each direction: with the arm `ρ` of the needle along the top and the tip at `X`,
+///
+/// ```text
+/// k_φ φ = −N ρ,   N sin φ = −k_x x,   ρ cos φ − sin φ = X − x                  F = N cos φ
+/// ```
+#[test]
+fn an_isolated_scale_is_a_scalar_equation() {
+    let design = design(0.1, 1.0, 0.0);
+    let parameters =
+        PunctureParameters { scales: RowLength::Scales(1), ..parameters(&design, 0.0, 0.0) };
+    let springs = springs(&design);
+    let puncture = puncture::solve(&design, &springs, &Common::default(), &parameters).unwrap();
+    let direct = RowStiffness::from(&springs).with_lengths_over(design.half_base()).direct;
+    let [(sin, cos), turn] =
+        [((-10.0_f64).to_radians().sin_cos()), ((-10.0_f64).to_radians(), 0.0)];
+    let push = |arm: f64| -direct[2] * turn.0 / arm;
+    // The force on the scale is −N n, with n = (−sin φ, cos φ).
+    let off = |arm: f64| arm * cos - sin - (0.5 - push(arm) * sin / direct[0]);
+    let (mut low, mut high) = (0.01, 1.0);
+    for _ in 0..200 {
+        let middle = f64::midpoint(low, high);
+        *(if off(middle) > 0.0 { &mut high } else { &mut low }) = middle;
+    }
+    let expected = push(low) * cos / design.length;
+    assert_relative_eq!(puncture.measures.critical_force.unwrap(), expected, max_relative = 1e-9);
+}
+
+/// A needle on the left corner of upright scales does what one on the right corner does, in a mirror.
+#[test]
+fn mirror_images() {
+    for friction in [0.0, 0.2] {
+        let upright = design(0.3, 0.6, 0.0);
+        let right = guided(&upright, friction, 0.1);
+        let left = guided(&upright, friction, 0.5);
+        assert_eq!([left.status, right.status], [Status::Complete; 2]);
+        let ends = [&left, &right].map(|puncture| *puncture.path.last().unwrap());
+        let [left, right] = ends;
+        for (left, right) in [
+            (left.force, right.force),
+            (left.displacement, right.displacement),
+            (left.lateral_force, -right.lateral_force),
+            (left.tilt_deg, -right.tilt_deg),
+            (left.contact_energy, right.contact_energy),
+        ] {
+            assert_relative_eq!(left, right, max_relative = 1e-8, epsilon = 1e-14);
+        }
+    }
+}
+
+/// A needle in the middle of an upright scale pushes it straight down.
+#[test]
+fn a_scale_that_does_not_tilt_has_no_critical_force() {
+    let upright = design(0.3, 0.6, 0.0);
+    let puncture = guided(&upright, 0.2, 0.3);
+    assert_eq!(puncture.status, Status::Untilted);
+    assert_eq!(puncture.measures.critical_force, None);
+}
+
+/// Without friction the place at which a path is cut into steps makes no difference, whatever the needle passes.
+#[test]
+fn passing_does_not_depend_on_the_steps() {
+    let steep = design(0.1, 1.0, 75.0);
+    let forces = [0.2, 0.02].map(|step| {
+        let settings = Settings { max_step: step, ..Settings::default() };
+        let common = Common { solver: settings, ..Common::default() };
+        let parameters = parameters(&steep, 0.3, 0.0);
+        let puncture = puncture::solve(&steep, &springs(&steep), &common, &parameters).unwrap();
+        [puncture.measures.passage.passing_force, puncture.measures.critical_force]
+            .map(Option::unwrap)
+    });
+    for (coarse, fine) in forces[0].iter().zip(forces[1]) {
+        assert_relative_eq!(*coarse, fine, max_relative = 1e-8);
+    }
+}
+
+type Value = fn(&puncture::PunctureMeasures) -> Option<f64>;
+
+const MEASURES: [(&str, Value); 5] = [
+    ("critical_force", |m| m.critical_force),
+    ("critical_displacement", |m| m.critical_displacement),
+    ("penetration", |m| m.penetration),
+    ("secant_stiffness", |m| m.secant_stiffness),
+    ("initial_stiffness", |m| m.initial_stiffness),
+];
+
+/// Of a needle that slides, derivatives are those of differences of whole solutions; of one that sticks there are none, and the reason.
+#[test]
+fn derivatives_of_a_needle_that_slides() {
+    type Change = fn(&mut puncture::PunctureInput, f64);
+    let changes: [(Change, f64); 4] = [
+        (|input, h| input.design.length += h, 2e-6),
+        (|input, h| input.parameters.load_position += h, 2e-6),
+        (|input, h| input.parameters.critical_tilt_deg += h, 2e-5),
+        (
+            |input, h| {
+                if let Needle::Guided { friction } = &mut input.parameters.needle {
+                    *friction += h;
+                }
+            },
+            2e-6,
+        ),
+    ];
+    for (friction, inside, slides) in [(0.1, 0.05, true), (2.0, 0.1, false)] {
+        let design = design(0.5, 1.0, 0.0);
+        let input = puncture::PunctureInput {
+            design,
+            stiffness: (&springs(&design)).into(),
+            common: Common::default(),
+            parameters: parameters(&design, friction, inside),
+            odd: None,
+        };
+        let moved = |change: Change, step: f64| {
+            let mut input = input.clone();
+            change(&mut input, step);
+            input
+        };
+        let variations = changes.map(|(change, step)| crate::Variation {
+            neighbours: crate::Neighbours {
+                below: moved(change, -step),
+                above: moved(change, step),
+                step,
+            },
+            right: None,
+        });
+        let (_, derivatives) = puncture::differentiate(&input, &variations).unwrap();
+        for (parameter, (change, step)) in changes.into_iter().enumerate() {
+            let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
+            // Far enough apart for round-off, near enough for the second derivative.
+            let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
+            let mut compared = 0;
+            for (name, value) in MEASURES {
+                let of = derivatives.iter().find(|d| d.measure == name && d.parameter == parameter);
+                let derivative = of.unwrap();
+                if !slides {
+                    assert_eq!([derivative.left, derivative.right], [None; 2], "{name}");
+                    assert!(derivative.kink.as_ref().is_some_and(|kink| kink.contains("sticks")));
+                    continue;
+                }
+                let expected = (value(&above).unwrap() - value(&below).unwrap()) / (100.0 * step);
+                let found = derivative
+                    .left
+                    .unwrap_or_else(|| panic!("{parameter} {derivative:?} {expected}"));
+                assert_relative_eq!(found, expected, max_relative = 2e-5, epsilon = 1e-5);
+                compared += 1;
+            }
+            assert!(!slides || compared == MEASURES.len());
+        }
+    }
+}

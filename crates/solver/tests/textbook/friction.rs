@@ -1,0 +1,139 @@
+//! A block that rubs: history in the state, and a tangent that is not symmetric.
+
+use approx::assert_relative_eq;
+use solver::{Blocks, Change, Control, Residual, State, Stop, System, Tangent, check_tangent};
+
+use crate::{follow, steps};
+
+/// Coefficient of friction, and by how much the block is pressed on more as it moves.
+const FRICTION: f64 = 0.2;
+const WEDGE: f64 = 0.5;
+
+/// A block on a spring of stiffness 1, pushed by `f = 4 D (1 − D)` along a floor on which it rubs with `|T| ≤ μ (1 + c u)`.
+///
+/// Unknowns `u, T, s⁺, s⁻, D`: the block sticks at the anchor `u₀`, its mode, while both ways `s` that it has slid are at rest.
+struct Block {
+    controls: [Control; 1],
+    blocks: Option<Blocks>,
+}
+
+fn block(in_blocks: bool) -> Block {
+    let blocks = Blocks { starts: vec![0], links: vec![0], root: 0 };
+    Block { controls: [Control { index: 4, scale: 1.0 }], blocks: in_blocks.then_some(blocks) }
+}
+
+fn limit(u: f64) -> f64 {
+    FRICTION * (1.0 + WEDGE * u)
+}
+
+impl System for Block {
+    type Mode = f64;
+
+    fn size(&self) -> usize {
+        5
+    }
+
+    fn half_bandwidth(&self) -> usize {
+        4
+    }
+
+    fn blocks(&self) -> Option<&Blocks> {
+        self.blocks.as_ref()
+    }
+
+    fn load(&self) -> usize {
+        4
+    }
+
+    fn controls(&self) -> &[Control] {
+        &self.controls
+    }
+
+    fn constraints(&self) -> &[usize] {
+        &[2, 3]
+    }
+
+    fn growing(&self) -> &[usize] {
+        &[0, 1]
+    }
+
+    fn mode_at_rest(&self) -> f64 {
+        0.0
+    }
+
+    fn residual(&self, State { z, active, mode }: &State<f64>, residual: &mut Residual) {
+        residual.clear(&[1.0; 5]);
+        let push = 4.0 * z[4] * (1.0 - z[4]);
+        for (row, term) in [(0, z[0]), (0, z[1]), (0, -push), (2, z[2]), (2, mode - z[0])] {
+            residual.add(row, term);
+        }
+        for (row, term) in [(3, z[3]), (3, z[0] - mode)] {
+            residual.add(row, term);
+        }
+        match active[..] {
+            [true, _] => residual.add(1, z[1] - limit(z[0])),
+            [_, true] => residual.add(1, z[1] + limit(z[0])),
+            // With this sign the determinant keeps its own where the block begins to slide: a path that turns back is known by it.
+            _ => residual.add(1, mode - z[0]),
+        }
+    }
+
+    fn tangent(&self, State { z, active, .. }: &State<f64>, matrix: &mut impl Tangent) {
+        let [by_u, by_friction] = match active[..] {
+            [true, _] => [-FRICTION * WEDGE, 1.0],
+            [_, true] => [FRICTION * WEDGE, 1.0],
+            _ => [-1.0, 0.0],
+        };
+        let entries = [(0, 0, 1.0), (0, 1, 1.0), (0, 4, 8.0 * z[4] - 4.0)];
+        let ways = [(2, 2, 1.0), (2, 0, -1.0), (3, 3, 1.0), (3, 0, 1.0)];
+        for (row, column, value) in entries.into_iter().chain(ways) {
+            matrix.add(row, column, value);
+        }
+        matrix.add(1, 0, by_u);
+        matrix.add(1, 1, by_friction);
+    }
+
+    fn conditions(&self, State { z, .. }: &State<f64>, values: &mut Vec<f64>) {
+        *values = vec![limit(z[0]) - z[1], limit(z[0]) + z[1]];
+    }
+
+    fn transition(&self, state: &mut State<f64>, change: Change) -> Option<usize> {
+        // Where it begins to slide, as where it stops, it is at its anchor.
+        state.mode = state.z[0];
+        Some(change.constraint)
+    }
+}
+
+/// The displacement at which the block turns, and that at the end: `u = (f ∓ μ)/(1 ± μ c)`.
+const TURNED: f64 = (1.0 - FRICTION) / (1.0 + FRICTION * WEDGE);
+const LEFT: f64 = FRICTION / (1.0 - FRICTION * WEDGE);
+
+#[test]
+fn a_block_sticks_slides_sticks_and_slides_back() {
+    for (in_blocks, largest) in [(true, 0.2), (false, 0.2), (true, 0.03), (false, 1.0)] {
+        let (points, stop) = follow(block(in_blocks), steps(largest));
+        assert_eq!(stop, Stop::Reached);
+        let changes: Vec<_> = points.iter().filter(|point| point.event.is_some()).collect();
+        let [slides, stops, back, _] = &changes[..] else { panic!("{changes:?}") };
+        // It slides from f = μ on, stops where the push is the largest, and slides back from f = u₀ − μ (1 + c u₀) on.
+        let place = |push: f64| 0.5 - 0.5 * (1.0 - push).sqrt();
+        assert_relative_eq!(slides.state.z[4], place(FRICTION), max_relative = 1e-10);
+        assert_relative_eq!(stops.state.z[4], 0.5, max_relative = 1e-7);
+        assert_relative_eq!(stops.state.z[0], TURNED, max_relative = 1e-12);
+        let push = TURNED - limit(TURNED);
+        assert_relative_eq!(back.state.z[4], 1.0 - place(push), max_relative = 1e-10);
+        assert_relative_eq!(points.last().unwrap().state.z[0], LEFT, max_relative = 1e-10);
+    }
+}
+
+/// The tangent of a sliding block is not symmetric, and both eliminations solve with it as it is.
+#[test]
+fn the_tangent_of_a_sliding_block_agrees_with_differences() {
+    let (points, _) = follow(block(true), steps(0.05));
+    for point in points {
+        check_tangent(&block(true), &point.state, 1e-8).unwrap_or_else(|wrong| {
+            // The slope of a way that is open is that of its condition, and it has an equation of its own once it is active.
+            assert!(wrong.row >= 2, "{wrong}");
+        });
+    }
+}

@@ -1,0 +1,171 @@
+//! Atomic files: they appear whole or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest as _, Sha256};
+use sweep::reason;
+
+use crate::digest::digits;
+use crate::partial_file::{PartialFile, remove_abandoned_files};
+
+/// A file or a folder that cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: cannot be written ({reason}), {advice}", path.display())]
+pub struct OutputError {
+    path: PathBuf,
+    reason: String,
+    advice: &'static str,
+}
+
+impl OutputError {
+    /// A folder that cannot be made or written.
+    pub fn folder(path: &Path, error: &io::Error) -> Self {
+        let advice = "expected a folder that can be written, e.g. with --out DIR";
+        Self { path: path.to_owned(), reason: reason(error), advice }
+    }
+
+    /// A file that cannot be written.
+    pub fn file(path: &Path, error: &io::Error) -> Self {
+        Self { path: path.to_owned(), reason: reason(error), advice: "check free space" }
+    }
+
+    /// A file that squama has not written, and does not write over.
+    pub fn strange(path: &Path) -> Self {
+        let advice = "move the file, or choose another folder with --out DIR";
+        let reason = "there is a file of that name that squama has not written".to_owned();
+        Self { path: path.to_owned(), reason, advice }
+    }
+
+    /// A folder that another process is writing to.
+    pub fn in_use(path: &Path) -> Self {
+        let (reason, advice) = ("another squama is writing there", "wait for it to end");
+        Self { path: path.to_owned(), reason: reason.to_owned(), advice }
+    }
+
+    /// A journal that cannot be written.
+    pub fn journal(path: &Path, error: &io::Error) -> Self {
+        let advice = "check free space; --resume then goes on with the run";
+        Self { path: path.to_owned(), reason: reason(error), advice }
+    }
+}
+
+/// A file that is written beside its place and moved there when it is complete, so that its name
+/// never stands for half of it.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    partial: PartialFile,
+    hasher: Sha256,
+}
+
+impl AtomicFile {
+    /// Begins the file `name` in `folder`.
+    ///
+    /// # Errors
+    /// If the folder cannot be written.
+    pub fn create(folder: &Path, name: &str) -> Result<Self, OutputError> {
+        let partial = PartialFile::create(folder, name);
+        let partial = partial.map_err(|error| OutputError::folder(folder, &error))?;
+        Ok(Self { path: folder.join(name), partial, hasher: Sha256::new() })
+    }
+
+    /// The path of the file once it is complete.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Puts the file in its place and returns its SHA-256.
+    ///
+    /// # Errors
+    /// If it does not reach the disk.
+    pub fn finish(self) -> Result<String, OutputError> {
+        let moved = self.partial.move_to(&self.path);
+        moved.map_err(|error| OutputError::file(&self.path, &error))?;
+        Ok(digits(self.hasher))
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.partial.file().write(bytes)?;
+        self.hasher.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.partial.file().flush()
+    }
+}
+
+/// Makes `folder` and the folders above it, and removes what killed processes have left half-written there.
+///
+/// # Errors
+/// If it cannot be made.
+pub fn make_folder(folder: &Path) -> Result<(), OutputError> {
+    fs::create_dir_all(folder).map_err(|error| OutputError::folder(folder, &error))?;
+    remove_abandoned_files(folder);
+    Ok(())
+}
+
+/// The text of the file at `path`. A pipe or a device in its place is refused: it may never end.
+///
+/// # Errors
+/// If it cannot be read or is no regular file.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    if fs::metadata(path)?.is_file() {
+        fs::read_to_string(path)
+    } else {
+        Err(io::Error::other("it is no regular file"))
+    }
+}
+
+/// Writes `text` as the file `name` in `folder`; returns its SHA-256.
+///
+/// # Errors
+/// If it cannot be written.
+pub fn write_text(folder: &Path, name: &str, text: &str) -> Result<String, OutputError> {
+    let mut file = AtomicFile::create(folder, name)?;
+    let written = file.write_all(text.as_bytes());
+    written.map_err(|error| OutputError::file(&file.path, &error))?;
+    file.finish()
+}
+
+/// Asks the system to keep the moves in `folder`.
+pub fn sync_folder(folder: &Path) {
+    // Not every system can; the files themselves are on the disk already.
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_not_finished_leaves_the_old_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        write_text(folder.path(), "x.csv", "old").expect("writable");
+        let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
+        file.write_all(b"new").expect("writable");
+        drop(file);
+        assert_eq!(fs::read_to_string(folder.path().join("x.csv")).expect("there"), "old");
+        assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+    }
+
+    #[test]
+    fn two_writers_of_one_file_do_not_meet() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut files = ["one", "other"].map(|text| {
+            let mut file = AtomicFile::create(folder.path(), "x.csv").expect("writable");
+            file.write_all(text.as_bytes()).expect("writable");
+            Some(file)
+        });
+        let read = || fs::read_to_string(folder.path().join("x.csv")).expect("there");
+        for (file, text) in files.iter_mut().zip(["one", "other"]) {
+            let digest = file.take().expect("a file").finish().expect("writable");
+            assert_eq!((read().as_str(), digest), (text, crate::sha256(text)));
+        }
+        assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 1);
+    }
+}

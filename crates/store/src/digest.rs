@@ -1,0 +1,53 @@
+//! SHA-256 of texts and files, as 64 hexadecimal digits.
+
+use std::fmt::Write as _;
+use std::io::{self, Read};
+
+use sha2::{Digest as _, Sha256};
+
+/// Bytes that are read at a time.
+const PIECE: usize = 1 << 16;
+
+/// The SHA-256 of `bytes`.
+pub fn sha256(bytes: impl AsRef<[u8]>) -> String {
+    digits(Sha256::new_with_prefix(bytes))
+}
+
+/// The SHA-256 of what `source` holds to its end.
+///
+/// # Errors
+/// If it cannot be read.
+pub fn sha256_of(mut source: impl Read) -> io::Result<String> {
+    let (mut hasher, mut piece) = (Sha256::new(), vec![0; PIECE]);
+    loop {
+        match source.read(&mut piece) {
+            Ok(0) => return Ok(digits(hasher)),
+            Ok(read) => hasher.update(&piece[..read]),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// The digits of what `hasher` has read.
+pub(crate) fn digits(hasher: Sha256) -> String {
+    let mut text = String::new();
+    for byte in hasher.finalize() {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The example of one block in FIPS 180-4.
+    #[test]
+    fn the_digest_of_abc() {
+        let known = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(sha256("abc"), known);
+        assert_eq!(sha256_of("abc".as_bytes()).expect("text"), known);
+    }
+}

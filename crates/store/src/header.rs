@@ -1,0 +1,195 @@
+//! The header of a journal: what was solved, by which program.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use sweep::Subset;
+use sweep::toml_source::{self, Value, one_line};
+
+use crate::digest::sha256;
+use crate::error::JournalError;
+use crate::reader::Records;
+use crate::seal::Seal;
+
+/// The format of the journals that this program writes: typed results since 2, rows of text in 1.
+pub(crate) const FORMAT: u64 = 2;
+
+/// The program that solves what a journal holds.
+#[derive(Clone, Copy, Debug)]
+pub struct Program {
+    /// The version of the program.
+    pub version: &'static str,
+    /// The revision of its source.
+    pub revision: &'static str,
+}
+
+/// The header of a journal: the definition, the subset of its designs, the program.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JournalHeader {
+    /// The format of the lines.
+    format: u64,
+    /// Version of the program.
+    version: String,
+    /// Revision of its source.
+    revision: String,
+    /// SHA-256 of the definition.
+    definition_sha256: String,
+    /// The designs that are solved.
+    #[serde(default)]
+    subset: Subset,
+    /// The definition, complete.
+    definition: String,
+}
+
+impl JournalHeader {
+    /// The header of a journal of `subset` of the designs that `definition` describes.
+    pub fn new(definition: String, subset: Subset, program: &Program) -> Self {
+        Self {
+            format: FORMAT,
+            version: program.version.to_owned(),
+            revision: program.revision.to_owned(),
+            definition_sha256: sha256(&definition),
+            subset,
+            definition,
+        }
+    }
+
+    /// The first line of a journal, with its end.
+    pub(crate) fn line<R: Records>(&self) -> Vec<u8> {
+        Seal::default().seal(&BTreeMap::from([(R::KEY, self)]))
+    }
+
+    /// The header that the first line of the journal at `path` holds.
+    pub(crate) fn read<R: Records>(bytes: &mut [u8], path: &Path) -> Result<Self, JournalError> {
+        let refuse = |problem: String| JournalError::NoHeader { path: path.to_owned(), problem };
+        let object = Seal::default().open(bytes).map_err(refuse)?;
+        if let Some((found, by)) = other_format::<R>(object) {
+            return Err(JournalError::OtherFormat { path: path.to_owned(), found, by });
+        }
+        let read: Result<BTreeMap<String, Self>, _> = serde_json::from_slice(object);
+        let mut read = read.map_err(|error| refuse(one_line(&error.to_string())))?;
+        let header = read.remove(R::KEY).filter(Self::is_sound);
+        header.ok_or_else(|| refuse("squama writes no such line there".to_owned()))
+    }
+
+    /// The seal of the lines behind the first.
+    pub fn seal(&self) -> Seal {
+        Seal::over(&[&self.definition_sha256, &self.version, &self.revision])
+    }
+
+    /// One SHA-256 of definition, designs and program.
+    pub fn digest(&self) -> String {
+        sha256(format!("{} {}\n{}\n{}", self.version, self.revision, self.subset, self.definition))
+    }
+
+    /// The definition, complete.
+    pub fn definition(&self) -> &str {
+        &self.definition
+    }
+
+    /// Whether its checksum is that of its definition.
+    fn is_sound(&self) -> bool {
+        self.definition_sha256 == sha256(&self.definition)
+    }
+
+    /// The designs that are solved.
+    pub fn subset(&self) -> Subset {
+        self.subset
+    }
+
+    /// SHA-256 of the definition.
+    pub fn definition_sha256(&self) -> &str {
+        &self.definition_sha256
+    }
+
+    /// Version and revision of the program.
+    pub fn program(&self) -> String {
+        format!("{} ({})", self.version, self.revision)
+    }
+
+    /// The header of the journal with all designs of all shards.
+    #[must_use]
+    pub fn of_all_shards(mut self) -> Self {
+        self.subset.shard = None;
+        self
+    }
+
+    /// Refuses a journal at `path` that has this header where `wanted` is wanted, and says what is
+    /// `expected` instead.
+    ///
+    /// # Errors
+    /// If program, definition or subset is another one.
+    pub fn require(
+        &self,
+        wanted: &Self,
+        path: &Path,
+        expected: &'static str,
+    ) -> Result<(), JournalError> {
+        let path = path.to_owned();
+        self.difference(wanted).map_or(Ok(()), |difference| {
+            Err(JournalError::Different { path, difference, expected })
+        })
+    }
+
+    /// The difference between `wanted` and this header, in words.
+    fn difference(&self, wanted: &Self) -> Option<String> {
+        if self.program() != wanted.program() {
+            let (here, there) = (self.program(), wanted.program());
+            return Some(format!("is by squama {here}, this is squama {there}"));
+        }
+        if self.definition != wanted.definition {
+            let changes = changes(&self.definition, &wanted.definition);
+            return Some(format!("is of another definition: {changes}"));
+        }
+        // Of the rest, the format is this program's and the digest is the definition's.
+        (self.subset != wanted.subset)
+            .then(|| format!("is of {}, not of {}", self.subset, wanted.subset))
+    }
+}
+
+/// The format that the JSON object of a first line names if it is not this program's, and the program that wrote it. Searches
+/// stated their format and program beside each other in format 1.
+fn other_format<R: Records>(object: &[u8]) -> Option<(u64, String)> {
+    let line: serde_json::Value = serde_json::from_slice(object).ok()?;
+    let header = line.get(R::KEY)?;
+    let found = header.as_u64().or_else(|| header.get("format")?.as_u64())?;
+    let text = |value: &serde_json::Value| Some(value.as_str()?.to_owned());
+    let both = || Some(format!("{} ({})", text(&header["version"])?, text(&header["revision"])?));
+    let by = text(&line["program"]).or_else(both).unwrap_or_else(|| "unknown".to_owned());
+    (found != FORMAT).then_some((found, by))
+}
+
+/// The keys in which two definitions differ.
+fn changes(here: &str, there: &str) -> String {
+    let (here, there) = (keys(here), keys(there));
+    let names: BTreeSet<_> = here.keys().chain(there.keys()).collect();
+    let text = |keys: &BTreeMap<String, String>, name: &String| {
+        keys.get(name).cloned().unwrap_or_else(|| "not set".to_owned())
+    };
+    let change = |name: &String| {
+        let (old, new) = (text(&here, name), text(&there, name));
+        (old != new).then(|| format!("{name} is {old} in it and {new} now"))
+    };
+    let changes: Vec<_> = names.iter().filter_map(|name| change(name)).collect();
+    changes.join("; ")
+}
+
+/// The dotted keys of a definition with their values.
+fn keys(definition: &str) -> BTreeMap<String, String> {
+    let mut keys = BTreeMap::new();
+    for entry in toml_source::parse(definition, "").unwrap_or_default() {
+        match &entry.value {
+            Value::Table(section) => keys.extend(
+                section
+                    .iter()
+                    .map(|inner| (format!("{}.{}", entry.key, inner.key), inner.value.to_string())),
+            ),
+            value => {
+                keys.insert(entry.key.clone(), value.to_string());
+            }
+        }
+    }
+    keys
+}

@@ -1,0 +1,39 @@
+//! The damaged tail of a journal: nothing of it is thrown away before a copy is kept.
+
+use std::fs::{File, OpenOptions};
+use std::io::{self, ErrorKind, Seek as _, SeekFrom};
+use std::path::{Path, PathBuf};
+
+use crate::atomic_file::OutputError;
+
+/// Copies what the journal at `path` holds after its first `length` bytes to a file beside it; returns what is to be said
+/// of it, if there is anything.
+pub(super) fn keep(path: &Path, length: u64) -> Result<Option<String>, OutputError> {
+    let unkept = |error: io::Error| OutputError::file(path, &error);
+    let mut journal = File::open(path).map_err(unkept)?;
+    let torn = journal.metadata().map_err(unkept)?.len().saturating_sub(length);
+    if torn == 0 {
+        return Ok(None);
+    }
+    journal.seek(SeekFrom::Start(length)).map_err(unkept)?;
+    let (mut copy, name) = create(path).map_err(unkept)?;
+    let copied = io::copy(&mut journal, &mut copy).and_then(|_| copy.sync_all());
+    copied.map_err(|error| OutputError::file(&name, &error))?;
+    Ok(Some(format!(
+        "{}: {torn} bytes at its end are damaged and cut off, a copy of them is in {}",
+        path.display(),
+        name.display()
+    )))
+}
+
+/// A new file beside the journal at `path`.
+fn create(path: &Path) -> io::Result<(File, PathBuf)> {
+    let mut number = 1;
+    loop {
+        let name = path.with_extension(format!("cut-{number}"));
+        match OpenOptions::new().write(true).create_new(true).open(&name) {
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+            opened => return opened.map(|file| (file, name)),
+        }
+    }
+}

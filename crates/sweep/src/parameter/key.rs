@@ -1,0 +1,39 @@
+//! The keys of the parameters that code names.
+
+/// The gap between neighbouring bases.
+pub const GAP: &str = "gap_over_t";
+
+/// The length of a scale.
+pub const LENGTH: &str = "length_over_t";
+
+/// The slant of the scales.
+pub const SLANT: &str = "slant_deg";
+
+/// The width of the scales.
+pub const WIDTH: &str = "width_over_t";
+
+/// Poisson's ratio of the substrate.
+pub const POISSON_RATIO: &str = "poisson_ratio";
+
+/// The tilt at which a puncture ends.
+pub const CRITICAL_TILT: &str = "critical_tilt_deg";
+
+/// How the needle is held.
+pub const NEEDLE: &str = "needle";
+/// The friction between needle and scale.
+pub const NEEDLE_FRICTION: &str = "needle_friction";
+
+/// The length of the membrane.
+pub const MEMBRANE_LENGTH: &str = "membrane_length_over_t";
+
+/// The thickness of the scales.
+pub const THICKNESS: &str = "thickness_mm";
+
+/// The modulus of the substrate.
+pub const SUBSTRATE_MODULUS: &str = "substrate_modulus_MPa";
+
+/// The modulus of the membrane.
+pub const MEMBRANE_MODULUS: &str = "membrane_modulus_MPa";
+
+/// The density of the scales.
+pub const DENSITY: &str = "scale_density_kg_m3";

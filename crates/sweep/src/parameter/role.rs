@@ -1,0 +1,115 @@
+//! What parameters are to a skin: whoever treats some of them in a way of their own asks for their role, not for their names.
+
+use super::{PARAMETERS, Parameter, key};
+use crate::case::Case;
+
+/// What a parameter is to the skin, beyond its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It is an axis of every grid.
+    Geometry,
+    /// Measures change continuously with it, so that they have derivatives with respect to it: a number that describes the skin
+    /// or how far it is loaded, not how it is solved or how it scatters.
+    Continuous,
+    /// What is made may differ from it.
+    Made,
+    /// It may differ from scale to scale.
+    Scattered,
+    /// The springs of the substrate depend on it.
+    MovesSprings,
+    /// It says where a puncture ends: a criterion of a study, which nobody makes.
+    EndsPuncture,
+    /// It says where bending ends.
+    EndsBending,
+    /// The unit of what bending measures depends on it.
+    UnitOfBending,
+    /// It says in another way what the parameter of that key says, and may leave it to that by a word.
+    InsteadOf(&'static str),
+}
+
+impl Parameter {
+    /// Whether it has a role.
+    pub fn has(&self, role: Role) -> bool {
+        self.roles.contains(&role)
+    }
+
+    /// The parameters of a role, in the order of the documentation.
+    pub fn with(role: Role) -> impl Iterator<Item = &'static Self> {
+        PARAMETERS.iter().filter(move |parameter| parameter.has(role))
+    }
+
+    /// The parameter that says the same in another way: a definition has one of the two.
+    pub(crate) fn alternative(&self) -> Option<&'static Self> {
+        self.instead_of().or_else(|| self.instead())
+    }
+
+    /// The same in a case: under a guided needle tilt and friction are two things.
+    pub(crate) fn alternative_in(&self, case: &Case) -> Option<&'static Self> {
+        self.alternative().filter(|other| {
+            let is_needle = [self.key, other.key].contains(&key::NEEDLE_FRICTION);
+            !(is_needle && case.puncture.needle.is_guided())
+        })
+    }
+
+    /// The parameter instead of which this one may be given.
+    fn instead_of(&self) -> Option<&'static Self> {
+        self.roles.iter().find_map(|role| match role {
+            Role::InsteadOf(key) => Self::named(key),
+            _ => None,
+        })
+    }
+
+    /// The parameter that may be given instead of this one.
+    pub(super) fn instead(&self) -> Option<&'static Self> {
+        Self::with(Role::InsteadOf(self.key)).next()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameter::Scalar;
+
+    #[test]
+    fn roles_agree_with_each_other() {
+        for parameter in PARAMETERS {
+            let key = parameter.key;
+            let alternative = parameter.alternative();
+            assert_eq!(
+                alternative.and_then(Parameter::alternative).map(|p| p.key),
+                alternative.map(|_| key)
+            );
+            if let Some(instead) = parameter.instead() {
+                let open = instead.default();
+                assert!(matches!(open, Scalar::Word(_)), "{key} is left to {open}");
+            }
+            let is_number = parameter.moved(&Case::default(), 0.0).is_some();
+            assert!(
+                !parameter.has(Role::Continuous) || is_number || parameter.instead_of().is_some(),
+                "{key} has no number"
+            );
+            let is_skin = parameter.has(Role::Continuous) || parameter.section == "material";
+            assert_eq!(
+                parameter.has(Role::Made),
+                is_skin && !parameter.has(Role::EndsPuncture),
+                "{key}"
+            );
+            assert!(
+                !parameter.has(Role::Scattered) || parameter.has(Role::Made),
+                "{key} is not made"
+            );
+        }
+    }
+
+    /// The springs are those of the footprint and of the coupling, whatever else a case says.
+    #[test]
+    fn the_springs_move_with_the_parameters_that_say_so() {
+        // Down, because Poisson's ratio stands at the end of its bounds.
+        let case = Case::default();
+        for parameter in PARAMETERS.iter().filter(|p| p.has(Role::Continuous)) {
+            let Some(moved) = parameter.moved(&case, -0.01) else { continue };
+            let moves = moved.footprint().unwrap() != case.footprint().unwrap();
+            assert_eq!(moves, parameter.has(Role::MovesSprings), "{}", parameter.key);
+        }
+    }
+}
