@@ -1,29 +1,49 @@
 //! What a page gets.
 
-use results::{Cell, Column, DesignRow, ParameterDerivative};
+pub(crate) mod written;
+
+use ranking::Requirement;
+use results::columns::{Goal, plain_goal};
+use results::{Cell, Column, DesignRow, ParameterDerivative, Quantity};
 use serde::Serialize;
-use skin::flexure::{Flexure, StripSnapshot};
-use skin::puncture::{Puncture, RowSnapshot};
-use skin::Contact;
 use sweep::Case;
 
+use crate::follow::Followed;
+use crate::path::{BentStrip, PuncturedRow};
+
 /// A solved design.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Answer {
     /// The number of the request.
     pub id: u64,
+    /// Whether it is the answer for a hand that rests.
+    pub fine: bool,
     /// The columns of `designs.csv` that have a value.
     pub values: Vec<Value>,
-    /// The puncture, if it was asked for and ran.
-    pub puncture: Option<PuncturePath>,
-    /// The bending, if it was asked for and ran.
-    pub flexure: Option<FlexurePath>,
-    /// The derivatives of the measures, if they were asked for.
+    /// The requirements, in their order.
+    pub requirements: Vec<Required>,
+    /// What stands in the way of trusting the numbers, in sentences.
+    pub warnings: Vec<String>,
+    /// A length of 1, a force of 1, a moment of 1 in mm, N and N mm, as far as the material tells.
+    pub units: Units,
+    /// The puncture, if it could begin.
+    pub puncture: Option<PuncturedRow>,
+    /// The bending, if it could begin.
+    pub flexure: Option<BentStrip>,
+    /// The derivatives of the measures, for a hand that rests.
     pub slopes: Vec<Slope>,
+    /// The design of the sweep that is closest.
+    pub closest: Option<Closest>,
+    /// The options with which `squama design` solves this design of the definition.
+    pub settings: Vec<String>,
+    /// A definition of this design alone.
+    pub toml: String,
+    /// Where a walk along a parameter came to its end, if one was asked for.
+    pub follow: Option<Followed>,
 }
 
 /// A column of the design.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Value {
     /// Name of the column.
     pub name: String,
@@ -37,157 +57,105 @@ pub struct Value {
     pub text: String,
 }
 
-impl Value {
-    pub(crate) fn new(column: &Column<DesignRow>, cell: &Cell) -> Self {
-        let (name, text) = (column.name.clone().into_owned(), cell.to_string());
-        Self { name, unit: column.unit, meaning: column.meaning, value: cell.number(), text }
-    }
+/// A requirement and how a design stands to it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Required {
+    /// The requirement, as in `coverage >= 0.6`.
+    pub text: String,
+    /// The value of its column, if there is one.
+    pub value: Option<f64>,
+    /// Whether the value keeps it; no value keeps none.
+    pub met: bool,
+    /// Whether it is the one that leaves the least room.
+    pub limits: bool,
 }
 
-/// A row of scales on its way to the critical tilt. Lengths over `t`, angles in degrees, forces as in the tables.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PuncturePath {
-    /// `u*`, `F*`, tilt and closed contacts of every equilibrium.
-    pub path: Vec<[f64; 4]>,
-    /// `u*` and `F*` where a contact closes, opens or passes a corner.
-    pub events: Vec<[f64; 2]>,
-    /// `u*` and `F*` where the surface of the substrate first folds over.
-    pub fold: Option<[f64; 2]>,
-    /// States between rest and the end.
-    pub frames: Vec<PunctureFrame>,
-    /// Place of the load on the top of the punctured scale: 0 the left corner, 1 the right one.
-    pub load_position: f64,
+/// A length of 1, a force of 1 and a moment of 1, in physical units.
+#[derive(Clone, Debug, Serialize)]
+pub struct Units {
+    /// mm.
+    pub length: Option<f64>,
+    /// N.
+    pub force: Option<f64>,
+    /// N mm.
+    pub moment: Option<f64>,
 }
 
-/// A row in equilibrium.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct PunctureFrame {
-    /// `u*`.
-    pub displacement: f64,
-    /// `F*`.
-    pub force: f64,
-    /// Tilt of the punctured scale, degrees.
-    pub tilt: f64,
-    /// Number, displacement and rotation (degrees, counter-clockwise) of every scale.
-    pub scales: Vec<[f64; 4]>,
-    /// Place and force of every closed contact.
-    pub contacts: Vec<[f64; 4]>,
-}
-
-/// A strip on its way to the largest end rotation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FlexurePath {
-    /// `κ*`, `M*`, end rotation and closed contacts of every equilibrium.
-    pub path: Vec<[f64; 4]>,
-    /// `κ*` and `M*` where a contact closes, opens or passes a corner.
-    pub events: Vec<[f64; 2]>,
-    /// States between rest and the end.
-    pub frames: Vec<FlexureFrame>,
-}
-
-/// A strip in equilibrium.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FlexureFrame {
-    /// `κ*`.
-    pub curvature: f64,
-    /// `M*`.
-    pub moment: f64,
-    /// Rotation of each end, degrees.
-    pub rotation: f64,
-    /// Displacement and rotation (radians, counter-clockwise) of every scale.
-    pub scales: Vec<[f64; 3]>,
-    /// Axis of the membrane in every gap.
-    pub membrane: Vec<Vec<[f64; 2]>>,
-    /// Place and force of every closed contact.
-    pub contacts: Vec<[f64; 4]>,
-}
-
-/// The derivative of a measure with respect to a parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Which way a parameter is to go for a measure to become better.
+#[derive(Clone, Debug, Serialize)]
 pub struct Slope {
     /// The measure, as its column.
     pub measure: &'static str,
     /// The key of the parameter.
     pub parameter: &'static str,
-    /// Where the parameter decreases.
-    pub left: Option<f64>,
-    /// Where the parameter increases.
-    pub right: Option<f64>,
+    /// 1 for larger, −1 for smaller, 0 where neither way is better.
+    pub better: i8,
+    /// Per cent of the measure for one per cent of the parameter that way.
+    pub gain: Option<f64>,
     /// What changes at a kink, if there is one.
     pub kink: Option<String>,
 }
 
-impl PuncturePath {
-    pub(crate) fn new(case: &Case, puncture: &Puncture, states: Vec<RowSnapshot>) -> Self {
-        let point = |p: &skin::puncture::PuncturePoint| {
-            [p.displacement, p.force, p.tilt_deg, p.contacts as f64]
-        };
-        let events = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
-        Self {
-            path: puncture.path.iter().map(point).collect(),
-            events: events.collect(),
-            fold: puncture.folds.first().map(|f| [f.point.displacement, f.point.force]),
-            frames: states.into_iter().map(PunctureFrame::new).collect(),
-            load_position: case.puncture.load_position,
-        }
+/// A design of the sweep.
+#[derive(Clone, Debug, Serialize)]
+pub struct Closest {
+    /// Its number.
+    pub design: String,
+    /// Its numbers on the axes, by their keys.
+    pub values: Vec<(&'static str, f64)>,
+}
+
+impl Value {
+    /// A cell with a value.
+    pub(crate) fn new(column: &Column<DesignRow>, cell: &Cell) -> Option<Self> {
+        let (name, text) = (column.name.clone().into_owned(), cell.to_string());
+        let value =
+            Self { name, unit: column.unit, meaning: column.meaning, value: cell.number(), text };
+        (*cell != Cell::Empty).then_some(value)
+    }
+
+    /// The number of a column.
+    pub(crate) fn number(values: &[Self], column: &str) -> Option<f64> {
+        values.iter().find(|value| value.name == column)?.value
     }
 }
 
-impl PunctureFrame {
-    fn new(state: RowSnapshot) -> Self {
-        let scale = |s: &skin::puncture::ScaleState| {
-            drawn([s.scale as f64, s.displacement[0], s.displacement[1], s.rotation_deg])
+impl Required {
+    pub(crate) fn all(requirements: &[Requirement], values: &[Value]) -> Vec<Self> {
+        let margins =
+            requirements.iter().map(|one| one.counted_margin(Value::number(values, &one.column)));
+        let least = margins.clone().fold(f64::INFINITY, f64::min);
+        let one = |(one, margin): (&Requirement, f64)| Self {
+            text: one.to_string(),
+            value: Value::number(values, &one.column),
+            met: margin >= 0.0,
+            limits: margin <= least,
         };
-        Self {
-            displacement: state.displacement,
-            force: state.force,
-            tilt: state.tilt_deg,
-            scales: state.scales.iter().map(scale).collect(),
-            contacts: state.contacts.iter().map(contact).collect(),
-        }
+        requirements.iter().zip(margins).map(one).collect()
     }
 }
 
-impl FlexurePath {
-    pub(crate) fn new(flexure: &Flexure, states: Vec<StripSnapshot>) -> Self {
-        let point = |p: &skin::flexure::FlexurePoint| {
-            [p.curvature, p.moment, p.end_rotation_deg, p.contacts as f64]
-        };
-        let events = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
-        Self {
-            path: flexure.path.iter().map(point).collect(),
-            events: events.collect(),
-            frames: states.into_iter().map(FlexureFrame::new).collect(),
-        }
-    }
-}
-
-impl FlexureFrame {
-    fn new(state: StripSnapshot) -> Self {
-        Self {
-            curvature: state.curvature,
-            moment: state.moment,
-            rotation: state.end_rotation_deg,
-            scales: state.scales.into_iter().map(drawn).collect(),
-            membrane: state.membrane.iter().map(|axis| axis.iter().copied().map(drawn).collect()).collect(),
-            contacts: state.contacts.iter().map(contact).collect(),
-        }
+impl Units {
+    pub(crate) fn of(case: &Case) -> Self {
+        let [length, force, moment] = [Quantity::Length, Quantity::Force, Quantity::Moment]
+            .map(|quantity| quantity.physical(1.0, case));
+        Self { length, force, moment }
     }
 }
 
 impl Slope {
     pub(crate) fn new(derivative: &ParameterDerivative) -> Self {
-        let ParameterDerivative { measure, parameter, left, right, ref kink, .. } = *derivative;
-        Self { measure, parameter, left, right, kink: kink.clone() }
+        let ParameterDerivative { measure, parameter, at, value, left, right, ref kink } =
+            *derivative;
+        let good = if plain_goal(measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
+        let [smaller, larger] = [left.map(|slope| -good * slope), right.map(|slope| good * slope)];
+        let gain = |side: Option<f64>| side.filter(|gain| *gain > 0.0).unwrap_or(0.0);
+        let (better, side) = match (gain(smaller), gain(larger)) {
+            (smaller, larger) if larger > smaller => (1, larger),
+            (0.0, _) => (0, 0.0),
+            (smaller, _) => (-1, smaller),
+        };
+        let gain = Some((side * at / value).abs()).filter(|gain| gain.is_finite());
+        Self { measure, parameter, better, gain, kink: kink.clone() }
     }
-}
-
-fn contact(contact: &Contact) -> [f64; 4] {
-    let ([x, y], [fx, fy]) = (contact.point, contact.force);
-    drawn([x, y, fx, fy])
-}
-
-/// Numbers as a drawing needs them. A frame of a strip has thousands, and each with all its digits would make an answer of megabytes.
-fn drawn<const N: usize>(numbers: [f64; N]) -> [f64; N] {
-    numbers.map(|number| (number * 1e5).round() / 1e5)
 }

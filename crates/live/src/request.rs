@@ -1,128 +1,82 @@
-//! What a page asks for, and how it is solved.
+//! What a page asks for.
 
-use results::columns::design_columns;
-use results::{Cell, DesignRow};
-use run::Evaluator;
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
-use skin::flexure;
-use skin::puncture::{self, At};
-use substrate::Calibrations;
-use sweep::{Case, Measure, Setting, Sweep};
-
-use crate::answer::{Answer, FlexurePath, PuncturePath, Slope, Value};
+use sweep::toml_source::Value;
+use sweep::{Case, Measure, Parameter, number};
 
 /// A design that is to be solved.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Request {
-    /// The definition of a sweep, in TOML.
-    pub definition: String,
-    /// Keys that have another value, as in `designs.gap_over_t=0.2`. The first design of what this makes of the definition is solved.
-    #[serde(default)]
-    pub set: Vec<String>,
-    /// What is to be measured; empty for what the definition measures.
-    #[serde(default)]
-    pub measures: Vec<Measure>,
-    /// The states along each path that are to be drawn, without the state at rest.
-    #[serde(default)]
-    pub frames: u16,
     /// A number that the answer repeats, so that a page knows which request it answers.
     #[serde(default)]
     pub id: u64,
+    /// The definition of a sweep, in TOML.
+    pub definition: String,
+    /// Parameters that differ from those of the first design of the sweep, by their keys.
+    #[serde(default)]
+    pub set: BTreeMap<String, Setting>,
+    /// Requirements, as in `coverage >= 0.6`.
+    #[serde(default)]
+    pub require: Vec<String>,
+    /// Whether the hand rests: then derivatives, smooth curves and the neighbouring gaps are solved for, too.
+    #[serde(default)]
+    pub fine: bool,
+    /// How far along its path the needle, and then bending, is to be drawn: 0 at rest, 1 at the end.
+    #[serde(default)]
+    pub drawn: Option<[f64; 2]>,
+    /// A parameter that is to be followed to the next limit.
+    #[serde(default)]
+    pub follow: Option<Follow>,
 }
 
-/// Answers requests one after the other.
-#[derive(Debug, Default)]
-pub struct Solver {
-    /// The evaluator of the last request, whose calibrations the next one finds if it measures the same.
-    evaluator: Option<(Vec<Measure>, Evaluator)>,
-    calibrations: Calibrations,
+/// A value of a parameter.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// One of a few words.
+    Word(String),
 }
 
-impl Solver {
-    /// The answer to `request`, both JSON. What is wrong with a request is an answer, too: `{"error": "…"}`.
-    pub fn answer(&mut self, request: &str) -> String {
-        let answer = serde_json::from_str(request)
-            .map_err(|error| format!("the request: {error}"))
-            .and_then(|request: Request| self.solve(&request));
-        let answer = answer.map_or_else(|error| serde_json::json!({ "error": error }), |answer| {
-            serde_json::to_value(answer).unwrap_or_default()
-        });
-        answer.to_string()
+/// A walk along one parameter.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Follow {
+    /// The key of the parameter.
+    pub key: String,
+    /// The value at which the walk ends if nothing ends it before.
+    pub to: f64,
+    /// The column that is to become better.
+    pub measure: String,
+}
+
+impl Request {
+    /// What is measured.
+    pub(crate) fn measures(&self) -> Vec<Measure> {
+        let all = [Measure::Coverage, Measure::Puncture, Measure::Flexure, Measure::Sensitivity];
+        all[..if self.fine { 4 } else { 3 }].to_vec()
     }
 
-    /// Solves the first design of a request.
+    /// `case` with the parameters that are set.
     ///
     /// # Errors
-    /// If the definition or a setting is refused: with the text that the command has for it.
-    pub fn solve(&mut self, request: &Request) -> Result<Answer, String> {
-        let sweep = sweep_of(request)?;
-        let measures =
-            if request.measures.is_empty() { sweep.measures() } else { &request.measures };
-        let (case, number) = (sweep.grid().case(0), sweep.grid().number(0));
-        let solved = self.evaluator(measures).solve(number, &case);
-        let frames = usize::from(request.frames);
-        let puncture = solved.puncture.as_ref().map(|path| {
-            let at = places(path.path.iter().map(|point| point.tilt_deg), frames, At::Tilt);
-            PuncturePath::new(&case, path, self.row_states(&case, &at))
-        });
-        let flexure = solved.flexure.as_ref().map(|path| {
-            let at = places(path.path.iter().map(|point| point.end_rotation_deg), frames, |at| at);
-            FlexurePath::new(path, strip_states(&case, &at))
-        });
-        Ok(Answer {
-            id: request.id,
-            values: values(&sweep, &solved.row),
-            puncture,
-            flexure,
-            slopes: solved.row.result.sensitivity.iter().map(Slope::new).collect(),
-        })
-    }
-
-    fn evaluator(&mut self, measures: &[Measure]) -> &Evaluator {
-        if self.evaluator.as_ref().is_none_or(|(others, _)| others != measures) {
-            self.evaluator = None;
-        }
-        let evaluator = || (measures.to_vec(), Evaluator::new(measures));
-        &self.evaluator.get_or_insert_with(evaluator).1
-    }
-
-    /// The states of a row at `at`; none of a row that has no springs, whose measures say why.
-    fn row_states(&self, case: &Case, at: &[At]) -> Vec<puncture::RowSnapshot> {
-        let springs =
-            case.footprint().ok().and_then(|foot| self.calibrations.row(&foot, case.coupling).ok());
-        let solve =
-            |springs: &substrate::RowStiffness| puncture::snapshots(&case.design, springs, &case.common, &case.puncture, at);
-        let states = springs.filter(|_| !at.is_empty()).and_then(|springs| solve(&springs).ok());
-        states.map_or_else(Vec::new, |states| states.at.into_iter().flatten().collect())
+    /// If there is no such parameter, or a value is refused: with the text that commands have for it.
+    pub(crate) fn case(&self, case: &Case) -> Result<Case, String> {
+        self.set.iter().try_fold(*case, |case, (key, value)| put(&case, key, value))
     }
 }
 
-/// The states of a strip at the end rotations `at`.
-fn strip_states(case: &Case, at: &[f64]) -> Vec<flexure::StripSnapshot> {
-    if at.is_empty() {
-        return Vec::new();
-    }
-    let states = flexure::snapshots(&case.design, &case.common, &case.flexure, at);
-    states.map_or_else(|_| Vec::new(), |states| states.into_iter().flatten().collect())
-}
-
-/// `count` equal parts of the way to the largest value of a path, and rest.
-fn places<T>(values: impl Iterator<Item = f64>, count: usize, place: fn(f64) -> T) -> Vec<T> {
-    let largest = values.fold(0.0, f64::max);
-    let parts = if largest > 0.0 { 1..=count } else { 1..=0 };
-    parts.map(|k| place(largest * k as f64 / count as f64)).collect()
-}
-
-fn sweep_of(request: &Request) -> Result<Sweep, String> {
-    let settings = request.set.iter().map(|text| Setting::parse(text));
-    let settings: Vec<_> = settings.collect::<Result<_, _>>().map_err(|error| error.to_string())?;
-    Sweep::parse(&request.definition, "definition", &settings).map_err(|error| error.to_string())
-}
-
-/// The columns of the tables of a design that have a value.
-fn values(sweep: &Sweep, row: &DesignRow) -> Vec<Value> {
-    let columns = design_columns(sweep);
-    let with_cell = columns.into_iter().map(|column| (column.cell(row), column));
-    with_cell.filter(|(cell, _)| *cell != Cell::Empty).map(|(cell, column)| Value::new(&column, &cell)).collect()
+/// `case` with another value of the parameter `key`.
+pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
+    let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
+    let written = match value {
+        Setting::Number(value) => Value::Number(number::text(*value)),
+        Setting::Word(word) => Value::Text(word.clone()),
+    };
+    let value = parameter.read(&written).map_err(|error| format!("{key}: {error}"))?;
+    Ok(parameter.put(case, value))
 }

@@ -2,54 +2,71 @@
 // What the page asks of the solver: the latest question alone, coarse while the hand moves and fine when it rests.
 
 squama.solver = (() => {
-  const FRAMES = 16;
   // A hand that has not moved for so long rests, ms.
-  const REST = 140;
-  let worker, ready = false, busy = false, waiting = null, timer, id = 0;
-  let listen = () => {};
+  const REST = 160;
+  // So long a question that nobody waits for any more may go on, ms: a new thread starts in less than a slow question takes.
+  const GRACE = 60;
+  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving, id = 0;
 
-  const bytes = async () => {
-    const packed = Uint8Array.from(atob(squama.at("module").textContent), (c) => c.charCodeAt(0));
-    const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return new Response(stream).arrayBuffer();
+  const bytes = () => {
+    const packed = Uint8Array.from(atob(squama.at("live-module").textContent), (character) => character.charCodeAt(0));
+    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
   };
 
-  const begin = async () => {
-    const script = new Blob([squama.at("worker").textContent], { type: "text/javascript" });
-    worker = new Worker(URL.createObjectURL(script));
-    [ready, busy] = [false, false];
-    worker.onmessage = ({ data }) => {
-      if (data.ready) { ready = true; next(); return; }
-      busy = false;
-      if (data.trapped) { worker.terminate(); begin(); }
-      // An answer to a question that the hand has left behind is still the best that there is, if no later one waits.
-      if (data.id === id || waiting === null || data.coarse) listen(data);
-      next();
-    };
-    worker.postMessage({ module: await bytes() });
+  const start = () => {
+    worker?.terminate();
+    [ready, asked] = [false, null];
+    const url = URL.createObjectURL(new Blob([squama.at("live-worker").textContent], { type: "text/javascript" }));
+    worker = new Worker(url);
+    URL.revokeObjectURL(url);
+    worker.onmessage = ({ data }) => (data.ready ? begin() : take(data));
+    worker.postMessage(module);
+  };
+  const begin = () => { ready = true; next(); };
+
+  const take = (answer) => {
+    clearTimeout(giving);
+    const question = asked;
+    asked = null;
+    if (answer.trapped) start();
+    // What the hand has left behind is shown as long as it moves: it is the best there is.
+    if (!waiting || !question?.fine) listen(answer, question);
+    next();
   };
 
   const next = () => {
-    if (!ready || busy || waiting === null) return;
-    busy = true;
-    worker.postMessage(waiting);
-    waiting = null;
+    if (!ready || asked || !waiting) return;
+    [asked, waiting] = [waiting, null];
+    worker.postMessage(asked.request);
   };
 
-  const ask = (set, fine) => {
+  const ask = (request, more = {}) => {
     id += 1;
-    const measures = fine ? ["coverage", "puncture", "flexure", "sensitivity"] : ["coverage", "puncture", "flexure"];
-    waiting = { id, definition: squama.data.definition, set, measures, frames: fine ? FRAMES : 1 };
+    waiting = { request: { ...request, ...more, id }, fine: Boolean(more.fine || more.follow), at: performance.now() };
+    if (asked?.fine) giving = setTimeout(start, GRACE);
     next();
   };
 
   return {
-    begin: (listener) => { listen = listener; return begin(); },
-    /** Solves for the settings `set`: at once without what takes long, and whole when the hand rests. */
-    solve: (set) => {
-      clearTimeout(timer);
-      ask(set, false);
-      timer = setTimeout(() => ask(set, true), REST);
+    begin: async (listener) => {
+      listen = listener;
+      try {
+        module = await WebAssembly.compile(await bytes());
+        start();
+      } catch (error) {
+        listen({ error: `This browser cannot run the solver: ${error.message}` });
+      }
     },
+    /** Solves for a request: at once without what takes long, and whole when the hand rests. */
+    solve: (request) => {
+      clearTimeout(resting);
+      ask(request);
+      resting = setTimeout(() => ask(request, { fine: true }), REST);
+    },
+    follow: (request, follow) => {
+      clearTimeout(resting);
+      ask(request, { follow });
+    },
+    idle: () => !asked && !waiting,
   };
 })();

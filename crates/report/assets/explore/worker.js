@@ -12,16 +12,15 @@ const answer = (request) => {
 };
 
 self.onmessage = async ({ data }) => {
-  if (data.module) {
-    solver = (await WebAssembly.instantiate(data.module, {})).exports;
+  if (data instanceof WebAssembly.Module) {
+    solver = (await WebAssembly.instantiate(data, {})).exports;
     self.postMessage({ ready: true });
     return;
   }
-  const begun = performance.now();
   try {
-    self.postMessage({ ...answer(data), milliseconds: performance.now() - begun });
+    self.postMessage(answer(data));
   } catch (error) {
     // A module that has trapped is of no use any more; the page starts another.
-    self.postMessage({ id: data.id, error: `the solver stopped: ${error.message}`, trapped: true });
+    self.postMessage({ id: data.id, error: `The solver stopped: ${error.message}`, trapped: true });
   }
 };
