@@ -97,7 +97,7 @@ const OFFERED: [Offered; 10] = [
     Offered::new("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5),
     Offered::new(key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5).if_given(),
     Offered::new(key::NEEDLE, "Needle", [0.0, 0.0], 0.0),
-    Offered::new(key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.5),
+    Offered::new(key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2),
     Offered::new(key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5),
 ];
 
@@ -214,7 +214,9 @@ impl Explorer {
         if offered.if_given && span.is_none() && own.number().is_none() {
             return None;
         }
-        let friction_says_tilt = self.sweep.gives(key::NEEDLE_FRICTION) && !self.sweep.is_guided();
+        let base = self.sweep.grid().base();
+        let friction_is_given = base.needle_friction.is_some() || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
+        let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
         let only = match offered.key {
             key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
             key::CRITICAL_TILT if friction_says_tilt => Some("guided"),

@@ -5,7 +5,7 @@
   const { element, at, live } = squama;
 
   const choice = (control) => {
-    const chosen = element("select", { id: `live-set-${control.key}`, onchange: () => { live.set({ [control.key]: chosen.value }); list(); } },
+    const chosen = element("select", { id: `live-set-${control.key}`, onchange: () => live.set({ [control.key]: chosen.value }) },
       ...control.words.map((word) => element("option", { value: word }, word)));
     control.show = () => { chosen.value = control.value; };
     return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
@@ -66,13 +66,17 @@
     control.arrow.setAttribute("aria-label", words);
   };
 
-  const show = () => live.controls().forEach((control) => control.show());
-  const list = () => {
-    at("live-controls").replaceChildren(...live.controls().map((control) => (control.words ? choice : slider)(control)));
-    show();
-    live.controls().forEach(showArrow);
+  let listed = "";
+  /** Shows the controls that act, and makes their list anew where others do. */
+  const show = () => {
+    const acting = live.controls(), keys = acting.map(({ key }) => key).join();
+    if (keys !== listed) {
+      listed = keys;
+      at("live-controls").replaceChildren(...acting.map((control) => (control.words ? choice : slider)(control)));
+      acting.forEach(showArrow);
+    }
+    acting.forEach((control) => control.show());
   };
   live.listen("moved", show);
   live.listen("answered", () => live.controls().forEach(showArrow));
-  live.listControls = list;
 })();

@@ -66,7 +66,6 @@
     live.set({});
   });
   const asked = location.hash.slice(1);
-  live.listControls();
   if (squama.state) joinPage();
   if (squama.state && squama.state.design !== null) chosen();
   live.read(asked);

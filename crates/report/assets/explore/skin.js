@@ -43,10 +43,12 @@ squama.live = (() => {
   });
   live.solve = () => squama.solver.solve(request());
 
+  // Six digits, as an address has them.
   const clamped = ({ words, min, max }, value) => {
     if (words) return words.includes(value) ? value : words[0];
     return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
   };
+  for (const control of controls.values()) control.value = clamped(control, control.value);
   /** Moves parameters, within their ranges, and solves. */
   live.set = (values, said = "") => {
     for (const [key, value] of Object.entries(values)) {
