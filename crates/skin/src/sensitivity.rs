@@ -13,7 +13,7 @@ use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::Skin;
 
-pub(crate) use places::{end, first_contact, is_held, rest, summit, turn};
+pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
 
 /// A problem for values of a parameter near its own.
 #[derive(Clone, Debug)]
