@@ -237,6 +237,7 @@ impl<M> State<M> {
 
 impl<M: Clone> State<M> {
     /// The state whose unknowns differ by `factor` times `direction`.
+    #[must_use]
     pub fn moved(&self, factor: f64, direction: &[f64]) -> Self {
         let z = self.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
