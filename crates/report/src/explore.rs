@@ -215,7 +215,8 @@ impl Explorer {
             return None;
         }
         let base = self.sweep.grid().base();
-        let friction_is_given = base.needle_friction.is_some() || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
+        let friction_is_given = base.needle_friction.is_some()
+            || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
         let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
         let only = match offered.key {
             key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
