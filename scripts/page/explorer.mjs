@@ -11,7 +11,7 @@ const STATES = 50;
 const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });
 /** Does something, and waits for the answer to it. */
 const after = async (page, act) => {
-  await page.evaluate(() => { squama.live.answer = null; });
+  await page.evaluate(() => { squama.live.answer.fine = false; });
   await act();
   await settled(page);
 };
@@ -37,7 +37,7 @@ export default ({ openFile, open, place, results, run }) => {
         const shares = Array.from({ length: 10 }, next);
         await after(page, () => page.evaluate((own) => {
           const pairs = squama.live.controls().filter(({ words }) => !words).map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
-          squama.live.set({ ...Object.fromEntries(pairs), needle: own[9] < 0.3 ? "guided" : "free" });
+          squama.live.set(Object.fromEntries(pairs));
         }, shares));
         const there = JSON.parse(run(await page.locator("#live-command").textContent(), "--json", "--out", out)).measures;
         for (const [name, value] of Object.entries(await values(page))) {
@@ -68,6 +68,14 @@ export default ({ openFile, open, place, results, run }) => {
       assert.match(await page.locator("#live-set-gap_over_t").getAttribute("aria-valuetext"), /^[\d.]+ mm$/);
       await page.close();
     }]]),
+    async "a guided needle has its own sliders"() {
+      const page = await explore(SIZES[0]), friction = page.locator("#live-set-needle_friction");
+      assert.equal(await friction.count(), 0);
+      await after(page, () => page.locator("#live-set-needle").selectOption("guided"));
+      assert.equal(await friction.count(), 1);
+      assert.match(await page.locator("#live-command").textContent(), /--set puncture\.needle=guided --set puncture\.needle_friction=/);
+      await page.close();
+    },
     async "what is typed, pressed and dragged is solved, and what cannot be read is not"() {
       const page = await explore(SIZES[0]), gap = () => page.evaluate(() => squama.live.value("gap_over_t") * squama.live.value("thickness_mm"));
       const field = page.locator(".control", { hasText: "Gap" }).locator("input[type=text]");
@@ -126,7 +134,7 @@ export default ({ openFile, open, place, results, run }) => {
       await page.close();
     },
     async "the pages are small enough to be sent"() {
-      assert.ok(statSync(join(place, "explore.html")).size < 700_000, String(statSync(join(place, "explore.html")).size));
+      assert.ok(statSync(join(place, "explore.html")).size < 800_000, String(statSync(join(place, "explore.html")).size));
       assert.ok(statSync(join(results, "report.html")).size < 2_000_000);
     },
   };

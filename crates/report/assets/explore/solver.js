@@ -6,7 +6,7 @@ squama.solver = (() => {
   const REST = 160;
   // So long a question that nobody waits for any more may go on, ms: a new thread starts in less than a slow question takes.
   const GRACE = 60;
-  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving, id = 0;
+  let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, id = 0;
 
   const bytes = () => {
     const packed = Uint8Array.from(atob(squama.at("live-module").textContent), (character) => character.charCodeAt(0));
@@ -15,7 +15,7 @@ squama.solver = (() => {
 
   const start = () => {
     worker?.terminate();
-    [ready, asked] = [false, null];
+    [ready, asked, giving] = [false, null, null];
     const url = URL.createObjectURL(new Blob([squama.at("live-worker").textContent], { type: "text/javascript" }));
     worker = new Worker(url);
     URL.revokeObjectURL(url);
@@ -26,6 +26,7 @@ squama.solver = (() => {
 
   const take = (answer) => {
     clearTimeout(giving);
+    giving = null;
     const question = asked;
     asked = null;
     if (answer.trapped) start();
@@ -43,7 +44,7 @@ squama.solver = (() => {
   const ask = (request, more = {}) => {
     id += 1;
     waiting = { request: { ...request, ...more, id }, fine: Boolean(more.fine || more.follow), at: performance.now() };
-    if (asked?.fine) giving = setTimeout(start, GRACE);
+    if (asked?.fine) giving ??= setTimeout(start, GRACE);
     next();
   };
 
