@@ -1,0 +1,93 @@
+//! The table against boundary elements at places of its own, between the nodes of the polynomials.
+
+use substrate::boundary_element::row_reactions;
+use substrate::table::{GAPS, WIDTHS};
+use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
+
+/// Footprints all over the range, by the multiples of three irrational numbers.
+fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
+    (1..=count).map(|k| {
+        let part = |step: f64| (k as f64 * step).fract();
+        let within = |[low, high]: [f64; 2], part: f64| low * (high / low).powf(part);
+        let gap = within(GAPS, part(5_f64.sqrt()));
+        let width = within(WIDTHS, part(2_f64.sqrt()));
+        // Incompressible is what most rows are.
+        let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * part(3_f64.sqrt()) };
+        Footprint::new(gap, width, ratio).unwrap()
+    })
+}
+
+/// The numbers of a row on three meshes, extrapolated twice.
+fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
+    let on = |n| row_reactions(footprint, neighbours, n).unwrap().numbers();
+    let limit = |[coarse, fine]: [&[f64]; 2], finer: f64, order: i32| -> Vec<f64> {
+        let share = 1.0 / (finer.powi(order) - 1.0);
+        coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+    };
+    let [coarse, medium, fine] = cells.map(on);
+    let finer = [1, 2].map(|k| cells[k] as f64 / cells[k - 1] as f64);
+    let check = limit([&coarse, &medium], finer[0], 3);
+    let best = limit([&medium, &fine], finer[1], 3);
+    limit([&check, &best], finer[1], 4)
+}
+
+#[test]
+fn springs_are_those_of_fine_meshes() {
+    for footprint in footprints(12) {
+        let springs = calibrate(&footprint).unwrap();
+        let exact = solved(&footprint, 1, [10, 14, 20]);
+        for k in 0..3 {
+            let off = [springs.direct[k] - exact[k], springs.coupling[k] + exact[3 + k]];
+            for off in off.map(|off| (off / exact[k]).abs()) {
+                assert!(off < springs.error, "{off:.1e} in {k} for {footprint:?}");
+            }
+        }
+    }
+}
+
+/// What a long row has more than one of three converges faster than either.
+#[test]
+fn long_rows_add_what_boundary_elements_do() {
+    for footprint in footprints(5) {
+        let row = |coupling| RowStiffness::of(&footprint, coupling).unwrap();
+        let (long, short) = (row(Coupling::Full), row(Coupling::Nearest));
+        let exact = [NEIGHBOURS, 1].map(|count| solved(&footprint, count, [4, 6, 8]));
+        let size = (short.direct[1] * short.direct[2]).sqrt();
+        let close = |found: f64, exact: f64, size: f64, what: &str| {
+            let off = ((found - exact) / size).abs();
+            assert!(off < long.error, "{off:.1e} in {what} for {footprint:?}");
+        };
+        for k in 0..3 {
+            let added = exact[0][k] - exact[1][k];
+            close(long.direct[k] - short.direct[k], added, short.direct[k], "K_0");
+        }
+        for (j, neighbour) in long.neighbours.iter().enumerate() {
+            let exact =
+                |long: usize, k: usize| exact[long].get(3 + 5 * j + k).copied().unwrap_or(0.0);
+            for k in 0..3 {
+                let before = short.neighbours.get(j).map_or(0.0, |nearest| nearest.direct[k]);
+                let added = exact(0, k) - exact(1, k);
+                close(neighbour.direct[k] - before, added, short.direct[k], "K_j");
+            }
+            let cross = f64::midpoint(exact(0, 3), exact(0, 4));
+            close(neighbour.cross, cross, size, "c");
+        }
+    }
+}
+
+/// The range ends with the table; beyond it boundary elements are solved as before, and tell of a larger error.
+#[test]
+fn at_the_ends_of_the_range_both_agree() {
+    for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
+        let springs =
+            |gap: f64, width: f64| calibrate(&Footprint::new(gap, width, 0.4).unwrap()).unwrap();
+        let within = springs(gap, width);
+        let outwards = |size: f64| size * if size > 1.0 { 1.0 + 1e-9 } else { 1.0 - 1e-9 };
+        let beyond = springs(outwards(gap), outwards(width));
+        assert!(beyond.error > 3.0 * within.error, "{beyond:?}");
+        for k in 0..3 {
+            let off = (within.direct[k] - beyond.direct[k]).abs() / within.direct[k];
+            assert!(off < 3e-4 && off < beyond.error, "{off} {within:?}");
+        }
+    }
+}
