@@ -4,7 +4,7 @@
 //! nice cargo run --release -p substrate --example table -- crates/substrate/src/table.bin
 //! ```
 //!
-//! Some 20 minutes on two cores. The layout is written out in `src/table.rs`.
+//! Four minutes of processor time. The layout is written out in `src/table.rs`.
 
 use std::error::Error;
 use std::f64::consts::PI;

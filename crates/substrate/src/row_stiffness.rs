@@ -67,7 +67,7 @@ impl RowStiffness {
         };
         // The table bounds its error as a whole: it has no meshes to tell by.
         let mut found = Self::from_table(&row, 0);
-        found.error = table::ERROR;
+        found.error = table::error(coupling);
         if coupling == Coupling::Full {
             found.truncation = found.last_coupling();
         }
