@@ -59,12 +59,23 @@ export const start = async ({ place, squama, chromium }) => {
 /** Waits until a page has chosen a design, which is the last thing that it does. */
 export const ready = (page) => page.waitForFunction(() => document.getElementById("detail-title").textContent.startsWith("Design"));
 
+/** Scrolls to a chart, and waits until it is drawn. */
+export const shown = async (page, id) => {
+  await page.locator(`#chart-${id}`).scrollIntoViewIfNeeded();
+  await page.waitForFunction((own) => { const chart = squama.charts.find((one) => one.id === own); return !chart.stale && chart.svg; }, id);
+};
+
 /** Where the marks of a chart stand in the window, with their rows; the chart is scrolled to. */
 export const spots = async (page, id) => {
-  await page.locator(`#chart-${id}`).scrollIntoViewIfNeeded();
-  await page.waitForFunction((own) => !squama.charts.find((chart) => chart.id === own).stale, id);
+  await shown(page, id);
   return page.evaluate((own) => {
-    const { spots, canvas } = squama.charts.find((chart) => chart.id === own), box = canvas.getBoundingClientRect();
-    return spots.map(({ row, at, silent }) => ({ row, silent, x: box.x + at[0], y: box.y + at[1] }));
+    const { marks, svg } = squama.charts.find((chart) => chart.id === own), box = svg.getBoundingClientRect(), view = svg.viewBox.baseVal, scale = box.width / view.width;
+    return marks.map(({ row, x, y, silent, element }) => ({ row, silent, x: box.x + scale * x, y: box.y + scale * (y - view.y), look: `${element.getAttribute("color")} ${element.getAttribute("href")}` }));
   }, id);
+};
+
+/** The texts of a chart, and the data of its lines. */
+export const drawn = async (page, id, selector = "text") => {
+  await shown(page, id);
+  return page.locator(`#chart-${id} svg ${selector}`).evaluateAll((all) => all.map((one) => one.getAttribute("d") ?? one.textContent));
 };

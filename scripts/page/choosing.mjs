@@ -1,6 +1,6 @@
 // Requirements, criteria, weights, the ranking that they make, and the address that holds them.
 import assert from "node:assert/strict";
-import { ready, table } from "./browser.mjs";
+import { ready, shown, spots, table } from "./browser.mjs";
 
 export default ({ page, text, texts, run, results, open }) => {
   const slide = (key, value) => page.locator(`#weight-${key}`).fill(String(value));
@@ -54,8 +54,14 @@ export default ({ page, text, texts, run, results, open }) => {
       assert.match(await command(), /--require 'coverage >= 0\.6'/);
       await page.waitForTimeout(300);
       assert.ok((await texts("#tetrahedron-legend button")).every((label) => own.has(label.slice(0, 4))));
-      const colored = await page.evaluate(() => squama.charts[0].make(900).panels.flatMap(({ marks }) => marks.filter(({ silent }) => !silent).map(({ row }) => squama.number(row))));
+      const marks = (await spots(page, "critical-force")).filter(({ silent }) => !silent);
+      const colored = await page.evaluate((rows) => rows.map(squama.number), marks.map(({ row }) => row));
       assert.deepEqual(new Set(colored), own);
+      // The fronts are those of the designs that are left.
+      await shown(page, "pareto");
+      const front = await page.locator('#chart-pareto [data-criteria="coverage critical_force"] use:not([href="#dot"])').evaluateAll((all) => all.map((one) => one.dataset.design));
+      const beaten = (one) => rows.some((other) => ["coverage", "critical_force"].every((name) => Number(other[name]) >= Number(one[name])) && ["coverage", "critical_force"].some((name) => Number(other[name]) > Number(one[name])));
+      assert.deepEqual(front.sort(), rows.filter((row) => row.compliance !== "" && row.penetration !== "" && !beaten(row)).map((row) => row.design).sort());
     },
 
     async "requirements that none meets: the nearest design, and what stands in the way"() {

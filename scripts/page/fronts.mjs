@@ -9,9 +9,16 @@ export default ({ open, page, place, folders }) => ({
     const marks = await spots(own, "front");
     assert.equal(marks.filter(({ row }) => row === null).length, front.length);
     assert.equal(new Set(marks.filter(({ row }) => row !== null).map(({ row }) => row)).size, grid.length);
-    const { points } = await own.evaluate(() => squama.charts.find(({ id }) => id === "front").make(900).panels[0].lines[0]);
-    const expected = front.map((one) => [Number(one.coverage), Number(one.gap_over_t)]).sort((a, b) => a[0] - b[0]);
-    assert.deepEqual(points, expected);
+    const line = (await own.locator("#chart-front .found .line").getAttribute("d")).split(/[ML] ?/).filter(Boolean).map((part) => part.trim().split(" ").map(Number));
+    const diamonds = await own.locator("#chart-front [data-front]").evaluateAll((all) => all.map((one) => [Number(one.dataset.front), Number(one.getAttribute("x")), Number(one.getAttribute("y"))]));
+    assert.deepEqual(line, diamonds.map(([, x, y]) => [x, y]));
+    // From the least coverage to the largest, each where its values are.
+    assert.deepEqual(diamonds.map(([k]) => k), front.map((one, k) => [k, Number(one.coverage)]).sort((a, b) => a[1] - b[1]).map(([k]) => k));
+    const slope = (name, at) => { const [a, b] = [diamonds[0], diamonds.at(-1)]; return (b[at] - a[at]) / (Number(front[b[0]][name]) - Number(front[a[0]][name])); };
+    for (const [k, x, y] of diamonds) {
+      assert.ok(Math.abs(x - diamonds[0][1] - slope("coverage", 1) * (front[k].coverage - front[diamonds[0][0]].coverage)) < 0.1);
+      assert.ok(Math.abs(y - diamonds[0][2] - slope("gap_over_t", 2) * (front[k].gap_over_t - front[diamonds[0][0]].gap_over_t)) < 0.1);
+    }
     // Steeper designs than the bound of the search, and folded ones, are pale, and no part of the comparison.
     const allowed = grid.filter((one) => Number(one.slant_deg) <= 60 && !one.fold_force);
     const beaten = allowed.filter((one) => front.some((other) => {
@@ -28,7 +35,7 @@ export default ({ open, page, place, folders }) => ({
     const chosen = await own.locator("#detail-title").textContent();
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);
-    assert.match(await own.locator("#tip").textContent(), /^Front 1: .*Held by /);
+    assert.match(await own.locator("#tip").textContent(), /^Front \d+: .*Held by /);
     await own.mouse.click(diamond.x, diamond.y);
     assert.equal(await own.locator("#detail-title").textContent(), chosen);
     const far = marks.find(({ row, x, y }) => row !== null && marks.every((other) => other.row !== null || Math.hypot(other.x - x, other.y - y) > 20));

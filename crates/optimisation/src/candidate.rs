@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use results::DesignResult;
 
-use crate::judge::Judgement;
 use crate::space::SpacePoint;
+use crate::worth::Judgement;
 
 /// The stage of a search in which a design was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +19,8 @@ pub enum SearchStage {
     Ridge,
     /// A step of the search without derivatives.
     Polish,
-    /// A best design as it is drawn, of which skins are made.
-    Skins,
+    /// The first look at the samples of a nominal design.
+    Tolerance,
 }
 
 impl SearchStage {
@@ -31,7 +31,7 @@ impl SearchStage {
             Self::Gradient => "gradient",
             Self::Ridge => "ridge",
             Self::Polish => "polish",
-            Self::Skins => "skins",
+            Self::Tolerance => "tolerance",
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Evaluations of points and of skins made of their designs: each solved once, and kept in a journal.
+//! Evaluations of points and of samples of their designs: each solved once, and kept in a journal.
 
 mod journal;
 
@@ -15,11 +15,11 @@ use tolerance::Sampler;
 
 use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
-use crate::made::{MadeJudge, Skins};
+use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, SpacePoint};
 use journal::{EvaluationJournal, JournalLine, SkinsLine, SolvedLine};
 
-/// Skins that no search sees: those that `squama tolerance` makes have numbers from 1 on, and are a test of what a search has chosen.
+/// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
 const BEFORE: u64 = 1 << 32;
 
 /// Why no more is evaluated.
@@ -35,8 +35,8 @@ pub(crate) enum Halt {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct EvaluationKey {
     differentiated: bool,
-    /// The number of the skin whose batch it is; `None` of the design as it is drawn.
-    skin: Option<u64>,
+    /// The number of the sample whose batch it is; `None` of the nominal design.
+    sample: Option<u64>,
     point: PointKey,
 }
 
@@ -47,8 +47,8 @@ struct PointKey {
     chosen: Vec<usize>,
 }
 
-/// A point, and the first and the count of its skins.
-type SkinsKey = (PointKey, u64, usize);
+/// A point, and the first and the count of its samples.
+type SamplesKey = (PointKey, u64, usize);
 
 impl PointKey {
     fn of(point: &SpacePoint) -> Self {
@@ -64,7 +64,7 @@ pub(crate) struct Evaluations<'a> {
     differentiating: Evaluator,
     sampler: Sampler,
     known: Mutex<HashMap<EvaluationKey, Arc<DesignResult>>>,
-    made: Mutex<HashMap<SkinsKey, Arc<Skins>>>,
+    sampled: Mutex<HashMap<SamplesKey, Arc<Samples>>>,
     journal: Mutex<EvaluationJournal>,
     stop: &'a AtomicBool,
 }
@@ -89,7 +89,7 @@ impl<'a> Evaluations<'a> {
             differentiating: Evaluator::new(&all),
             sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
             known: Mutex::default(),
-            made: Mutex::default(),
+            sampled: Mutex::default(),
             journal: Mutex::new(journal),
             stop,
         };
@@ -103,14 +103,14 @@ impl<'a> Evaluations<'a> {
     fn recall(&mut self, line: JournalLine) {
         match line {
             JournalLine::Solved(line) => {
-                let SolvedLine { differentiated, skin, shares, chosen, result } = *line;
+                let SolvedLine { differentiated, skin: sample, shares, chosen, result } = *line;
                 let point = PointKey::of(&SpacePoint { shares, chosen });
-                let key = EvaluationKey { differentiated, skin, point };
+                let key = EvaluationKey { differentiated, sample, point };
                 lock(&self.known).insert(key, Arc::new(result));
             }
             JournalLine::Skins(SkinsLine { first, shares, chosen, values }) => {
                 let key = (PointKey::of(&SpacePoint { shares, chosen }), first, values.len());
-                lock(&self.made).insert(key, Arc::new(Skins(values)));
+                lock(&self.sampled).insert(key, Arc::new(Samples(values)));
             }
         }
     }
@@ -138,22 +138,22 @@ impl<'a> Evaluations<'a> {
         self.known_or(point, differentiated, None, &self.space.case(point), evaluator)
     }
 
-    /// As [`Self::solve`] with derivatives, of the skin of that number that is made of the design, but for its scatter from scale
-    /// to scale; `None` if there is no such skin.
-    pub fn even_skin(
+    /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no
+    /// such sample.
+    pub fn even_sample(
         &self,
         point: &SpacePoint,
-        skin: u64,
+        sample: u64,
     ) -> Result<Option<Arc<DesignResult>>, Halt> {
-        let case = self.even_case(&self.space.case(point), skin);
+        let case = self.even_case(&self.space.case(point), sample);
         let solved =
-            case.map(|case| self.known_or(point, true, Some(skin), &case, &self.differentiating));
+            case.map(|case| self.known_or(point, true, Some(sample), &case, &self.differentiating));
         solved.transpose()
     }
 
-    /// The case of the skin of that number that is made of the design of `drawn`, but for its scatter from scale to scale.
-    pub fn even_case(&self, drawn: &Case, skin: u64) -> Option<Case> {
-        self.sampler.even_case(drawn, BEFORE + skin)
+    /// The case of the sample of that number of the design of `nominal`, but for its scatter from scale to scale.
+    pub fn even_case(&self, nominal: &Case, sample: u64) -> Option<Case> {
+        self.sampler.even_case(nominal, BEFORE + sample)
     }
 
     /// The result of a case that belongs to a point, solved if it is not known.
@@ -161,60 +161,59 @@ impl<'a> Evaluations<'a> {
         &self,
         point: &SpacePoint,
         differentiated: bool,
-        skin: Option<u64>,
+        sample: Option<u64>,
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
-        let key = EvaluationKey { differentiated, skin, point: PointKey::of(point) };
+        let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = lock(&self.known).get(&key) {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
         let mut result = evaluator.solve(self.number(0), case).row.result;
-        // Where material varies, a skin with another thickness or modulus moves in other parameters, too.
+        // Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        let moves_more = skin.is_some() && has_material;
+        let moves_more = sample.is_some() && has_material;
         result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let line = SolvedLine { differentiated, skin, shares, chosen, result };
+        let line = SolvedLine { differentiated, skin: sample, shares, chosen, result };
         lock(&self.journal).append(&line).map_err(Halt::Output)?;
         let result = Arc::new(line.result);
         lock(&self.known).insert(key, Arc::clone(&result));
         Ok(result)
     }
 
-    /// The values by which `made` judges `count` skins of the design at `point`, from number `first` on, solved in parallel.
+    /// The values by which `judge` judges `count` samples of the design at `point`, from number `first` on, solved in parallel.
     ///
     /// # Errors
     /// As [`Self::solve`].
-    pub fn skins(
+    pub fn samples(
         &self,
         point: &SpacePoint,
         first: u64,
         count: usize,
-        made: &MadeJudge,
-    ) -> Result<Arc<Skins>, Halt> {
+        judge: &SampleJudge,
+    ) -> Result<Arc<Samples>, Halt> {
         let key = (PointKey::of(point), first, count);
-        if let Some(known) = lock(&self.made).get(&key) {
+        if let Some(known) = lock(&self.sampled).get(&key) {
             return Ok(Arc::clone(known));
         }
         let (case, last) = (self.space.case(point), first + count as u64);
-        let none = vec![None; made.bounds.len() + made.columns.len()];
-        let values = (first..last).into_par_iter().map(|skin| {
+        let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
-            let skin = self.sampler.solve(self.number(0), &case, BEFORE + skin);
-            Ok(skin.map_or_else(|| none.clone(), |skin| made.values(&skin.row)))
+            let sampled = self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
         let SpacePoint { shares, chosen } = point.clone();
         let line = SkinsLine { first, shares, chosen, values };
         lock(&self.journal).append(&line).map_err(Halt::Output)?;
-        let skins = Arc::new(Skins(line.values));
-        lock(&self.made).insert(key, Arc::clone(&skins));
-        Ok(skins)
+        let samples = Arc::new(Samples(line.values));
+        lock(&self.sampled).insert(key, Arc::clone(&samples));
+        Ok(samples)
     }
 
     /// Refuses to go on once the process is asked to end.
@@ -227,10 +226,10 @@ impl<'a> Evaluations<'a> {
         lock(&self.journal).sync()
     }
 
-    /// The number of points that were solved, in this session and before, and of skins.
+    /// The number of points that were solved, in this session and before, and of samples.
     pub fn count(&self) -> usize {
-        let skins: usize = lock(&self.made).values().map(|skins| skins.0.len()).sum();
-        lock(&self.known).len() + skins
+        let samples: usize = lock(&self.sampled).values().map(|samples| samples.0.len()).sum();
+        lock(&self.known).len() + samples
     }
 }
 

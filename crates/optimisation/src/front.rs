@@ -1,13 +1,14 @@
 //! The front of several objectives: one is made as large as can be while the others keep floors, from one end of the front to the other.
 
+use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
+use crate::best::{BestDesign, best_design};
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
-use crate::judge::Judgement;
 use crate::local::{Effort, Search};
 use crate::meter::SearchPart;
-use crate::search::{BestDesign, best_design};
+use crate::worth::Judgement;
 
 /// Rounds in which points that came to nothing are put elsewhere, at most.
 const REFILLS: usize = 2;
@@ -145,11 +146,6 @@ fn turned(search: &Search<'_>, candidate: &Candidate) -> Option<Vec<f64>> {
     let Judgement::Judged(worth) = &candidate.verdict else { return None };
     let turned = worth.objectives.iter().enumerate().map(|(k, x)| search.judge.sign(k) * x);
     worth.met.then(|| turned.collect())
-}
-
-fn dominates(one: &[f64], other: &[f64]) -> bool {
-    let pairs = || one.iter().zip(other);
-    pairs().all(|(a, b)| a >= b) && pairs().any(|(a, b)| a > b)
 }
 
 /// The targets of a front: its ends, and floors between them.

@@ -1,22 +1,18 @@
 //! The goal of an optimisation as it is written: variables, objectives, requirements.
 
 mod fitness_section;
-mod quantities;
 mod reader;
+mod refusal;
 mod section;
+mod statistics;
 
-use std::fmt::Write as _;
-use std::path::Path;
+use ranking::{Criterion, FitnessGoal, Requirement, Worth};
 
-use ranking::{Criterion, Requirement};
-use sweep::toml_source::{KeyValues, Value};
-use sweep::{InvalidDefinition, Setting, entries, read_entries};
-
-use crate::fitness::FitnessGoal;
 use crate::space::DesignSpace;
+use crate::statistic::Statistic;
 
-/// Objectives of a goal, at most.
-pub(crate) const MOST_OBJECTIVES: usize = 4;
+/// Times as many samples as of any design are taken of those near the best.
+const MORE: usize = 5;
 
 /// The goal of an optimisation: the space in which designs are searched, and what is good there.
 #[derive(Clone, Debug)]
@@ -35,34 +31,14 @@ pub struct DesignGoal {
     pub samples: usize,
     /// The number of points of a front.
     pub points: usize,
-    /// The number of skins that are made of each design, if the goal is about them.
-    pub skins: usize,
+    /// The number of samples of each design, `skins` in the file, if the goal is about them.
+    pub realisations: usize,
     /// The seed of the points that fill the space.
     pub seed: u64,
     text: String,
 }
 
 impl DesignGoal {
-    /// The goal in the file at `path` once `settings` are put in its place.
-    ///
-    /// # Errors
-    /// If the file cannot be read or holds no goal; all that is wrong with it is told at once.
-    pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
-    }
-
-    /// The goal that `text`, from the file `name`, holds once `settings` are put in its place.
-    ///
-    /// # Errors
-    /// If the text holds no goal.
-    pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        Self::of_entries(&entries(text, name, settings)?, name)
-    }
-
-    fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
-        reader::read(entries, name, to_toml(entries))
-    }
-
     /// The name of the goal, which is also that of the folder of its results.
     pub fn name(&self) -> &str {
         self.space.sweep().name()
@@ -72,23 +48,52 @@ impl DesignGoal {
     pub fn to_toml(&self) -> &str {
         &self.text
     }
-}
 
-/// Keys and values as TOML again.
-fn to_toml(entries: &KeyValues) -> String {
-    let (tables, values): (Vec<_>, Vec<_>) =
-        entries.iter().partition(|entry| matches!(entry.value, Value::Table(_)));
-    let mut text = String::new();
-    // Writing to a string cannot fail.
-    for entry in values {
-        let _ = writeln!(text, "{} = {}", entry.key, entry.value);
+    /// The columns of the objectives, then of the requirements, each with the value of a design.
+    pub fn values<'a>(&'a self, worth: &'a Worth) -> impl Iterator<Item = (&'a str, f64)> {
+        let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
+        let columns = objectives.chain(self.requirements.iter().map(|r| r.column.as_str()));
+        columns.zip(worth.objectives.iter().chain(&worth.required).copied())
     }
-    for entry in tables {
-        let Value::Table(inner) = &entry.value else { continue };
-        let _ = writeln!(text, "\n[{}]", entry.key);
-        for entry in inner {
-            let _ = writeln!(text, "{} = {}", entry.key, entry.value);
+
+    /// The statistic over samples that a column of this goal stands for; `None` of a column of `designs.csv` or the fitness.
+    pub fn statistic(&self, column: &str) -> Option<Statistic> {
+        let sweep = self.space.sweep();
+        let has_samples = !sweep.deviations().is_empty() && !sweep.is_imperfect();
+        Statistic::named(column).filter(|_| has_samples)
+    }
+
+    /// Whether the goal is about samples, not only about nominal designs.
+    pub fn is_about_samples(&self) -> bool {
+        let objectives = self.objectives.iter().map(|objective| objective.column.as_ref());
+        let required = self.requirements.iter().map(|requirement| requirement.column.as_str());
+        objectives.chain(required).any(|column| self.statistic(column).is_some())
+    }
+
+    /// The goal for nominal designs, that the search begins with: quantiles are those columns themselves, a yield as an objective is left
+    /// for the margin, and a yield that is required for nothing.
+    #[must_use]
+    pub fn nominal(&self) -> Self {
+        let mut goal = self.clone();
+        for objective in &mut goal.objectives {
+            match self.statistic(&objective.column) {
+                Some(Statistic::Quantile { column, .. }) => objective.column = column.into(),
+                Some(Statistic::Yield) => objective.column = Statistic::MARGIN.into(),
+                None => {}
+            }
         }
+        goal.requirements.retain(|r| self.statistic(&r.column) != Some(Statistic::Yield));
+        for requirement in &mut goal.requirements {
+            if let Some(Statistic::Quantile { column, .. }) = self.statistic(&requirement.column) {
+                requirement.column = column;
+            }
+        }
+        goal
     }
-    text
+
+    /// The goal with more samples of each design.
+    #[must_use]
+    pub(crate) fn finer(&self) -> Self {
+        Self { realisations: MORE * self.realisations, ..self.clone() }
+    }
 }

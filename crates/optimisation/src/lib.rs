@@ -18,9 +18,8 @@
 //! |---|---|
 //! | [`DesignGoal`] | variables, objectives, requirements, as they are written |
 //! | [`DesignSpace`], [`Interval`], [`Choice`], [`SpacePoint`] | the space of the variables, and the cases of its points |
-//! | [`FitnessGoal`], [`CriterionEnds`] | the paper's fitness as an objective |
-//! | [`Judge`], [`Judgement`], [`Worth`], [`DrawnWorth`] | what a design is worth by the goal |
-//! | [`MadeQuantity`], [`MadeReport`], [`MadeEstimate`] | a quantile or yield over what is made, and its test with other skins |
+//! | [`Judge`], [`Judgement`], [`NominalWorth`] | what a design is worth by the goal |
+//! | [`Statistic`], [`Confirmation`], [`Estimate`] | a quantile or yield over samples, and its test with other samples |
 //! | [`optimise`], [`SearchOptions`] | the search |
 //! | [`SearchMeter`], [`SearchPart`] | how far it is |
 //! | [`Found`], [`Answer`], [`BestDesign`], [`Front`], [`LeftOutDesigns`] | what it found |
@@ -50,39 +49,47 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod answer;
+mod best;
 mod candidate;
+mod column;
 mod error;
 mod evaluations;
-mod fitness;
+mod fill;
 mod front;
 mod goal;
 mod judge;
 mod local;
 mod looked;
-mod made;
+mod margin;
 mod meter;
-mod number_column;
 mod price;
 mod sample;
+mod sampled;
 mod search;
 mod slopes;
 mod space;
+mod statistic;
 mod tables;
 mod words;
+mod worth;
 
+pub use answer::Answer;
+pub use best::BestDesign;
 pub use candidate::{Candidate, SearchStage, Target};
 pub use error::OptimisationError;
-pub use fitness::{CriterionEnds, FitnessGoal};
 pub use front::Front;
 pub use goal::DesignGoal;
-pub use judge::{DrawnWorth, Judge, Judgement, Worth};
-pub use made::{MadeEstimate, MadeQuantity, MadeReport};
+pub use judge::Judge;
 pub use meter::{SearchMeter, SearchPart};
 pub use price::{Binding, Limit};
-pub use search::{Answer, BestDesign, Found, LeftOutDesigns, SearchOptions, optimise};
+pub use sampled::confirmation::{Confirmation, Estimate};
+pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
+pub use statistic::Statistic;
 pub use tables::{
     FRONT, GOAL, HISTORY, OPTIMUM, OPTIMUM_DEFINITION, history_columns, optimum_columns,
     write_found,
 };
 pub use words::Words;
+pub use worth::{Judgement, NominalWorth};

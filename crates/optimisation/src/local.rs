@@ -7,6 +7,7 @@ mod polish;
 mod problem;
 mod ridge;
 mod room;
+mod samples;
 
 use std::cell::RefCell;
 
@@ -14,10 +15,12 @@ pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
-use crate::judge::{Judge, Judgement};
+use crate::judge::Judge;
 use crate::looked::LookedRow;
 use crate::meter::SearchMeter;
 use crate::space::{DesignSpace, SpacePoint};
+use crate::worth::Judgement;
+use samples::SampledPoint;
 
 /// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
@@ -34,10 +37,10 @@ struct Fineness {
 }
 
 impl Fineness {
-    /// Among designs as they are drawn.
-    const DRAWN: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
-    /// Among designs of which skins are made, whose number leaves quantiles and yields uncertain by per cents.
-    const SKINS: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
+    /// Among nominal designs.
+    const NOMINAL: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
+    /// Among sampled designs, whose number of samples leaves quantiles and yields uncertain by per cents.
+    const SAMPLED: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
 }
 
 /// The parts that all searches share: the space, its evaluations, the judge.
@@ -69,8 +72,8 @@ impl Effort {
     /// From a design that is nearly the best.
     pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
 
-    /// As much as it may take where each design costs as many solutions as skins are made of it.
-    fn on_skins(self) -> Self {
+    /// As much as it may take where each design costs as many solutions as it has samples.
+    fn on_samples(self) -> Self {
         Self { rounds: self.rounds.min(2), ridge: self.ridge / 2, polish: self.polish / 2, ..self }
     }
 }
@@ -83,20 +86,22 @@ impl Search<'_> {
         point: &SpacePoint,
         differentiated: bool,
     ) -> Result<(Candidate, LookedRow), Halt> {
-        let result = self.evaluations.solve(point, differentiated)?;
-        let drawn = self.evaluations.row(0, point, &result);
-        let skins = match self.judge.made().filter(|made| made.admits(&drawn)) {
-            Some(made) => Some(self.evaluations.skins(point, 1, made.skins, made)?),
-            None => None,
-        };
-        let verdict = self.judge.verdict_with(&drawn, skins.as_deref());
-        let made = match skins.filter(|_| differentiated) {
-            Some(skins) => self.made_slopes(point, &skins)?,
-            None => Vec::new(),
+        let Self { space, evaluations, .. } = *self;
+        let result = evaluations.solve(point, differentiated)?;
+        let nominal = evaluations.row(0, point, &result);
+        let judge = self.judge.samples().filter(|judge| judge.admits(&nominal));
+        let samples = judge.map(|judge| evaluations.samples(point, 1, judge.count, judge));
+        let samples = samples.transpose()?;
+        let verdict = self.judge.verdict_with(&nominal, samples.as_deref());
+        let statistics = match (judge, &samples) {
+            (Some(judge), Some(samples)) if differentiated => {
+                SampledPoint { space, evaluations, judge, point, samples }.slopes(self.judge)?
+            }
+            _ => Vec::new(),
         };
         self.meter.look();
         let candidate = Candidate { stage, point: point.clone(), result, verdict };
-        Ok((candidate, LookedRow { drawn, made }))
+        Ok((candidate, LookedRow { nominal, statistics }))
     }
 
     /// The merit of a design under a target.
@@ -111,11 +116,11 @@ impl Search<'_> {
                 self.judge.sign(target.objective) * worth.compared[target.objective],
             );
         }
-        Merit::Short(worth.excess.iter().copied().fold(floors, f64::max).max(f64::MIN_POSITIVE))
+        Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
     fn fineness(&self) -> Fineness {
-        if self.judge.made().is_some() { Fineness::SKINS } else { Fineness::DRAWN }
+        if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
 
     /// The best of some designs under a target.
@@ -144,7 +149,7 @@ impl Search<'_> {
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
-        let effort = if self.judge.made().is_some() { effort.on_skins() } else { effort };
+        let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
         walk.climb()?;
         for _ in 0..effort.rounds {

@@ -1,25 +1,41 @@
-//! The row of a design that was looked at, with the derivatives of what is made of it.
+//! The row of a design that was looked at, with the derivatives of statistics over its samples.
 
 use results::DesignRow;
 use sweep::Parameter;
 
-use crate::made::{MadeSlope, Stake};
 use crate::slopes::Slopes;
+
+/// What a goal uses a statistic for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// An objective, by its index.
+    Objective(usize),
+    /// A requirement, by its index.
+    Requirement(usize),
+}
+
+/// The derivatives of a statistic with respect to a parameter of the design.
+#[derive(Clone, Debug)]
+pub(crate) struct StatisticSlopes {
+    pub of: Use,
+    pub parameter: &'static str,
+    pub slopes: Slopes,
+}
 
 /// The row of a design that was looked at.
 #[derive(Clone, Debug)]
 pub(crate) struct LookedRow {
-    /// The design as it is drawn.
-    pub drawn: DesignRow,
-    /// Derivatives of quantities over the skins that are made of it.
-    pub made: Vec<MadeSlope>,
+    /// The nominal design.
+    pub nominal: DesignRow,
+    /// Derivatives of statistics over its samples.
+    pub statistics: Vec<StatisticSlopes>,
 }
 
 impl LookedRow {
-    /// The derivatives of a quantity over skins; none if they are not known.
-    pub fn made_slopes(&self, stake: Stake, parameter: &Parameter) -> Slopes {
-        let is_it = |slope: &&MadeSlope| slope.stake == stake && slope.parameter == parameter.key;
-        let none = Slopes { left: None, right: None };
-        self.made.iter().find(is_it).map_or(none, |slope| slope.slopes)
+    /// The derivatives of a statistic; none if they are not known.
+    pub fn statistic_slopes(&self, of: Use, parameter: &Parameter) -> Slopes {
+        let mut known = self.statistics.iter();
+        let known = known.find(|known| known.of == of && known.parameter == parameter.key);
+        known.map_or(Slopes::UNKNOWN, |known| known.slopes)
     }
 }

@@ -15,11 +15,11 @@ pub enum SearchPart {
     Finish,
     /// The points of a front.
     Front,
-    /// The first skins of the best designs as they are drawn.
-    Skins,
-    /// More skins of designs near the best.
+    /// The first samples of the best nominal designs.
+    Samples,
+    /// More samples of designs near the best.
     Refine,
-    /// Other skins of the best designs.
+    /// Other samples of the best designs.
     Check,
 }
 
@@ -39,9 +39,9 @@ impl SearchPart {
             Self::Climb => "climbing from the best",
             Self::Finish => "finishing",
             Self::Front => "points of the front",
-            Self::Skins => "first skins",
-            Self::Refine => "near the best with more skins",
-            Self::Check => "checking with other skins",
+            Self::Samples => "first samples",
+            Self::Refine => "near the best with more samples",
+            Self::Check => "checking with other samples",
         }
     }
 }

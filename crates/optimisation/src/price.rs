@@ -12,16 +12,16 @@ use sweep::Parameter;
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::judge::{Judgement, size};
 use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
-use crate::looked::LookedRow;
+use crate::looked::{LookedRow, Use};
 use crate::slopes::Slopes;
+use crate::worth::Judgement;
 
 /// A limit binds that is this near, relative to its size.
 const NEAR: f64 = 1e-5;
 
-/// As [`NEAR`], of a limit of what is made: a search among skins ends sooner.
-const NEAR_SKINS: f64 = 1e-3;
+/// As [`NEAR`], of a statistic: a search among samples ends sooner.
+const NEAR_SAMPLES: f64 = 1e-3;
 
 /// The part of the gradient that multipliers may leave unbalanced.
 const BALANCED: f64 = 1e-3;
@@ -65,8 +65,7 @@ pub(crate) fn bindings(
     let prices =
         prices.map_or_else(|| vec![None; limits.len()], |p| p.into_iter().map(Some).collect());
     // What a step of a yield costs, no derivative tells.
-    let is_yield =
-        |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(k));
+    let is_yield = |limit: &Limit| matches!(*limit, Limit::Requirement(k) if search.judge.is_yield(Use::Requirement(k)));
     let bindings = limits.into_iter().zip(prices);
     let binding = |(limit, price): (Limit, Option<f64>)| Binding {
         price: price.filter(|_| !is_yield(&limit)),
@@ -77,14 +76,13 @@ pub(crate) fn bindings(
 
 fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec<Limit> {
     let Judgement::Judged(worth) = &best.verdict else { return Vec::new() };
-    let requirements = worth.excess.iter().enumerate();
-    let near = |k: usize| if search.judge.is_made(k) { NEAR_SKINS } else { NEAR };
-    let required = requirements.filter(|(k, excess)| **excess > -near(*k));
+    let near = |of| if search.judge.is_statistic(of) { NEAR_SAMPLES } else { NEAR };
+    let requirements = worth.margins.iter().enumerate();
+    let required = requirements.filter(|(k, margin)| **margin < near(Use::Requirement(*k)));
     let mut limits: Vec<Limit> = required.map(|(k, _)| Limit::Requirement(k)).collect();
     for &(k, floor) in &target.floors {
         let turned = search.judge.sign(k) * worth.objectives[k];
-        let near = if search.judge.is_made_objective(k) { NEAR_SKINS } else { NEAR };
-        if turned - floor < near * floor_size(floor) {
+        if turned - floor < near(Use::Objective(k)) * floor_size(floor) {
             limits.push(Limit::Floor(k));
         }
     }
@@ -124,13 +122,13 @@ fn prices(
             Limit::Floor(k) => gradient(&|p| judge.objective_slopes(k, row, p))?,
             Limit::Lower(j) => unit(intervals.len(), j, 1.0),
             Limit::Upper(j) => unit(intervals.len(), j, -1.0),
-            Limit::Touch => gradient(&|p| bending_room_slopes(&row.drawn.case, p))?,
+            Limit::Touch => gradient(&|p| bending_room_slopes(&row.nominal.case, p))?,
         });
     }
     let multipliers = multipliers(&columns, &objective)?;
     let requirements: Vec<_> = judge.requirements().collect();
     let unit = |limit: &Limit| match *limit {
-        Limit::Requirement(k) => size(requirements[k]),
+        Limit::Requirement(k) => requirements[k].size(),
         Limit::Floor(_) | Limit::Touch => 1.0,
         Limit::Lower(j) | Limit::Upper(j) => intervals[j].length(),
     };

@@ -4,26 +4,25 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
+use ranking::CriterionEnds;
 use rayon::iter::{IntoParallelIterator as _, IntoParallelRefIterator as _, ParallelIterator as _};
 use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
-use crate::candidate::{Candidate, Merit, SearchStage, Target};
+use crate::answer::{Answer, Plan, answer};
+use crate::candidate::{Candidate, SearchStage};
+use crate::column::ends_over;
 use crate::error::OptimisationError;
 use crate::evaluations::{Evaluations, Halt};
-use crate::fitness::CriterionEnds;
-use crate::front::{self, Front};
+use crate::fill;
 use crate::goal::DesignGoal;
-use crate::judge::{Judge, Judgement, has_folded};
-use crate::local::{Effort, Search};
-use crate::made::{self, MadeReport, MadeSearches};
+use crate::judge::Judge;
+use crate::local::Search;
+use crate::margin::has_folded;
 use crate::meter::{SearchMeter, SearchPart};
-use crate::price::{Binding, bindings};
-use crate::sample;
+use crate::sampled::search::Searches;
 use crate::space::SpacePoint;
-
-/// A distance between two starts, a share of the intervals, at least.
-const APART: f64 = 0.12;
+use crate::worth::Judgement;
 
 /// How a search is carried out.
 #[derive(Clone, Copy, Debug)]
@@ -51,50 +50,6 @@ pub struct Found {
     pub evaluations: usize,
     /// The ends between which the criteria of the fitness were rescaled.
     pub rescaled: Vec<CriterionEnds>,
-}
-
-/// The answer to a goal.
-#[derive(Clone, Debug)]
-pub enum Answer {
-    /// The best design, of one objective.
-    Optimum(Box<BestDesign>),
-    /// The designs that none beats, of several.
-    Front(Front),
-    /// No design meets the requirements; the index in the history of the nearest, if any can be judged.
-    Infeasible(Option<usize>),
-}
-
-/// A best design.
-#[derive(Clone, Debug)]
-pub struct BestDesign {
-    /// The design.
-    pub candidate: Candidate,
-    /// The design as a row of tables.
-    pub row: DesignRow,
-    /// The target of the search that found it.
-    pub target: Target,
-    /// The limits that keep the design from being better, and what each costs.
-    pub bindings: Vec<Binding>,
-    /// What other skins made of it say, if the goal is about them.
-    pub made: Option<MadeReport>,
-}
-
-/// How much is improved.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Plan {
-    /// Designs that are improved along derivatives for each objective.
-    pub starts: usize,
-    /// Designs that are improved to the end after that.
-    pub finalists: usize,
-    /// Points of a front.
-    pub points: usize,
-}
-
-impl Plan {
-    /// Among designs as they are drawn.
-    pub const DRAWN: Self = Self { starts: 12, finalists: 3, points: 0 };
-    /// Among designs of which skins are made.
-    pub const MADE: Self = Self { starts: 6, finalists: 3, points: 0 };
 }
 
 /// Designs that could not be counted on, by the reason.
@@ -141,20 +96,20 @@ fn find(
     evaluations: &Evaluations<'_>,
     meter: &SearchMeter,
 ) -> Result<Found, Halt> {
-    let points = sample::points(&goal.space, goal.samples, goal.seed);
+    let points = fill::points(&goal.space, goal.samples, goal.seed);
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
-    let [drawn, judge] = [Judge::as_drawn(goal, &rescaled), Judge::rescaling(goal, &rescaled)];
-    let finer = Judge::rescaling(&goal.finer(), &rescaled);
-    let by = |judge| Search { space: &goal.space, evaluations, judge, meter };
-    let (drawn, search, finer) = (by(&drawn), by(&judge), by(&finer));
-    let look = |point| Ok(drawn.look(SearchStage::Sample, &point, false)?.0);
+    let judges =
+        [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
+    let [nominal, search, finer] =
+        judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
+    let look = |point| Ok(nominal.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
-    let answer = if goal.is_about_skins() {
-        let searches = MadeSearches { drawn: &drawn, made: &search, finer: &finer };
-        made::answer(goal, searches, &mut history)?
+    let answer = if goal.is_about_samples() {
+        let searches = Searches { nominal: &nominal, sampled: &search, finer: &finer };
+        searches.answer(goal, &mut history)?
     } else {
-        answer(&search, &mut history, Plan { points: goal.points, ..Plan::DRAWN })?
+        answer(&search, &mut history, Plan { points: goal.points, ..Plan::NOMINAL })?
     };
     let left_out = LeftOutDesigns::of(&search, &history);
     Ok(Found { history, answer, left_out, evaluations: evaluations.count(), rescaled })
@@ -178,101 +133,9 @@ fn sample_rows(
 /// The ends between which the criteria of the fitness are rescaled: from here on the fitness is one function.
 fn ends(goal: &DesignGoal, mut rows: Vec<DesignRow>) -> Vec<CriterionEnds> {
     let Some(fitness) = &goal.fitness else { return Vec::new() };
-    let judge = Judge::as_drawn(goal, &fitness.ends);
+    let judge = Judge::rescaling(&goal.nominal(), &fitness.ends);
     rows.retain(|row| judge.is_whole(row));
-    fitness.ends_over(goal.space.sweep(), &rows)
-}
-
-/// The answer to a goal, from the designs that are known so far.
-pub(crate) fn answer(
-    search: &Search<'_>,
-    history: &mut Vec<Candidate>,
-    plan: Plan,
-) -> Result<Answer, Halt> {
-    let mut targets: Vec<Target> = Vec::new();
-    for objective in 0..search.judge.objectives() {
-        let target = Target { objective, floors: Vec::new() };
-        let first = apart(search, history, &target, plan.starts);
-        search.meter.begin(SearchPart::Climb, first.len());
-        history.extend(improved(search, &target, first, Effort::CLIMB)?);
-        let best = apart(search, history, &target, plan.finalists);
-        search.meter.begin(SearchPart::Finish, best.len());
-        history.extend(improved(search, &target, best, Effort::WHOLE)?);
-        targets.push(target);
-    }
-    let is_feasible = |c: &Candidate| matches!(search.merit(c, &targets[0]), Merit::Met(_));
-    if !history.iter().any(is_feasible) {
-        return Ok(Answer::Infeasible(nearest(search, history, &targets[0])));
-    }
-    if targets.len() == 1 {
-        let best = best_design(search, history, targets.swap_remove(0))?;
-        return Ok(Answer::Optimum(Box::new(best)));
-    }
-    front::search(search, history, plan.points).map(Answer::Front)
-}
-
-/// The best designs for a target that are apart from each other, as starts of local searches.
-pub(crate) fn apart(
-    search: &Search<'_>,
-    history: &[Candidate],
-    target: &Target,
-    count: usize,
-) -> Vec<Candidate> {
-    let mut order: Vec<(Merit, &Candidate)> =
-        history.iter().map(|candidate| (search.merit(candidate, target), candidate)).collect();
-    order.sort_by(|(a, _), (b, _)| b.compare(*a));
-    let mut starts: Vec<Candidate> = Vec::new();
-    for (merit, candidate) in order {
-        if merit == Merit::None || starts.len() == count {
-            break;
-        }
-        if starts.iter().all(|start| distance(start, candidate) >= APART) {
-            starts.push(candidate.clone());
-        }
-    }
-    starts
-}
-
-/// The largest difference between two designs in any interval; infinite if their choices differ.
-fn distance(one: &Candidate, other: &Candidate) -> f64 {
-    if one.point.chosen != other.point.chosen {
-        return f64::INFINITY;
-    }
-    let pairs = one.point.shares.iter().zip(&other.point.shares);
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-/// The candidates that are looked at when the starts are improved, each for itself.
-fn improved(
-    search: &Search<'_>,
-    target: &Target,
-    starts: Vec<Candidate>,
-    effort: Effort,
-) -> Result<Vec<Candidate>, Halt> {
-    let walks = starts.into_par_iter().map(|start| {
-        let walk = search.improve(target, &start, effort);
-        search.meter.step();
-        walk
-    });
-    Ok(walks.collect::<Result<Vec<_>, _>>()?.concat())
-}
-
-/// The index of the design that comes nearest to the requirements.
-fn nearest(search: &Search<'_>, history: &[Candidate], target: &Target) -> Option<usize> {
-    crate::candidate::best(history.iter().map(|candidate| search.merit(candidate, target)))
-}
-
-/// The best of all designs that were looked at, with what keeps it from being better.
-pub(crate) fn best_design(
-    search: &Search<'_>,
-    history: &[Candidate],
-    target: Target,
-) -> Result<BestDesign, Halt> {
-    // Whoever asks knows that there is a design that can be judged.
-    let best = search.best(history.iter(), &target).unwrap_or(&history[0]).clone();
-    let row = search.evaluations.row(0, &best.point, &best.result);
-    let bindings = bindings(search, &best, &target)?;
-    Ok(BestDesign { candidate: best, row, target, bindings, made: None })
+    ends_over(fitness, goal.space.sweep(), &rows)
 }
 
 impl LeftOutDesigns {
@@ -285,11 +148,11 @@ impl LeftOutDesigns {
                     *left_out.missing.entry(column.clone()).or_default() += 1;
                 }
                 Judgement::Folded => left_out.folded += 1,
-                Judgement::Judged(_) | Judgement::Drawn(_) if search.judge.wants_sound() => {
+                Judgement::Judged(_) | Judgement::Nominal(_) if search.judge.wants_sound() => {
                     let row = search.evaluations.row(0, &candidate.point, &candidate.result);
                     left_out.folded += usize::from(has_folded(&row));
                 }
-                Judgement::Judged(_) | Judgement::Drawn(_) => {}
+                Judgement::Judged(_) | Judgement::Nominal(_) => {}
             }
         }
         left_out

@@ -1,5 +1,10 @@
 //! One-sided derivatives of a value.
 
+use results::SlopeSide;
+
+/// Step of the differences along extrapolated rows, relative to the size of the parameter.
+const STEP: f64 = 1e-6;
+
 /// The derivatives of a value on both sides of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slopes {
@@ -8,6 +13,22 @@ pub(crate) struct Slopes {
 }
 
 impl Slopes {
+    /// No derivative is known.
+    pub const UNKNOWN: Self = Self { left: None, right: None };
+
+    /// The value stays as it is.
+    pub const FLAT: Self = Self { left: Some(0.0), right: Some(0.0) };
+
+    /// Those of a value that is known where a parameter of that size differs `by` so much, on each side.
+    pub fn between(size: Option<f64>, at: impl Fn(f64, SlopeSide) -> Option<f64>) -> Self {
+        // Rows are extrapolated along straight lines: a central difference has the rounding of a column's formula alone.
+        let on = |side| {
+            let step = STEP * size?;
+            Some((at(step, side)? - at(-step, side)?) / (2.0 * step))
+        };
+        Self { left: on(SlopeSide::Left), right: on(SlopeSide::Right) }
+    }
+
     /// The derivatives of a multiple.
     pub fn scaled(self, factor: f64) -> Self {
         Self { left: self.left.map(|x| x * factor), right: self.right.map(|x| x * factor) }

@@ -5,13 +5,17 @@ use results::{
     Column, CsvFormat, DesignRow, OutputError, RunFolder, finite, write_rows, write_text,
 };
 
+use crate::answer::Answer;
+use crate::best::BestDesign;
 use crate::candidate::Candidate;
-use crate::fitness::Fitness;
+use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
-use crate::judge::{Judge, Judgement, has_folded};
-use crate::made::MadeQuantity;
-use crate::search::{Answer, BestDesign, Found};
+use crate::judge::Judge;
+use crate::margin::has_folded;
+use crate::search::Found;
+use crate::statistic::Statistic;
 use crate::words::Words;
+use crate::worth::Judgement;
 
 /// The table of the best design.
 pub const OPTIMUM: &str = "optimum.csv";
@@ -24,7 +28,9 @@ pub const HISTORY: &str = "history.csv";
 /// The goal, with what took the place of what was written.
 pub const GOAL: &str = "goal.toml";
 
-/// A row of cells that are made already.
+const FITNESS_MEANING: &str = "weighted geometric mean of the rescaled criteria (Eq. 7), by the weights and scales of the goal, which names it";
+
+/// A row of cells.
 type Cells = Vec<Cell>;
 
 /// The columns of `optimum.csv` and `front.csv` of a goal: those of `designs.csv`, the fitness if the goal names it, then what binds
@@ -46,53 +52,52 @@ pub fn optimum_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         ),
     ];
     let own = own.map(|(name, unit, meaning)| (name.to_owned(), unit, meaning));
-    cells(known.chain(own).chain(made_columns(goal)))
+    cells(known.chain(own).chain(statistic_columns(goal)))
 }
 
-/// The columns of what other skins say of a design, if the goal is about what is made.
-fn made_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
+/// The columns of what other samples say of a design, if the goal is about them.
+fn statistic_columns(goal: &DesignGoal) -> Vec<(String, &'static str, &'static str)> {
     let known = design_columns(goal.space.sweep());
     let mut columns = Vec::new();
-    for (name, quantity) in Judge::new(goal).quantities() {
+    for (name, statistic) in Judge::new(goal).statistics() {
         let unit = unit_of(&known, &name);
         columns.extend([
-            (name.clone(), unit, quantity.meaning()),
+            (name.clone(), unit, statistic.meaning()),
             (format!("{name}_low"), unit, "lower end of its 95 % interval, if there is one"),
             (format!("{name}_high"), unit, "upper end of that interval, if there is one"),
-            (format!("{name}_seen"), unit, "what the search saw, with the skins that it knew"),
+            (format!("{name}_seen"), unit, "what the search saw, with the samples that it knew"),
         ]);
     }
     if !columns.is_empty() {
-        let skins =
-            "skins made of the design, others than the search knew, that these values are of";
-        columns.push(("fresh_skins".to_owned(), "-", skins));
+        let fresh = "samples of the design, others than the search knew, that these values are of";
+        columns.push(("fresh_samples".to_owned(), "-", fresh));
     }
     columns
 }
 
 /// The cells of those columns.
-fn made_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
-    let Some(made) = &best.made else { return Vec::new() };
+fn statistic_cells(goal: &DesignGoal, best: &BestDesign) -> Cells {
+    let Some(confirmation) = &best.confirmation else { return Vec::new() };
     let mut cells: Cells = Vec::new();
-    for (name, _) in Judge::new(goal).quantities() {
-        let of = made.estimate(&name);
+    for (name, _) in Judge::new(goal).statistics() {
+        let of = confirmation.estimate(&name);
         let [low, high] = of.map(|of| of.interval).unwrap_or_default();
         let values = [of.and_then(|of| of.value), low, high, of.and_then(|of| of.seen)];
         cells.extend(values.map(Cell::from));
     }
-    cells.push(made.fresh.into());
+    cells.push(confirmation.fresh.into());
     cells
 }
 
-/// The unit of a quantity over skins: that of the column that it is of.
+/// The unit of a statistic: that of the column that it is of.
 fn unit_of(known: &[Column<DesignRow>], name: &str) -> &'static str {
-    let base = MadeQuantity::base(name);
+    let base = Statistic::base(name);
     known.iter().find(|column| column.name == base).map_or("-", |column| column.unit)
 }
 
 /// The column of the fitness, if the goal names it.
 fn fitness_column(goal: &DesignGoal) -> Option<(String, &'static str, &'static str)> {
-    goal.fitness.is_some().then(|| (Fitness::COLUMN.to_owned(), "-", Fitness::MEANING))
+    goal.fitness.is_some().then(|| (NumberColumn::FITNESS.to_owned(), "-", FITNESS_MEANING))
 }
 
 /// The columns of `history.csv` of a goal.
@@ -102,7 +107,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         plain("evaluation", "place among the designs that were looked at"),
         plain(
             "stage",
-            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; skins: the first look at what is made of a design",
+            "sample: points that fill the space; gradient: a step along derivatives; ridge: a step along those on both sides of a kink; polish: a step without; tolerance: the first look at the samples of a design",
         ),
     ];
     let parameters = goal.space.parameters().map(|p| (p.key.to_owned(), p.unit, p.meaning));
@@ -110,11 +115,11 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
     let explained = |name: &str| {
         let column = known.iter().find(|column| column.name == name);
         let column = column.map(|column| (column.name.to_string(), column.unit, column.meaning));
-        let quantity = || {
-            let quantity = goal.quantity(name)?;
-            Some((name.to_owned(), unit_of(&known, name), quantity.meaning()))
+        let statistic = || {
+            let statistic = goal.statistic(name)?;
+            Some((name.to_owned(), unit_of(&known, name), statistic.meaning()))
         };
-        column.or_else(quantity).or_else(|| fitness_column(goal))
+        column.or_else(statistic).or_else(|| fitness_column(goal))
     };
     let objectives = goal.objectives.iter().filter_map(|o| explained(&o.column));
     let last = [
@@ -124,7 +129,7 @@ pub fn history_columns(goal: &DesignGoal) -> Vec<Column<Cells>> {
         ),
         plain(
             "verdict",
-            "met, short, folded, drawn: no skins were made of it; or why it cannot be judged",
+            "met, short, folded, nominal: it was not sampled; or why it cannot be judged",
         ),
         plain(
             "best",
@@ -187,10 +192,12 @@ fn write_best(
     let row = |(index, best): (usize, &BestDesign)| {
         let row = DesignRow { number: sweep.grid().number(index as u64), ..best.row.clone() };
         let mut cells: Cells = known.iter().map(|column| column.cell(&row)).collect();
-        cells.extend(goal.fitness.as_ref().map(|_| value(goal, &best.candidate, Fitness::COLUMN)));
+        cells.extend(
+            goal.fitness.as_ref().map(|_| value(goal, &best.candidate, NumberColumn::FITNESS)),
+        );
         cells.push(words.bindings(&best.bindings, &best.target).into());
         cells.push(words.prices(&best.bindings, &best.target).into());
-        cells.extend(made_cells(goal, best));
+        cells.extend(statistic_cells(goal, best));
         cells
     };
     let rows = designs.iter().enumerate().map(row);
@@ -226,7 +233,7 @@ fn history<'a>(goal: &'a DesignGoal, found: &'a Found) -> impl Iterator<Item = C
 /// The value that a design is judged by in a column of the goal.
 fn value(goal: &DesignGoal, candidate: &Candidate, column: &str) -> Cell {
     let Judgement::Judged(worth) = &candidate.verdict else { return Cell::Empty };
-    worth.values(goal).find(|(name, _)| *name == column).map(|(_, value)| value).into()
+    goal.values(worth).find(|(name, _)| *name == column).map(|(_, value)| value).into()
 }
 
 fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
@@ -239,18 +246,17 @@ fn row(goal: &DesignGoal, candidate: &Candidate) -> DesignRow {
 fn verdict(candidate: &Candidate, row: &DesignRow) -> [Cell; 2] {
     match &candidate.verdict {
         Judgement::Judged(worth) => {
-            let shortfall = worth.excess.iter().copied().fold(0.0, f64::max);
             let word = match (worth.met, has_folded(row)) {
                 (true, _) => "met",
                 (false, true) => "folded",
                 (false, false) => "short",
             };
-            // A shortfall without end is that of skins that fail.
-            [finite(if worth.met { 0.0 } else { shortfall }).into(), word.into()]
+            // A shortfall without end is that of samples that fail.
+            [finite(if worth.met { 0.0 } else { worth.shortfall() }).into(), word.into()]
         }
-        Judgement::Drawn(worth) => {
+        Judgement::Nominal(worth) => {
             let word = match (worth.shortfall > 0.0, has_folded(row)) {
-                (false, _) => "drawn",
+                (false, _) => "nominal",
                 (true, true) => "folded",
                 (true, false) => "short",
             };

@@ -6,10 +6,11 @@ use sweep::number;
 
 use crate::candidate::Target;
 use crate::goal::DesignGoal;
-use crate::judge::{Judge, direction};
-use crate::made::MadeQuantity;
+use crate::judge::Judge;
+use crate::looked::Use;
 use crate::price::{Binding, Limit};
 use crate::space::Interval;
+use crate::statistic::Statistic;
 
 /// The part of its width at rest by which a gap stays open in the price of a surface that does not fold.
 const OPEN: f64 = 0.1;
@@ -34,8 +35,10 @@ impl<'a> Words<'a> {
     /// A limit, e.g. `coverage >= 0.5` or `gap_over_t at its lower end 0.1`.
     pub fn limit(&self, limit: &Limit, target: &Target) -> String {
         match *limit {
-            Limit::Requirement(k) if self.judge.is_soundness(k) && self.judge.is_made(k) => {
-                "the surface of more skins is about to fold".to_owned()
+            Limit::Requirement(k)
+                if self.judge.is_soundness(k) && self.judge.is_statistic(Use::Requirement(k)) =>
+            {
+                "the surface of more samples is about to fold".to_owned()
             }
             Limit::Requirement(k) if self.judge.is_soundness(k) => {
                 "the surface is about to fold".to_owned()
@@ -62,8 +65,9 @@ impl<'a> Words<'a> {
 
     /// The cost of a limit, e.g. `0.01 more coverage costs 0.12 of critical_force`; `None` if nobody knows.
     pub fn price(&self, binding: &Binding, target: &Target) -> Option<String> {
-        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(k)) {
-            return Some("no price: a share of skins moves in steps".to_owned());
+        if matches!(binding.limit, Limit::Requirement(k) if self.judge.is_yield(Use::Requirement(k)))
+        {
+            return Some("no price: a share of samples moves in steps".to_owned());
         }
         let price = binding.price?;
         let objective = &self.goal.objectives[target.objective];
@@ -85,7 +89,7 @@ impl<'a> Words<'a> {
             }
             Limit::Requirement(k) => {
                 let requirement = self.requirement(k)?;
-                harder(requirement.limit, direction(requirement) > 0.0, &requirement.column)
+                harder(requirement.limit, requirement.direction() > 0.0, &requirement.column)
             }
             Limit::Floor(k) => {
                 let column = &self.goal.objectives[k].column;
@@ -102,7 +106,11 @@ impl<'a> Words<'a> {
 
     /// The cost of gaps that stay open by a part of their width at rest, where requirement `k` is that the surface has not folded.
     fn openness(&self, k: usize, price: f64, objective: &Criterion) -> String {
-        let of = if self.judge.is_made(k) { "the gaps of these skins" } else { "every gap" };
+        let of = if self.judge.is_statistic(Use::Requirement(k)) {
+            "the gaps of these samples"
+        } else {
+            "every gap"
+        };
         let (open, costs) = (100.0 * OPEN, amount_of(OPEN * price, objective));
         format!("keeping {of} open by {open} % of its width at rest {} {costs}", verb(objective))
     }
@@ -143,7 +151,7 @@ fn step(size: f64) -> f64 {
 
 /// An amount with its unit, if that is a physical one.
 fn amount(amount: f64, column: &str) -> String {
-    let unit = explain_value(MadeQuantity::base(column)).map_or("-", |(unit, _)| unit);
+    let unit = explain_value(Statistic::base(column)).map_or("-", |(unit, _)| unit);
     let is_physical = ["N", "mm", "kg"].iter().any(|beginning| unit.starts_with(beginning));
     let amount = rounded(amount);
     if is_physical { format!("{amount} {unit}") } else { amount }

@@ -36,7 +36,7 @@ fn sifted(points: &[Criteria]) -> Vec<bool> {
 }
 
 /// Whether a point is at least as good as another in every coordinate, and better in one (R6).
-fn dominates(p: &[f64], q: &[f64]) -> bool {
+pub fn dominates(p: &[f64], q: &[f64]) -> bool {
     let pairs = || p.iter().zip(q);
     pairs().all(|(p, q)| p >= q) && pairs().any(|(p, q)| p > q)
 }

@@ -18,7 +18,9 @@
 //! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
 //! | [`check_comparable`], [`comparable_groups`] | whether criteria can be compared between designs, and between which |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
-//! | [`pareto_front`] | designs that no other beats |
+//! | [`Worth`], [`tightest`] | objectives of a design, and its margins to all requirements |
+//! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | the fitness between ends that do not move |
+//! | [`dominates`], [`pareto_front`] | designs that no other beats |
 //! | [`compare()`], [`Comparison`] | where two runs differ |
 //! | [`write_ranking`], [`write_comparison`] | write the tables of both |
 //!
@@ -40,6 +42,7 @@
 mod compare;
 mod criterion;
 mod filter;
+mod fitness;
 mod front;
 mod incomparable;
 mod preferences;
@@ -49,13 +52,15 @@ mod scale;
 mod tetrahedral_grid;
 mod unmet;
 mod weights;
+mod worth;
 
 pub use compare::{
     ColumnDifference, Comparison, Difference, Extreme, InvalidComparison, ParameterChange, compare,
     comparison_columns, difference_columns, rank_correlation, write_comparison,
 };
 pub use criterion::{CRITERIA, Criterion, Goal, InvalidCriterion};
-pub use front::pareto_front;
+pub use fitness::{CriterionEnds, FitnessGoal, RescaledCriterion};
+pub use front::{dominates, pareto_front};
 pub use incomparable::{Incomparable, check_comparable, comparable_groups};
 pub use preferences::{InvalidPreferences, Preferences};
 pub use ranking::{
@@ -67,3 +72,4 @@ pub use scale::{Scale, UnknownScale};
 pub use tetrahedral_grid::{InvalidResolution, Steps, TetrahedralGrid};
 pub use unmet::{Unmet, UnmetRequirement};
 pub use weights::{InvalidWeights, MOST_CRITERIA, Weights};
+pub use worth::{Worth, tightest};

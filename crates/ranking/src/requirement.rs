@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use results::round_off::same;
+use results::round_off::{ROUND_OFF, same};
 use sweep::number;
 
 /// How a value is to stand to the limit.
@@ -33,6 +33,14 @@ impl Relation {
             Self::Equal => "==",
             Self::Above => ">",
             Self::Below => "<",
+        }
+    }
+
+    /// 1 if values are to be above the limit, −1 if they are to be below.
+    fn direction(self) -> f64 {
+        match self {
+            Self::AtLeast | Self::Above | Self::Equal => 1.0,
+            Self::AtMost | Self::Below => -1.0,
         }
     }
 }
@@ -79,6 +87,39 @@ impl Requirement {
             Relation::Above => !is_limit && value > self.limit,
             Relation::Below => !is_limit && value < self.limit,
         }
+    }
+
+    /// 1 if values are to be above the limit, −1 if they are to be below.
+    pub fn direction(&self) -> f64 {
+        self.relation.direction()
+    }
+
+    /// The size that margins are relative to: the limit, or 1 if that is 0.
+    pub fn size(&self) -> f64 {
+        if self.limit == 0.0 { 1.0 } else { self.limit.abs() }
+    }
+
+    /// How far a value is within the limit, relative to its size; below 0 beyond it.
+    pub fn margin(&self, value: f64) -> f64 {
+        let margin = self.direction() * (value - self.limit) / self.size();
+        match self.relation {
+            // A search aims a little within a strict limit: what it reaches is the limit itself but for round-off.
+            Relation::Above | Relation::Below => margin - 10.0 * ROUND_OFF,
+            _ => margin,
+        }
+    }
+
+    /// How fast [`Self::margin`] grows with the value.
+    pub fn margin_rate(&self) -> f64 {
+        self.direction() / self.size()
+    }
+
+    /// The margin of a value, not below 0 if and only if the value meets the requirement: round-off breaks no limit. No value is as far
+    /// beyond it as can be.
+    pub fn counted_margin(&self, value: Option<f64>) -> f64 {
+        let Some(value) = value else { return f64::NEG_INFINITY };
+        let margin = self.margin(value);
+        if self.is_met(value) { margin.max(0.0) } else { margin.min(-f64::MIN_POSITIVE) }
     }
 
     /// How far a value is from meeting the requirement, relative to `size`; 0 if it does.

@@ -1,8 +1,4 @@
 //! Axes of charts: a range of values, linear or logarithmic, with ticks at round numbers.
-//!
-//! Figures draw these axes, and the scripts of the page draw them too, so that both have the same ticks.
-
-use serde_json::{Value, json};
 
 /// The spacing of the values along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,9 +6,6 @@ pub(crate) enum AxisScale {
     Linear,
     Log,
 }
-
-/// Labelled ticks of an axis of the page, about: as many as a panel of 165 px has room for.
-const PAGE_TICKS: usize = 5;
 
 /// The ratio of the ends of data above which their axis is logarithmic: one and a half decades, beyond which the small
 /// values of a linear axis cannot be told from zero.
@@ -93,23 +86,6 @@ impl ChartAxis {
             AxisScale::Linear => self.linear_ticks(wanted),
             AxisScale::Log => self.log_ticks(wanted),
         }
-    }
-
-    /// Returns the axis as the scripts of the page take it: the kind of scale, the ends, and the ticks.
-    pub(crate) fn to_json(&self) -> Value {
-        self.to_json_with(PAGE_TICKS)
-    }
-
-    /// Returns the axis as the scripts of the page take it, with about as many labelled ticks as `wanted`.
-    pub(crate) fn to_json_with(&self, wanted: usize) -> Value {
-        let scale = match self.scale {
-            AxisScale::Linear => "linear",
-            AxisScale::Log => "log",
-        };
-        let ticks = self.ticks(wanted);
-        let tick = |tick: &Tick| json!({"value": tick.value, "label": tick.label});
-        let ticks: Vec<_> = ticks.iter().map(tick).collect();
-        json!({"scale": scale, "low": self.low, "high": self.high, "ticks": ticks})
     }
 
     fn linear_ticks(&self, wanted: usize) -> Vec<Tick> {
@@ -213,21 +189,6 @@ mod tests {
                 assert!((1..12).contains(&axis.ticks(5).len()), "{value}: {:?}", axis.ticks(5));
             }
         }
-    }
-
-    #[test]
-    fn the_page_has_the_same_ticks() {
-        let axis = ChartAxis::fit("", [1e-6, 1e4].into_iter());
-        let json = axis.to_json();
-        let page: Vec<_> =
-            json["ticks"].as_array().unwrap().iter().filter_map(|t| t["label"].as_str()).collect();
-        assert_eq!(page.join(" "), labels(&axis));
-        assert_eq!(
-            (json["scale"].as_str(), json["ticks"][0]["value"].as_f64()),
-            (Some("log"), Some(1e-6))
-        );
-        let [low, high] = ["low", "high"].map(|end| json[end].as_f64().unwrap());
-        assert!(low < 1e-6 && high > 1e4, "{low} {high}");
     }
 
     #[test]

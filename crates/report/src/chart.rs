@@ -1,8 +1,10 @@
 //! A panel of a figure: a frame with two axes, and what stands in it.
 
 use crate::axis::ChartAxis;
+use crate::colors::{FAINT, GRID, INK, RED};
+use crate::designs::Designs;
 use crate::label::{Anchor, label, upright, width};
-use crate::palette::{FAINT, GRID, INK, RED, SlantPalette};
+use crate::palette::{Mark, SlantPalette};
 use crate::svg::{Element, Spot, line};
 
 /// Size of tick labels, px.
@@ -149,62 +151,101 @@ fn fitting(label: &str, room: f64) -> f64 {
     NAME * (room / width(label, NAME)).min(1.0)
 }
 
+/// Radius of the marks of designs, px: about that of a circle as large.
+const MARK: f64 = 3.4;
+
 /// The look of a mark, besides its slant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct MarkLook {
-    /// Whether it is filled, or open.
-    pub(crate) filled: bool,
-    /// Whether the surface of the substrate folds over: it is pale and struck through, as on the page.
-    pub(crate) folded: bool,
+pub(crate) enum MarkLook {
+    Filled,
+    Open,
+    /// The surface of the substrate folds over: the mark is pale and struck through.
+    Folded,
 }
 
 impl MarkLook {
-    pub(crate) const FILLED: Self = Self { filled: true, folded: false };
-    pub(crate) const OPEN: Self = Self { filled: false, folded: false };
-    pub(crate) const FOLDED: Self = Self { filled: true, folded: true };
-}
+    const ALL: [Self; 3] = [Self::Filled, Self::Open, Self::Folded];
 
-/// Returns the mark of a design of a slant.
-pub(crate) fn mark(
-    palette: &SlantPalette,
-    slant_deg: f64,
-    at: Spot,
-    radius: f64,
-    MarkLook { filled, folded }: MarkLook,
-) -> Element {
-    let color = palette.color(slant_deg);
-    let fill = if filled { color.as_str() } else { "#fff" };
-    let edge = if filled { "#fff" } else { color.as_str() };
-    let stroke = if filled { 0.5 } else { 1.3 };
-    let shape = palette
-        .mark(slant_deg)
-        .draw(at, radius)
-        .with("fill", fill)
-        .with("stroke", edge)
-        .at("stroke-width", stroke);
-    if !folded {
-        return shape;
+    /// Returns the identifier of the shape of a mark with this look.
+    fn shape(self, mark: Mark) -> String {
+        match self {
+            Self::Filled => mark.name(),
+            Self::Open => format!("{}-open", mark.name()),
+            Self::Folded => format!("{}-folded", mark.name()),
+        }
     }
-    let [from, to] = [-1.4, 1.4].map(|s| [at[0] + s * radius, at[1] - s * radius]);
-    Element::group("folded").containing([shape.with("opacity", "0.45"), line(from, to, RED, 1.3)])
+
+    /// Draws the shape around the origin, in the colour that its use has.
+    fn draw(self, mark: Mark) -> Element {
+        let shape = mark.draw([0.0, 0.0], MARK);
+        let filled = |shape: Element| shape.with("fill", "currentColor").with("stroke", "#fff");
+        match self {
+            Self::Filled => filled(shape).at("stroke-width", 0.5),
+            Self::Open => {
+                let shape = shape.with("fill", "#fff").with("stroke", "currentColor");
+                shape.at("stroke-width", 1.3)
+            }
+            Self::Folded => {
+                let pale = filled(shape).at("stroke-width", 0.5).with("opacity", "0.45");
+                let [from, to] = [-1.4, 1.4].map(|s| [s * MARK, -s * MARK]);
+                Element::new("g").containing([pale, line(from, to, RED, 1.3)])
+            }
+        }
+    }
 }
 
-/// Returns what a mark that is struck through means.
-pub(crate) fn fold_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
-    let slant = palette.slants().last().copied().unwrap_or(0.0);
-    let text = label("surface folds: do not trust", [x + 10.0, y + 4.0], 12.0, Anchor::Start);
-    let sample = mark(palette, slant, [x, y], 4.5, MarkLook::FOLDED);
-    Element::group("legend").containing([sample, text.with("fill", INK)])
+/// Returns the shapes that the marks of some slants are uses of. A mark is then as short as its place: a page holds a hundred
+/// thousand of them.
+pub(crate) fn shapes(palette: &SlantPalette) -> Element {
+    let mut marks: Vec<Mark> = Vec::new();
+    for mark in palette.slants().iter().map(|&slant| palette.mark(slant)) {
+        if !marks.contains(&mark) {
+            marks.push(mark);
+        }
+    }
+    let looks = marks.iter().flat_map(|&mark| MarkLook::ALL.map(|look| (look, mark)));
+    let shape = |(look, mark): (MarkLook, Mark)| look.draw(mark).with("id", look.shape(mark));
+    Element::new("defs").containing(looks.map(shape))
 }
 
-/// Returns the slants with their marks, in one line.
-pub(crate) fn slant_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
+/// Returns the mark of a slant.
+pub(crate) fn mark(palette: &SlantPalette, slant_deg: f64, at: Spot, look: MarkLook) -> Element {
+    Element::new("use")
+        .with("href", format!("#{}", look.shape(palette.mark(slant_deg))))
+        .at("x", at[0])
+        .at("y", at[1])
+        .with("color", palette.color(slant_deg))
+}
+
+/// Returns the mark of a design, which knows its number; `None` for a design without a slant.
+pub(crate) fn design_mark(
+    designs: &Designs,
+    palette: &SlantPalette,
+    row: usize,
+    at: Spot,
+    is_open: bool,
+) -> Option<Element> {
+    let look = match (designs.folded(row), is_open) {
+        (true, _) => MarkLook::Folded,
+        (false, true) => MarkLook::Open,
+        (false, false) => MarkLook::Filled,
+    };
+    let mark = mark(palette, designs.number("slant_deg", row)?, at, look);
+    Some(mark.with("data-design", designs.text("design", row)))
+}
+
+/// Returns the slants with their marks in one line, and what other looks of marks mean.
+pub(crate) fn mark_legend(designs: &Designs, palette: &SlantPalette, [x, y]: Spot) -> Element {
     let name = label("slant $α$", [x, y + 4.0], 12.0, Anchor::Start).with("fill", INK);
-    let mut legend = Element::group("legend").containing([name]);
+    let mut legend = Element::group("legend").containing([shapes(palette), name]);
     let mut left = x + 64.0;
-    for &slant in palette.slants() {
-        let text = format!("{slant}°");
-        legend.add(mark(palette, slant, [left, y], 4.5, MarkLook::FILLED));
+    let slants =
+        palette.slants().iter().map(|&slant| (slant, MarkLook::Filled, format!("{slant}°")));
+    let last = palette.slants().last().filter(|_| designs.any_folded());
+    let folded =
+        last.map(|&slant| (slant, MarkLook::Folded, "surface folds: do not trust".to_owned()));
+    for (slant, look, text) in slants.chain(folded) {
+        legend.add(mark(palette, slant, [left, y], look));
         legend.add(label(&text, [left + 9.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK));
         left += 28.0 + width(&text, 12.0);
     }

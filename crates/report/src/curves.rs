@@ -7,10 +7,11 @@ use skin::puncture::Puncture;
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
+use crate::colors::{INK, RED, shaded};
 use crate::drawings::geometry_label;
 use crate::figures::{Figure, columns, sheet};
 use crate::label::{Anchor, label, width};
-use crate::palette::{INK, RED, SlantPalette, shaded};
+use crate::palette::SlantPalette;
 use crate::svg::{Element, Spot, circle, line, polyline};
 
 const WIDTH: f64 = 760.0;

@@ -15,8 +15,8 @@ pub use strip::FlexureDrawing;
 
 use skin::Design;
 
+use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};
-use crate::palette::INK;
 use crate::svg::{Element, document, heading};
 
 /// Width of a drawing, px.

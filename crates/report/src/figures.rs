@@ -1,16 +1,21 @@
 //! Figures of a sweep, from its table.
 
 mod contours;
-mod map;
-mod multiples;
-mod pareto;
+pub(crate) mod map;
+pub(crate) mod multiples;
+pub(crate) mod names;
+pub(crate) mod pareto;
 mod quaternary;
 mod search;
-mod stiffness;
-mod weight_slices;
+pub(crate) mod stiffness;
+pub(crate) mod weight_slices;
 
-use ranking::Ranking;
+use ranking::{RankedDesign, Ranking, Weights};
+use results::Quantity::{Force, Length, Moment, Stiffness};
+use results::columns::physical_source;
 
+pub(crate) use names::in_words;
+use names::with_value;
 pub use search::{SearchFigure, SearchedDesign};
 
 use crate::designs::{AxisValues, Designs};
@@ -27,28 +32,45 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// A criterion as figures name it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FigureQuantity {
-    pub(crate) column: &'static str,
-    pub(crate) label: &'static str,
+/// A quantity as figures show it: its column, and where gaps are random the columns between which most samples lie.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Quantity {
+    pub(crate) column: String,
+    pub(crate) band: Option<[String; 2]>,
 }
 
-pub(crate) const COVERAGE: FigureQuantity =
-    FigureQuantity { column: "coverage", label: "coverage $λ$, dimensionless" };
-pub(crate) const FORCE: FigureQuantity = FigureQuantity {
-    column: "critical_force",
-    label: "critical force $F_c^*$ = $F_c$(1 − $ν$^2)/($E_s L t$), dimensionless",
-};
-pub(crate) const PENETRATION: FigureQuantity =
-    FigureQuantity { column: "penetration", label: "penetration $u_{max}/t$, dimensionless" };
-pub(crate) const COMPLIANCE: FigureQuantity = FigureQuantity {
-    column: "compliance",
-    label: "flexural compliance $C_f^*$ = $C_f E_m I_m/t$, dimensionless",
-};
+impl Quantity {
+    /// Returns a measure as the table has it: the median where designs have samples, else the value of the perfect design;
+    /// in newtons and millimetres where there are any.
+    pub(crate) fn of(designs: &Designs, measure: &str) -> Self {
+        let quantile =
+            |end: &str| Some(format!("{measure}_{end}")).filter(|name| designs.has(name));
+        let shown = |name: String| physical(designs, &name).unwrap_or(name);
+        let column = shown(quantile("p50").unwrap_or_else(|| measure.to_owned()));
+        let band = quantile("p05").zip(quantile("p95"));
+        Self { column, band: band.map(|(low, high)| [shown(low), shown(high)]) }
+    }
+
+    /// Returns every number that the figure has to have room for.
+    fn numbers(&self, designs: &Designs) -> impl Iterator<Item = f64> {
+        let columns = std::iter::once(&self.column).chain(self.band.iter().flatten());
+        columns.flat_map(|column| designs.numbers(column))
+    }
+}
+
+/// Returns the column of a measure in newtons or millimetres, if the table has one.
+fn physical(designs: &Designs, measure: &str) -> Option<String> {
+    let is_same = |name: &&String| {
+        let source = physical_source(name);
+        // What is divided by a width or inverted is another quantity.
+        let plain = |quantity| matches!(quantity, Force | Length | Stiffness | Moment);
+        source.is_some_and(|(of, quantity)| of == measure && plain(quantity))
+    };
+    designs.headers().iter().find(is_same).cloned()
+}
 
 /// Parts into which figures are divided, at most.
-const PARTS: usize = 24;
+pub(crate) const PARTS: usize = 24;
 
 /// Draws every figure for which the table has values; the Pareto fronts and the best designs for all weights
 /// if they can be ranked.
@@ -59,11 +81,20 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
     let parts = designs.parts();
     let part = |(values, part): &(AxisValues<'_>, Designs)| {
         let all = of_part(&title(name, values), part).into_iter();
-        all.map(|(file, svg)| Figure { name: file_name(file, values), svg }).collect::<Vec<_>>()
+        all.map(|(file, svg)| Figure { name: file_name(&file, values), svg }).collect::<Vec<_>>()
     };
     let mut figures: Vec<Figure> = parts.iter().take(PARTS).flat_map(part).collect();
     if let Some(ranking) = ranking {
-        let fronts = pareto::figure(name, designs, ranking);
+        let worth = |design: &RankedDesign<'_>| {
+            (design.row(), std::array::from_fn(|k| design.criteria()[k]))
+        };
+        // Other criteria than the paper's have other axes, or fewer.
+        let is_drawn = ranking.preferences().are_the_papers();
+        let ranked = if is_drawn { ranking.by_fitness(Weights::BALANCED) } else { Vec::new() };
+        let mut worths: Vec<_> = ranked.iter().map(worth).collect();
+        // In the order of the table, as the page has them.
+        worths.sort_by_key(|(row, _)| *row);
+        let fronts = pareto::figure(name, designs, &worths);
         figures.extend(fronts.map(|svg| Figure { name: "pareto-fronts-pairwise".to_owned(), svg }));
         let svg = quaternary::figure(name, designs, ranking);
         figures.push(Figure { name: "best-designs-by-weights-tetrahedron".to_owned(), svg });
@@ -73,7 +104,7 @@ pub fn figures(name: &str, designs: &Designs, ranking: Option<&Ranking<'_>>) -> 
 
 /// Returns the title of the figures of a part.
 fn title(name: &str, values: &[(&str, &str)]) -> String {
-    let words = values.iter().map(|(axis, value)| format!("{} {value}", in_words(axis)));
+    let words = values.iter().map(with_value);
     std::iter::once(name.to_owned()).chain(words).collect::<Vec<_>>().join(", ")
 }
 
@@ -83,28 +114,23 @@ fn file_name(file: &str, values: &[(&str, &str)]) -> String {
     std::iter::once(file.to_owned()).chain(part).collect::<Vec<_>>().join("-")
 }
 
-/// Returns the column of a parameter in words.
-pub(crate) fn in_words(axis: &str) -> String {
-    axis.replace("_over_t", "/t").replace('_', " ")
-}
+/// Measures that have a figure against gap, aspect ratio and slant, each with the column that says which marks are filled.
+pub(crate) const MULTIPLES: [(&str, Option<&str>); 3] =
+    [("critical_force", None), ("penetration", None), ("compliance", Some("flexure_contact"))];
 
 /// Draws the figures of designs that differ in gap, aspect ratio and slant.
-fn of_part(name: &str, designs: &Designs) -> Vec<(&'static str, String)> {
-    let multiples = [
-        ("critical-force-by-gap-aspect-slant", FORCE, None),
-        ("penetration-by-gap-aspect-slant", PENETRATION, None),
-        ("compliance-by-gap-aspect-slant", COMPLIANCE, Some("flexure_contact")),
-    ];
-    let mut figures: Vec<_> = multiples
-        .into_iter()
-        .filter(|(_, quantity, _)| designs.has(quantity.column))
-        .map(|(file, quantity, filled)| (file, multiples::figure(name, designs, quantity, filled)))
-        .collect();
-    if designs.has(FORCE.column) {
-        figures.push(("stiffness-against-critical-force", stiffness::figure(name, designs)));
+fn of_part(name: &str, designs: &Designs) -> Vec<(String, String)> {
+    let measured = MULTIPLES.into_iter().filter(|(measure, _)| designs.has(measure));
+    let multiples = measured.map(|(measure, filled)| {
+        let file = format!("{}-by-gap-aspect-slant", measure.replace('_', "-"));
+        (file, multiples::figure(name, designs, &Quantity::of(designs, measure), filled))
+    });
+    let mut figures: Vec<_> = multiples.collect();
+    if designs.has("critical_force") {
+        figures.push(("stiffness-against-critical-force".into(), stiffness::figure(name, designs)));
     }
-    if designs.has(COVERAGE.column) {
-        figures.push(("coverage-maps-by-slant", map::coverage(name, designs)));
+    if designs.has("coverage") {
+        figures.push(("coverage-maps-by-slant".into(), map::by_slant(name, designs, "coverage")));
     }
     figures
 }
@@ -124,4 +150,12 @@ pub(crate) fn columns(count: usize) -> usize {
         7..=8 => 4,
         _ => 5,
     }
+}
+
+/// Marks of a figure, about, at most: more would hide each other, and a page could not hold them.
+const DRAWN: usize = 10_000;
+
+/// Returns which of `count` designs have a mark in each of some panels: all, or one of every few.
+pub(crate) fn thinned(count: usize, panels: usize) -> impl Iterator<Item = usize> {
+    (0..count).step_by((count * panels).div_ceil(DRAWN).max(1))
 }

@@ -39,6 +39,7 @@
 
 mod axis;
 mod chart;
+mod colors;
 mod curves;
 mod designs;
 pub mod drawings;

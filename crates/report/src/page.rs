@@ -1,9 +1,11 @@
 //! The page of a sweep: one self-contained HTML file.
 //!
-//! The scripts of the page draw and rank. The axes of its charts and the colours of its marks come from here, so that they
-//! are those of the figures; it ranks as the crate `ranking` does, which `scripts/check-page` holds together.
+//! Its figures are those of the crate: the scripts of the page show and hide what they hold, and draw nothing but the row of the
+//! chosen design. It ranks as the crate `ranking` does, which `scripts/check-page` holds together.
 
+mod curves;
 mod data;
+mod figures;
 mod front;
 mod simplified;
 
@@ -22,19 +24,15 @@ const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/media.css"),
 ];
 /// The scripts of the page, in the order in which they run.
-const SCRIPTS: [&str; 25] = [
+const SCRIPTS: [&str; 21] = [
     include_str!("../assets/page/scripts/designs.js"),
     include_str!("../assets/page/scripts/elements.js"),
     include_str!("../assets/page/scripts/ranking.js"),
     include_str!("../assets/page/scripts/weightings.js"),
     include_str!("../assets/page/scripts/state.js"),
     include_str!("../assets/page/scripts/address.js"),
-    include_str!("../assets/page/scripts/lettering.js"),
-    include_str!("../assets/page/scripts/panel.js"),
-    include_str!("../assets/page/scripts/chart.js"),
     include_str!("../assets/page/scripts/view.js"),
     include_str!("../assets/page/scripts/comparable.js"),
-    include_str!("../assets/page/scripts/contours.js"),
     include_str!("../assets/page/scripts/figures.js"),
     include_str!("../assets/page/scripts/front.js"),
     include_str!("../assets/page/scripts/gap.js"),

@@ -2,16 +2,8 @@
 
 use std::f64::consts::PI;
 
-use crate::svg::{Element, Spot, circle, polygon, through};
-
-/// Ink of axes and labels.
-pub(crate) const INK: &str = "#222222";
-/// Ink of secondary marks and notes.
-pub(crate) const FAINT: &str = "#767676";
-/// Lines of a grid.
-pub(crate) const GRID: &str = "#e6e6e6";
-/// Colour of contacts.
-pub(crate) const RED: &str = "#d0021b";
+use crate::colors::mixed;
+use crate::svg::{Element, Spot, circle, polygon};
 
 /// Colours at every 15° from 0°, of Okabe and Ito's palette for the colour-blind.
 const SLANTS: [[u8; 3]; 7] = [
@@ -22,19 +14,6 @@ const SLANTS: [[u8; 3]; 7] = [
     [213, 94, 0],
     [204, 121, 167],
     [60, 60, 60],
-];
-
-/// Steps of the sequential scale of maps: cividis, which the colour-blind see as others do.
-const SEQUENCE: [[u8; 3]; 9] = [
-    [0, 32, 77],
-    [0, 51, 111],
-    [57, 72, 107],
-    [87, 93, 109],
-    [112, 113, 115],
-    [138, 134, 120],
-    [166, 157, 117],
-    [196, 182, 108],
-    [255, 234, 70],
 ];
 
 /// Colours and marks of the slants of a sweep, so that each has its own.
@@ -100,35 +79,6 @@ enum Steps {
     Many,
 }
 
-/// Returns the colour of a value from 0 to 1 in a map.
-pub(crate) fn map_color(fraction: f64) -> String {
-    mixed(&SEQUENCE, fraction)
-}
-
-/// Returns a colour mixed with white, or, below 0, with black.
-pub(crate) fn shaded(color: &str, part: f64) -> String {
-    let channel = |k: usize| {
-        let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
-        let own = f64::from(u8::from_str_radix(text, 16).unwrap_or_default());
-        let other = if part > 0.0 { 255.0 } else { 0.0 };
-        (own + part.abs() * (other - own)).round() as u8
-    };
-    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
-}
-
-fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
-    let last = steps.len() - 1;
-    let place = fraction.clamp(0.0, 1.0) * last as f64;
-    // Between 0 and the last step.
-    let below = (place.floor() as usize).min(last - 1);
-    let part = place - below as f64;
-    let [r, g, b] = [0, 1, 2].map(|k| {
-        let (from, to) = (f64::from(steps[below][k]), f64::from(steps[below + 1][k]));
-        (from + part * (to - from)).round() as u8
-    });
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
 /// The shape that marks a slant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
@@ -160,11 +110,9 @@ impl Mark {
         Self::Hexagon,
     ];
 
-    /// Returns the data of a path around the origin, some 10 px across.
-    pub(crate) fn path(self) -> String {
-        const CIRCLE: &str = "M-5 0 A5 5 0 1 1 5 0 A5 5 0 1 1 -5 0 Z";
-        let corners = self.corners([0.0, 0.0], 5.0);
-        corners.map_or_else(|| CIRCLE.to_owned(), |corners| through(&corners, true))
+    /// Returns the name of the mark, by which figures refer to its shape.
+    pub(crate) fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
     }
 
     /// Returns the mark at a place, about as large as a circle of `radius`.

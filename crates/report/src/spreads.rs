@@ -2,9 +2,9 @@
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
+use crate::colors::{INK, RED, map_color};
 use crate::figures::{in_words, sheet};
 use crate::label::{Anchor, label, width};
-use crate::palette::{INK, RED, map_color};
 use crate::svg::{Element, line};
 
 const WIDTH: f64 = 760.0;
@@ -187,7 +187,7 @@ mod tests {
     fn shares_fill_their_bar() {
         let shares = vec![("gap_mm".to_owned(), 0.75), ("slant_deg".to_owned(), 0.25)];
         let svg = share_bars("x", &[("force".to_owned(), shares)]);
-        for text in ["75 %", "25 %", "gap mm", "slant deg"] {
+        for text in ["75 %", "25 %", "gap (mm)", "slant (°)"] {
             assert!(svg.contains(text), "{text}: {svg}");
         }
     }

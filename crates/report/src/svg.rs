@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::palette::INK;
+use crate::colors::INK;
 
 /// Fonts of all drawings: the embedded one and those of the same widths.
 const FONTS: &str = "Liberation Sans, Arial, Helvetica, sans-serif";

@@ -74,9 +74,10 @@ fn options<'i>(
 
 fn exit_code(found: &Found) -> u8 {
     let is_met = match &found.answer {
-        Answer::Optimum(best) => {
-            best.made.as_ref().is_none_or(|made| made.broken.iter().all(|r| made.is_open(r)))
-        }
+        Answer::Optimum(best) => best
+            .confirmation
+            .as_ref()
+            .is_none_or(|made| made.broken.iter().all(|r| made.is_open(r))),
         Answer::Front(_) => true,
         Answer::Infeasible(_) => false,
     };

@@ -15,10 +15,10 @@ fn the_best_for_some_skins_is_shown_to_others() {
     insta::assert_snapshot!(answer);
     let header = place.read("results/made/optimum.csv");
     let header = header.lines().next().expect("a header").to_owned();
-    assert!(header.ends_with(",binding,prices,yield,yield_low,yield_high,yield_seen,fresh_skins"));
-    // Designs of which no skins were made are drawn alone.
+    assert!(header.ends_with(",binding,prices,yield,yield_low,yield_high,yield_seen,fresh_samples"));
+    // Designs that were not sampled are nominal alone.
     let history = place.read("results/made/history.csv");
-    for word in [",drawn,", ",short,", ",met,", ",skins,"] {
+    for word in [",nominal,", ",short,", ",met,", ",tolerance,"] {
         assert!(history.contains(word), "{word}");
     }
     let record = place.prints("optimise x.toml --json --fresh");

@@ -1,11 +1,10 @@
 //! The keys of the fitness in `[goal]`: the weights of its criteria, and the ends between which they are rescaled.
 
-use ranking::{CRITERIA, Criterion, Goal, Scale, Weights};
+use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weights};
 use sweep::InvalidDefinition;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 
-use super::reader::not_accepted;
-use crate::fitness::{CriterionEnds, FitnessGoal};
+use super::refusal::not_accepted;
 
 const WEIGHTS: &str = "weights of which none is negative and one is more than 0, of columns of which it is plain what is good, e.g. { coverage = 1, critical_force = 2 }";
 const RESCALE: &str = "the worst and the best value of columns, e.g. { coverage = [0, 0.9] }";
@@ -20,9 +19,7 @@ pub(super) struct FitnessSection {
 impl FitnessSection {
     /// Understands `weights`.
     pub fn weights(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
-        let wrong = |value: &Value| {
-            not_accepted(&entry.place, "goal.weights", &value.to_string(), WEIGHTS.to_owned())
-        };
+        let wrong = |value: &Value| not_accepted(&entry.place, "goal.weights", value, WEIGHTS);
         let weight = |inner: &KeyValue| match &inner.value {
             Value::Number(text) if !inner.key.contains(':') => {
                 Some((inner.key.parse::<Criterion>().ok()?, text.parse::<f64>().ok()?))
@@ -59,10 +56,8 @@ impl FitnessSection {
         };
         let read = table(&entry.value).map(|inner| inner.iter().map(ends).collect());
         let read: Option<Vec<_>> = read.flatten();
-        self.ends = read.ok_or_else(|| {
-            let found = entry.value.to_string();
-            not_accepted(&entry.place, "goal.rescale", &found, RESCALE.to_owned())
-        })?;
+        self.ends =
+            read.ok_or_else(|| not_accepted(&entry.place, "goal.rescale", &entry.value, RESCALE))?;
         Ok(())
     }
 
@@ -87,7 +82,7 @@ impl FitnessSection {
         let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
         let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
         let (key, place) = of_weights.chain(of_ends).next()?;
-        let expected = "it beside maximize = [\"fitness\"]".to_owned();
+        let expected = "it beside maximize = [\"fitness\"]";
         Some(not_accepted(place, key, "a goal without fitness", expected))
     }
 }
@@ -105,9 +100,8 @@ fn check(
     criteria: &[Criterion],
     place: &Place,
 ) -> Result<(), InvalidDefinition> {
-    let refused = |found: String, expected: String| {
-        Err(not_accepted(place, "goal.rescale", &found, expected))
-    };
+    let refused =
+        |found: String, expected: String| Err(not_accepted(place, "goal.rescale", found, expected));
     let Some(criterion) = criteria.iter().find(|criterion| criterion.column == ends.column) else {
         let names: Vec<&str> = criteria.iter().map(|c| c.column.as_ref()).collect();
         return refused(ends.column.clone(), format!("one of {}", names.join(", ")));

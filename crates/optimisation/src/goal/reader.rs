@@ -1,98 +1,81 @@
 //! From keys and values to a goal.
 
-use ranking::{Relation, Requirement};
+use std::fmt::Write as _;
+use std::path::Path;
+
+use ranking::{FitnessGoal, Relation, Requirement};
 use results::columns::{design_columns, measure_of};
 use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
-    Axis, InvalidDefinition, Problem, Sweep, Variable, VariableValues, WrongValue, nearest,
+    Axis, InvalidDefinition, Problem, Setting, Sweep, Variable, VariableValues, entries, nearest,
+    read_entries,
 };
 
-use super::section::GoalSection;
-use super::{DesignGoal, quantities};
-use crate::fitness::{Fitness, FitnessGoal};
-use crate::made::MadeQuantity;
+use super::refusal::{not_accepted, refuse, several};
+use super::section::{GoalSection, Written};
+use super::{DesignGoal, statistics};
+use crate::column::NumberColumn;
 use crate::space::DesignSpace;
+use crate::statistic::Statistic;
 
-pub(super) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
-    InvalidDefinition::Refused {
-        place: place.clone(),
-        key: key.to_owned(),
-        problem: Box::new(problem.into()),
+impl DesignGoal {
+    /// The goal in the file at `path` once `settings` are put in its place.
+    ///
+    /// # Errors
+    /// If the file cannot be read or holds no goal; all that is wrong with it is told at once.
+    pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
+        Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
     }
-}
 
-pub(super) fn not_accepted(
-    place: &Place,
-    key: &str,
-    found: &str,
-    expected: String,
-) -> InvalidDefinition {
-    refuse(place, key, WrongValue::NotAccepted { found: found.to_owned(), expected })
-}
+    /// The goal that `text`, from the file `name`, holds once `settings` are put in its place.
+    ///
+    /// # Errors
+    /// If the text holds no goal.
+    pub fn parse(text: &str, name: &str, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
+        Self::of_entries(&entries(text, name, settings)?, name)
+    }
 
-pub(super) fn unknown(place: &Place, key: &str, value: &Value, hint: String) -> InvalidDefinition {
-    refuse(place, key, Problem::Unknown { value: value.to_string(), hint })
-}
-
-/// The goal that `entries` of the file `name` hold.
-pub(super) fn read(
-    entries: &KeyValues,
-    name: &str,
-    text: String,
-) -> Result<DesignGoal, InvalidDefinition> {
-    let file = Place::File { name: name.into(), line: None };
-    let definition = entries.iter().filter(|entry| entry.key != "goal").cloned().collect();
-    let sweep = Sweep::of_entries(&definition, name);
-    let mut refused = Vec::new();
-    let section = goal_section(entries, &file, &mut refused);
-    let sweep = match sweep {
-        Ok(sweep) => sweep,
-        Err(error) => {
-            refused.insert(0, error);
+    /// The goal that `entries` of the file `name` hold.
+    fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
+        let file = Place::File { name: name.into(), line: None };
+        let definition = entries.iter().filter(|entry| entry.key != "goal").cloned().collect();
+        let mut refused = Vec::new();
+        let section = goal_section(entries, &file, &mut refused);
+        let sweep = match Sweep::of_entries(&definition, name) {
+            Ok(sweep) => sweep,
+            Err(error) => {
+                refused.insert(0, error);
+                return Err(several(refused));
+            }
+        };
+        refused.extend(unsearchable(entries, &sweep, &file));
+        let is_named = section.columns().any(|named| named.column == NumberColumn::FITNESS);
+        let fitness = section.fitness.goal(is_named).unwrap_or_else(|error| {
+            refused.push(error);
+            None
+        });
+        if refused.is_empty() {
+            refused.extend(senseless(&section, fitness.as_ref(), &sweep));
+        }
+        if !refused.is_empty() {
             return Err(several(refused));
         }
-    };
-    refused.extend(unsearchable(entries, &sweep, &file));
-    let is_named = section.columns().any(|(column, ..)| column == Fitness::COLUMN);
-    let fitness = section.fitness.goal(is_named).unwrap_or_else(|error| {
-        refused.push(error);
-        None
-    });
-    if refused.is_empty() {
-        refused.extend(senseless(&section, fitness.as_ref(), &sweep));
+        let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } =
+            section;
+        Ok(Self {
+            space: DesignSpace::new(sweep),
+            objectives: objectives.into_iter().map(|(objective, _)| objective).collect(),
+            requirements: requirements.into_iter().map(|(requirement, _)| requirement).collect(),
+            fitness,
+            sound,
+            samples,
+            points,
+            realisations: skins,
+            seed,
+            text: to_toml(entries),
+        })
     }
-    if !refused.is_empty() {
-        return Err(several(refused));
-    }
-    Ok(checked(section, sweep, fitness, text))
-}
-
-/// The goal of a section in which nothing is wrong.
-fn checked(
-    section: GoalSection,
-    sweep: Sweep,
-    fitness: Option<FitnessGoal>,
-    text: String,
-) -> DesignGoal {
-    let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } = section;
-    DesignGoal {
-        space: DesignSpace::new(sweep),
-        objectives: objectives.into_iter().map(|objective| objective.criterion).collect(),
-        requirements: requirements.into_iter().map(|placed| placed.requirement).collect(),
-        fitness,
-        sound,
-        samples,
-        points,
-        skins,
-        seed,
-        text,
-    }
-}
-
-/// Errors as one, of which there is at least one.
-fn several(mut refused: Vec<InvalidDefinition>) -> InvalidDefinition {
-    if refused.len() == 1 { refused.swap_remove(0) } else { InvalidDefinition::Several(refused) }
 }
 
 /// The keys and values of a section.
@@ -138,15 +121,15 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     };
     let vague = sweep.variables().iter().filter(is_vague).map(|variable| {
         let key = variable.parameter().key;
-        let expected = "a list of its values: it is no number that describes the skin".to_owned();
+        let expected = "a list of its values: it is no number that describes the skin";
         let place = place("variables", key);
-        not_accepted(place, &format!("variables.{key}"), &variable.to_toml(), expected)
+        not_accepted(place, &format!("variables.{key}"), variable.to_toml(), expected)
     });
     let open = sweep.grid().axes().iter().filter(|axis| axis.len() > 1).map(|axis: &Axis| {
         let key = axis.parameter().key;
         let expected = format!("one value, or {key} among [variables]");
         let place = place("designs", key);
-        not_accepted(place, &format!("designs.{key}"), &axis.to_toml(), expected)
+        not_accepted(place, &format!("designs.{key}"), axis.to_toml(), expected)
     });
     vague.chain(open).collect()
 }
@@ -158,65 +141,53 @@ fn senseless(
     fitness: Option<&FitnessGoal>,
     sweep: &Sweep,
 ) -> Vec<InvalidDefinition> {
-    let known: Vec<String> =
-        design_columns(sweep).iter().map(|column| column.name.to_string()).collect();
+    let known = design_columns(sweep);
+    let known: Vec<&str> = known.iter().map(|column| column.name.as_ref()).collect();
     let named = named(goal, fitness);
-    let columns = named.iter().filter_map(|(column, key, place)| {
-        let is_drawn =
-            MadeQuantity::named(column).is_none() || known.iter().any(|name| name == column);
-        let missing = || missing_column(column, key, place, &known, sweep);
-        let unavailable = quantities::unavailable(column, key, place, sweep);
-        unavailable.or_else(|| is_drawn.then(missing).flatten())
+    let columns = named.iter().filter_map(|named| {
+        let unavailable = statistics::unavailable(named, sweep);
+        let is_nominal = Statistic::named(named.column).is_none() || known.contains(&named.column);
+        unavailable.or_else(|| missing_column(named, &known, sweep).filter(|_| is_nominal))
     });
-    let objectives = named.iter().filter(|(_, key, _)| *key != "goal.require");
-    let incomparable = objectives.flat_map(|(column, key, place)| {
+    let objectives = named.iter().filter(|named| named.key != "goal.require");
+    let incomparable = objectives.flat_map(|Written { column, key, place }| {
         let fails =
-            |v: &&Variable| yardsticks(MadeQuantity::base(column)).contains(&v.parameter().key);
+            |v: &&Variable| yardsticks(Statistic::base(column)).contains(&v.parameter().key);
         sweep.variables().iter().filter(fails).map(|variable| {
-            let expected = "values that can be compared between designs".to_owned();
             let found = format!("an objective with {} as a variable", variable.parameter().key);
-            not_accepted(place, key, &found, expected)
+            not_accepted(place, key, found, "values that can be compared between designs")
         })
     });
     let found = columns.chain(incomparable).chain(contradictions(goal));
-    found.chain(out_of_reach(goal, sweep)).chain(quantities::senseless(goal)).collect()
+    found.chain(out_of_reach(goal, sweep)).chain(statistics::senseless(goal)).collect()
 }
 
 /// The columns that a goal is about, in place of the fitness those of its criteria.
-fn named<'a>(
-    goal: &'a GoalSection,
-    fitness: Option<&'a FitnessGoal>,
-) -> Vec<(&'a str, &'static str, &'a Place)> {
-    let criteria = |place: &'a Place| {
-        let criteria = fitness.iter().flat_map(|fitness| &fitness.criteria);
-        criteria.map(move |criterion| (criterion.column.as_ref(), "goal.weights", place))
-    };
-    let (of_fitness, others): (Vec<_>, Vec<_>) =
-        goal.columns().partition(|(column, ..)| *column == Fitness::COLUMN);
-    let first = of_fitness.into_iter().take(1);
-    others.into_iter().chain(first.flat_map(|(.., place)| criteria(place))).collect()
+fn named<'a>(goal: &'a GoalSection, fitness: Option<&'a FitnessGoal>) -> Vec<Written<'a>> {
+    let (of_fitness, mut named): (Vec<_>, Vec<_>) =
+        goal.columns().partition(|named| named.column == NumberColumn::FITNESS);
+    let criteria = fitness.iter().flat_map(|fitness| &fitness.criteria);
+    for (place, criterion) in of_fitness
+        .first()
+        .into_iter()
+        .flat_map(|first| criteria.clone().map(move |criterion| (first.place, criterion)))
+    {
+        named.push(Written { column: &criterion.column, key: "goal.weights", place });
+    }
+    named
 }
 
-fn missing_column(
-    column: &str,
-    key: &str,
-    place: &Place,
-    known: &[String],
-    sweep: &Sweep,
-) -> Option<InvalidDefinition> {
-    if known.iter().any(|name| name == column) {
+fn missing_column(named: &Written, known: &[&str], sweep: &Sweep) -> Option<InvalidDefinition> {
+    let Written { column, key, place } = *named;
+    if known.contains(&column) {
         let is_measured = measure_of(column).is_none_or(|m| sweep.measures().contains(&m));
-        return (!is_measured).then(|| {
-            let expected = "a column of what `measures` asks for".to_owned();
-            not_accepted(place, key, column, expected)
-        });
+        let expected = "a column of what `measures` asks for";
+        return (!is_measured).then(|| not_accepted(place, key, column, expected));
     }
-    let names: Vec<&str> = known.iter().map(String::as_str).collect();
-    let nearly = quantities::nearly(column, &names);
-    let expected = match nearest(column, &names) {
-        _ if nearly.is_some() => nearly.unwrap_or_default(),
-        Some(near) => format!("a column of designs.csv; did you mean {near}?"),
-        None => {
+    let expected = match (statistics::nearly(column, known), nearest(column, known)) {
+        (Some(quantiles), _) => quantiles,
+        (None, Some(near)) => format!("a column of designs.csv; did you mean {near}?"),
+        (None, None) => {
             "a column of designs.csv, e.g. critical_force; those in mm, N and kg need a [material]"
                 .to_owned()
         }
@@ -227,15 +198,11 @@ fn missing_column(
 /// Requirements of one column that no value meets.
 fn contradictions(goal: &GoalSection) -> Vec<InvalidDefinition> {
     let mut found = Vec::new();
-    for (k, upper) in goal.requirements.iter().enumerate() {
-        let below = goal.requirements[..k].iter().find(|lower| {
-            let pair = [&lower.requirement, &upper.requirement];
-            exclude(pair[0], pair[1]) || exclude(pair[1], pair[0])
-        });
-        if let Some(other) = below {
-            let expected = format!("bounds that leave room beside {}", other.requirement);
-            let text = upper.requirement.to_string();
-            found.push(not_accepted(&upper.place, "goal.require", &text, expected));
+    for (k, (upper, place)) in goal.requirements.iter().enumerate() {
+        let mut earlier = goal.requirements[..k].iter().map(|(lower, _)| lower);
+        if let Some(other) = earlier.find(|lower| exclude(lower, upper) || exclude(upper, lower)) {
+            let expected = format!("bounds that leave room beside {other}");
+            found.push(not_accepted(place, "goal.require", upper, expected));
         }
     }
     found
@@ -255,14 +222,32 @@ fn out_of_reach<'a>(
     goal: &'a GoalSection,
     sweep: &'a Sweep,
 ) -> impl Iterator<Item = InvalidDefinition> + 'a {
-    goal.requirements.iter().filter_map(|placed| {
-        let of = |variable: &&Variable| variable.parameter().key == placed.requirement.column;
+    goal.requirements.iter().filter_map(|(requirement, place)| {
+        let of = |variable: &&Variable| variable.parameter().key == requirement.column;
         let VariableValues::Between(from, to) = *sweep.variables().iter().find(of)?.values() else {
             return None;
         };
-        let is_met = [from, to].iter().any(|end| placed.requirement.is_met(*end));
+        let is_met = [from, to].iter().any(|end| requirement.is_met(*end));
         let expected = format!("a bound that values from {from} to {to} can meet");
-        let text = placed.requirement.to_string();
-        (!is_met).then(|| not_accepted(&placed.place, "goal.require", &text, expected))
+        (!is_met).then(|| not_accepted(place, "goal.require", requirement, expected))
     })
+}
+
+/// Keys and values as TOML again.
+fn to_toml(entries: &KeyValues) -> String {
+    let (tables, values): (Vec<_>, Vec<_>) =
+        entries.iter().partition(|entry| matches!(entry.value, Value::Table(_)));
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    for entry in values {
+        let _ = writeln!(text, "{} = {}", entry.key, entry.value);
+    }
+    for entry in tables {
+        let Value::Table(inner) = &entry.value else { continue };
+        let _ = writeln!(text, "\n[{}]", entry.key);
+        for entry in inner {
+            let _ = writeln!(text, "{} = {}", entry.key, entry.value);
+        }
+    }
+    text
 }

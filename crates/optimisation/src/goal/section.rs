@@ -1,12 +1,16 @@
 //! The section `[goal]`: objectives, requirements, and how much is searched.
 
-use ranking::{Criterion, Goal, Requirement};
-use sweep::toml_source::{KeyValue, Place, Value};
-use sweep::{InvalidDefinition, nearest};
+use std::str::FromStr;
 
-use super::MOST_OBJECTIVES;
+use ranking::{Criterion, Goal, Relation, Requirement};
+use sweep::toml_source::{KeyValue, Place, Value};
+use sweep::{InvalidDefinition, Problem, nearest};
+
 use super::fitness_section::FitnessSection;
-use super::reader::{not_accepted, unknown};
+use super::refusal::{not_accepted, refuse};
+
+/// Objectives of a goal, at most.
+const MOST_OBJECTIVES: usize = 4;
 
 /// Keys of the section.
 const KEYS: [&str; 10] = [
@@ -14,22 +18,17 @@ const KEYS: [&str; 10] = [
     "seed",
 ];
 
-/// A requirement, and where it is written.
-pub(super) struct PlacedRequirement {
-    pub requirement: Requirement,
-    pub place: Place,
+/// A column, and the key and the place where it is written.
+pub(super) struct Written<'a> {
+    pub column: &'a str,
+    pub key: &'static str,
+    pub place: &'a Place,
 }
 
-/// An objective, and where it is written.
-pub(super) struct PlacedObjective {
-    pub criterion: Criterion,
-    pub place: Place,
-}
-
-/// The section as it is understood so far.
+/// The section as it is understood so far; what is written somewhere stands with its place.
 pub(super) struct GoalSection {
-    pub objectives: Vec<PlacedObjective>,
-    pub requirements: Vec<PlacedRequirement>,
+    pub objectives: Vec<(Criterion, Place)>,
+    pub requirements: Vec<(Requirement, Place)>,
     pub fitness: FitnessSection,
     pub sound: bool,
     pub samples: usize,
@@ -77,68 +76,76 @@ impl GoalSection {
                     Some(near) => format!("did you mean goal.{near}?"),
                     None => format!("expected one of {}", KEYS.join(", ")),
                 };
-                return Err(unknown(&entry.place, &format!("goal.{key}"), &entry.value, hint));
+                let problem = Problem::Unknown { value: entry.value.to_string(), hint };
+                return Err(refuse(&entry.place, &format!("goal.{key}"), problem));
             }
         }
         Ok(())
     }
 
-    /// The columns of objectives and requirements, with the keys and the places where they are named.
-    pub fn columns(&self) -> impl Iterator<Item = (&str, &'static str, &Place)> {
-        let objectives = self.objectives.iter().map(|objective| {
-            (objective.criterion.column.as_ref(), "goal.maximize", &objective.place)
+    /// The columns of objectives and requirements.
+    pub fn columns(&self) -> impl Iterator<Item = Written<'_>> {
+        let objectives = self.objectives.iter().map(|(criterion, place)| Written {
+            column: &criterion.column,
+            key: "goal.maximize",
+            place,
         });
-        let required = self
-            .requirements
-            .iter()
-            .map(|placed| (placed.requirement.column.as_str(), "goal.require", &placed.place));
+        let required = self.requirements.iter().map(|(requirement, place)| Written {
+            column: &requirement.column,
+            key: "goal.require",
+            place,
+        });
         objectives.chain(required)
     }
 
     fn objectives(&mut self, entry: &KeyValue, goal: Goal) -> Result<(), InvalidDefinition> {
         for column in texts(entry, "a column, e.g. \"critical_force\"")? {
             let criterion = Criterion::new(column, goal);
-            let key = format!("goal.{}", entry.key);
-            if self.objectives.iter().any(|other| other.criterion.column == criterion.column) {
-                let expected = "each column as one objective".to_owned();
-                return Err(not_accepted(&entry.place, &key, column, expected));
+            if self.objectives.iter().any(|(other, _)| other.column == criterion.column) {
+                return Err(wrong(entry, column, "each column as one objective"));
             }
-            self.objectives.push(PlacedObjective { criterion, place: entry.place.clone() });
+            self.objectives.push((criterion, entry.place.clone()));
         }
         if self.objectives.len() > MOST_OBJECTIVES {
             let expected = format!("at most {MOST_OBJECTIVES} objectives");
             let found = format!("{} objectives", self.objectives.len());
-            return Err(not_accepted(&entry.place, "goal.maximize", &found, expected));
+            return Err(not_accepted(&entry.place, "goal.maximize", found, expected));
         }
         Ok(())
     }
 
     fn requirements(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let expected = "COLUMN OP NUMBER, OP being >=, <=, > or <, e.g. \"coverage >= 0.5\"; a parameter that is to have one value is fixed in its section";
         for text in texts(entry, "a requirement, e.g. \"coverage >= 0.5\"")? {
-            let expected = "COLUMN OP NUMBER, OP being >=, <=, > or <, e.g. \"coverage >= 0.5\"; a parameter that is to have one value is fixed in its section";
-            let requirement: Requirement = text
-                .parse()
-                .ok()
-                .filter(|read: &Requirement| read.relation != ranking::Relation::Equal)
-                .ok_or_else(|| {
-                    not_accepted(&entry.place, "goal.require", text, expected.to_owned())
-                })?;
-            self.requirements.push(PlacedRequirement { requirement, place: entry.place.clone() });
+            match Requirement::from_str(text) {
+                Ok(read) if read.relation != Relation::Equal => {
+                    self.requirements.push((read, entry.place.clone()));
+                }
+                _ => return Err(wrong(entry, text, expected)),
+            }
         }
         Ok(())
     }
 }
 
+/// What to say of a value of `entry` that is not accepted.
+fn wrong(
+    entry: &KeyValue,
+    found: impl std::fmt::Display,
+    expected: impl Into<String>,
+) -> InvalidDefinition {
+    not_accepted(&entry.place, &format!("goal.{}", entry.key), found, expected)
+}
+
 /// The texts of a list, or the one text.
 fn texts<'v>(entry: &'v KeyValue, what: &str) -> Result<Vec<&'v str>, InvalidDefinition> {
-    let key = format!("goal.{}", entry.key);
     let items = match &entry.value {
         Value::List(items) => items.as_slice(),
         value => std::slice::from_ref(value),
     };
     let text = |item: &'v Value| match item {
         Value::Text(text) => Ok(text.as_str()),
-        other => Err(not_accepted(&entry.place, &key, &other.to_string(), what.to_owned())),
+        other => Err(wrong(entry, other, what)),
     };
     items.iter().map(text).collect()
 }
@@ -147,10 +154,7 @@ fn switch(entry: &KeyValue) -> Result<bool, InvalidDefinition> {
     match &entry.value {
         Value::Other(text) if text == "true" => Ok(true),
         Value::Other(text) if text == "false" => Ok(false),
-        value => {
-            let key = format!("goal.{}", entry.key);
-            Err(not_accepted(&entry.place, &key, &value.to_string(), "true or false".to_owned()))
-        }
+        value => Err(wrong(entry, value, "true or false")),
     }
 }
 
@@ -159,9 +163,5 @@ fn count(entry: &KeyValue, low: usize, high: usize) -> Result<usize, InvalidDefi
         Value::Number(text) => text.parse().ok().filter(|count| (low..=high).contains(count)),
         _ => None,
     };
-    read.ok_or_else(|| {
-        let expected = format!("a whole number from {low} to {high}");
-        let key = format!("goal.{}", entry.key);
-        not_accepted(&entry.place, &key, &entry.value.to_string(), expected)
-    })
+    read.ok_or_else(|| wrong(entry, &entry.value, format!("a whole number from {low} to {high}")))
 }

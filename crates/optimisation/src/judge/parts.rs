@@ -1,129 +1,132 @@
 //! What a judge is made of.
 
-use ranking::{Goal, Relation, Requirement};
-use results::columns::{design_columns, measure_of};
+use ranking::{CriterionEnds, Goal, Requirement};
+use results::columns::measure_of;
 use sweep::Measure;
 
-use super::{GoalColumn, Judge, RequiredColumn};
-use crate::fitness::{CriterionEnds, Fitness};
+use super::{Judge, Source};
+use crate::column::NumberColumn;
 use crate::goal::DesignGoal;
-use crate::made::{MadeJudge, MadeQuantity, UsedQuantity};
-use crate::number_column::NumberColumn;
+use crate::margin::{Bound, Bounds, soundness};
+use crate::sample::{SampleJudge, UsedStatistic};
+use crate::statistic::Statistic;
 
-/// The requirement that the surface of the substrate has not folded: no gap has closed at the critical tilt.
-const SOUND: (&str, Relation, f64) = ("gap_stretch_min", Relation::AtLeast, 0.0);
+impl Judge {
+    /// A judge by `goal`, in whose fitness those criteria are rescaled that have their ends there.
+    pub fn new(goal: &DesignGoal) -> Self {
+        Self::rescaling(goal, goal.fitness.as_ref().map_or(&[], |fitness| &fitness.ends))
+    }
+
+    /// A judge by `goal`, in whose fitness the criteria are rescaled between these ends.
+    pub fn rescaling(goal: &DesignGoal, ends: &[CriterionEnds]) -> Self {
+        JudgeParts { goal, ends }.judge()
+    }
+}
 
 /// A goal, and the ends between which the criteria of its fitness are rescaled.
-pub(super) struct JudgeParts<'a> {
-    pub goal: &'a DesignGoal,
-    pub ends: &'a [CriterionEnds],
+struct JudgeParts<'a> {
+    goal: &'a DesignGoal,
+    ends: &'a [CriterionEnds],
 }
 
 impl JudgeParts<'_> {
-    pub fn judge(&self) -> Judge {
-        let quantities = self.quantities();
-        let column = |name: &str, large: bool| {
-            let is_it = |used: &UsedQuantity| used.name == name && used.large == large;
-            let made = quantities.iter().position(is_it).map(GoalColumn::Made);
-            made.or_else(|| self.column(name).map(GoalColumn::Drawn))
+    fn judge(&self) -> Judge {
+        let mut statistics = self.statistics();
+        let source = |name: &str, large: bool, statistics: &[UsedStatistic]| {
+            let is_it = |used: &UsedStatistic| used.name == name && used.large == large;
+            let statistic = statistics.iter().position(is_it).map(Source::Statistic);
+            let margin = || (name == Statistic::MARGIN).then_some(Source::Margin);
+            let nominal = || self.column(name).map(Source::Nominal);
+            statistic.or_else(margin).or_else(nominal)
         };
         let objectives = self.goal.objectives.iter().filter_map(|objective| {
             let large = objective.goal == Goal::Maximize;
-            Some((objective.goal, column(&objective.column, large)?))
+            Some((objective.goal, source(&objective.column, large, &statistics)?))
         });
-        let soundness = self.soundness();
-        let required = |requirement: Requirement| {
-            let large = super::direction(&requirement) > 0.0;
-            let column = column(&requirement.column, large)?;
-            Some(RequiredColumn { requirement, column })
+        let objectives = objectives.collect();
+        let required = |requirement: &Requirement| {
+            let large = requirement.direction() > 0.0;
+            let column = source(&requirement.column, large, &statistics)?;
+            Some(Bound { requirement: requirement.clone(), column })
         };
-        let mut requirements: Vec<_> =
-            self.goal.requirements.iter().cloned().filter_map(required).collect();
-        requirements.extend(soundness.clone().and_then(|sound| {
-            let of_skins = |used: &UsedQuantity| MadeQuantity::base(&used.name) == sound.column;
-            let made = quantities.iter().rposition(of_skins).map(GoalColumn::Made);
-            let column = made.or_else(|| self.column(&sound.column).map(GoalColumn::Drawn))?;
-            Some(RequiredColumn { requirement: sound, column })
-        }));
-        Judge {
-            objectives: objectives.collect(),
-            requirements,
-            sound: soundness.is_some(),
-            bends: self.bends(),
-            made: self.goal.is_about_skins().then(|| self.made(quantities)),
-        }
+        let mut requirements: Vec<_> = self.goal.requirements.iter().filter_map(required).collect();
+        let open = self.open(&mut statistics);
+        let soundness = open.as_ref().map(|_| requirements.len());
+        requirements.extend(open);
+        let samples =
+            SampleJudge { bounds: self.bounds(), statistics, count: self.goal.realisations };
+        Judge { objectives, requirements, soundness, bends: self.bends(), samples }
     }
 
-    /// The column of that name of a design as it is drawn; of a margin how far the design is within its bounds.
+    /// The column of that name of a nominal design.
     fn column(&self, name: &str) -> Option<NumberColumn> {
         let sweep = self.goal.space.sweep();
-        match (name, &self.goal.fitness) {
-            (Fitness::COLUMN, Some(fitness)) => {
-                Some(NumberColumn::Fitness(Fitness::new(fitness, sweep, self.ends)))
+        match &self.goal.fitness {
+            Some(fitness) if name == NumberColumn::FITNESS => {
+                Some(NumberColumn::fitness(fitness, sweep, self.ends))
             }
-            (MadeQuantity::MARGIN, _) => Some(NumberColumn::Margin(self.bounds())),
-            _ => {
-                let mut columns = design_columns(sweep).into_iter();
-                columns.find(|column| column.name == name).map(NumberColumn::Known)
-            }
+            _ => NumberColumn::named(sweep, name),
         }
     }
 
-    /// The requirements of what is drawn, then that the surface has not folded if that is wanted.
-    fn bounds(&self) -> Vec<RequiredColumn<NumberColumn>> {
-        let requirements = self.goal.requirements.iter();
-        let plain =
-            requirements.filter(|requirement| self.goal.quantity(&requirement.column).is_none());
+    /// The requirements of columns, then that the surface has not folded if that is wanted.
+    fn bounds(&self) -> Bounds {
+        let plain = self.goal.requirements.iter();
+        let plain = plain.filter(|requirement| self.goal.statistic(&requirement.column).is_none());
         let bound = |requirement: Requirement| {
             let column = self.column(&requirement.column)?;
-            Some(RequiredColumn { requirement, column })
+            Some(Bound { requirement, column })
         };
-        plain.cloned().chain(self.soundness()).filter_map(bound).collect()
+        let mut all: Vec<_> = plain.cloned().filter_map(bound).collect();
+        let open = self.soundness().and_then(bound);
+        let soundness = open.as_ref().map(|_| all.len());
+        all.extend(open);
+        Bounds { all, soundness }
     }
 
     fn soundness(&self) -> Option<Requirement> {
-        let sound =
-            self.goal.sound && self.goal.space.sweep().measures().contains(&Measure::Puncture);
-        let (name, relation, limit) = SOUND;
-        sound.then(|| Requirement { column: name.to_owned(), relation, limit })
+        soundness(self.goal.space.sweep()).filter(|_| self.goal.sound)
     }
 
-    /// The quantities over skins: those that the goal names, the yield if there is something to meet, and that surfaces stay open.
-    fn quantities(&self) -> Vec<UsedQuantity> {
-        if !self.goal.is_about_skins() {
-            return Vec::new();
+    /// The requirement that the surface has not folded, if that is wanted: of a quantile of it, where the goal names quantiles, which
+    /// then is one more statistic.
+    fn open(&self, statistics: &mut Vec<UsedStatistic>) -> Option<Bound<Source>> {
+        let requirement = self.soundness()?;
+        let column = match UsedStatistic::of_soundness(&requirement.column, statistics) {
+            Some((name, statistic)) => {
+                statistics.push(self.used(&name, statistic, true));
+                Source::Statistic(statistics.len() - 1)
+            }
+            None => Source::Nominal(self.column(&requirement.column)?),
+        };
+        Some(Bound { requirement, column })
+    }
+
+    /// The statistics that the goal names, and the yield if there is something to meet.
+    fn statistics(&self) -> Vec<UsedStatistic> {
+        let goal = self.goal;
+        let objectives = goal.objectives.iter();
+        let objectives = objectives.map(|o| (o.column.as_ref(), o.goal == Goal::Maximize));
+        let required = goal.requirements.iter();
+        let required = required.map(|r| (r.column.as_str(), r.direction() > 0.0));
+        let named = objectives.chain(required);
+        let used =
+            named.filter_map(|(name, large)| Some(self.used(name, goal.statistic(name)?, large)));
+        let mut used: Vec<UsedStatistic> = used.collect();
+        let is_plain = |r: &Requirement| goal.statistic(&r.column).is_none();
+        let has_bounds = goal.requirements.iter().any(is_plain);
+        if !used.is_empty() && has_bounds && !used.iter().any(UsedStatistic::is_yield) {
+            used.push(self.used(Statistic::YIELD, Statistic::Yield, true));
         }
-        let objectives = self.goal.objectives.iter().filter_map(|o| {
-            Some(UsedQuantity::of_objective(&o.column, self.goal.quantity(&o.column)?, o.goal))
-        });
-        let required =
-            self.goal.requirements.iter().filter_map(|r| {
-                Some(UsedQuantity::of_requirement(r, self.goal.quantity(&r.column)?))
-            });
-        let mut used: Vec<UsedQuantity> = objectives.chain(required).collect();
-        let plain = self.goal.requirements.iter().any(|r| self.goal.quantity(&r.column).is_none());
-        let is_yield = |used: &UsedQuantity| used.quantity == MadeQuantity::Yield;
-        if plain && !used.iter().any(is_yield) {
-            let name = MadeQuantity::YIELD;
-            used.push(UsedQuantity::of_objective(name, MadeQuantity::Yield, Goal::Maximize));
-        }
-        let open = self.soundness().and_then(|r| UsedQuantity::of_soundness(&r.column, &used));
-        used.extend(open);
         used
     }
 
-    fn made(&self, quantities: Vec<UsedQuantity>) -> MadeJudge {
-        let bases = quantities.iter().filter_map(|used| match &used.quantity {
-            MadeQuantity::Quantile { column, .. } => self.column(column),
-            MadeQuantity::Yield => None,
-        });
-        MadeJudge {
-            bounds: self.bounds(),
-            columns: bases.collect(),
-            quantities,
-            sound: self.soundness().is_some(),
-            skins: self.goal.skins,
-        }
+    fn used(&self, name: &str, statistic: Statistic, large: bool) -> UsedStatistic {
+        let column = match &statistic {
+            Statistic::Quantile { column, .. } => self.column(column),
+            Statistic::Yield => None,
+        };
+        UsedStatistic { name: name.to_owned(), statistic, column, large }
     }
 
     /// Whether a column of bending is part of the goal.
@@ -131,7 +134,7 @@ impl JudgeParts<'_> {
         let criteria = self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
         let criteria = self.goal.objectives.iter().chain(criteria).map(|c| c.column.as_ref());
         let required = self.goal.requirements.iter().map(|r| r.column.as_str());
-        let mut columns = criteria.chain(required).map(MadeQuantity::base);
+        let mut columns = criteria.chain(required).map(Statistic::base);
         columns.any(|column| measure_of(column) == Some(Measure::Flexure))
     }
 }

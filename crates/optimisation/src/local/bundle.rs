@@ -20,7 +20,7 @@ mod textbook;
 
 use std::iter;
 
-use crate::sample::Sequence;
+use crate::fill::Sequence;
 use model::{Cut, Model};
 
 /// The part of the gain that is told which makes a step be taken.

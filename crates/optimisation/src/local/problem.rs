@@ -1,6 +1,7 @@
 //! The problem of a local search along derivatives: a cost that is to be small and limits, both about 1 in size, over shares of the
 //! intervals.
 
+use ranking::Worth;
 use results::DesignResult;
 use sweep::Parameter;
 
@@ -8,9 +9,9 @@ use super::room::{bending_room, bending_room_slopes};
 use super::{LocalSearch, floor_size};
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
-use crate::judge::{Judgement, Worth};
 use crate::looked::LookedRow;
 use crate::slopes::Slopes;
+use crate::worth::Judgement;
 
 /// Room that is kept before scales touch in bending.
 const CLEAR: f64 = 1e-9;
@@ -105,11 +106,11 @@ impl<'a> LocalProblem<'a> {
     /// How far a design is beyond each limit; not above 0 where it keeps to it.
     pub fn limits(&self, looked: &Looked) -> Vec<f64> {
         let Looked { worth, row, .. } = looked;
-        let room = self.stays_open.then(|| CLEAR - bending_room(&row.drawn.case));
+        let room = self.stays_open.then(|| CLEAR - bending_room(&row.nominal.case));
         let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
         let floors = self.walk.target.floors.iter();
         let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
-        worth.excess.iter().copied().chain(floors).chain(room).collect()
+        worth.margins.iter().map(|margin| -margin).chain(floors).chain(room).collect()
     }
 
     /// The gradient of the cost, made of the slopes that are picked.
@@ -139,7 +140,7 @@ impl<'a> LocalProblem<'a> {
                 let size = floor_size(floor).recip();
                 self.falling(shares, |p| slopes(p).scaled(size), pick)
             }
-            None => self.falling(shares, |p| bending_room_slopes(&row.drawn.case, p), pick),
+            None => self.falling(shares, |p| bending_room_slopes(&row.nominal.case, p), pick),
         }
     }
 

@@ -5,6 +5,7 @@ use super::bundle::{BundleOptions, Piece, Pieces, PiecewiseSmooth, descend};
 use super::problem::LocalProblem;
 use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
+use crate::looked::Use;
 use crate::slopes::Slopes;
 
 /// The smallest radius, a share of the intervals: kinks are told from further away than that.
@@ -14,7 +15,7 @@ impl LocalSearch<'_> {
     /// Follows the ridge on which the best design stands, by steps of `reach` and less of the intervals, over at most `most` designs.
     pub(super) fn follow(&self, reach: f64, most: usize) -> Result<(), Halt> {
         // A staircase has no tangents.
-        if self.search.judge.is_yield_objective(self.target.objective) {
+        if self.search.judge.is_yield(Use::Objective(self.target.objective)) {
             return Ok(());
         }
         let Some(problem) = LocalProblem::new(self, SearchStage::Ridge) else { return Ok(()) };

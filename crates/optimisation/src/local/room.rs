@@ -35,6 +35,5 @@ pub(crate) fn bending_room_slopes(case: &Case, parameter: &Parameter) -> Slopes 
         Some((4.0 * at(step)? - at(2.0 * step)? - 3.0 * here) / (2.0 * step))
     };
     let known = known_room(case).is_some_and(|room| room < AMPLE);
-    let none = Slopes { left: Some(0.0), right: Some(0.0) };
-    if known { Slopes { left: on(-1.0), right: on(1.0) } } else { none }
+    if known { Slopes { left: on(-1.0), right: on(1.0) } } else { Slopes::FLAT }
 }

@@ -3,5 +3,5 @@
 mod brute_force;
 mod columns;
 mod fitness;
+mod samples;
 mod searches;
-mod skins;

@@ -153,7 +153,7 @@ fn where_nothing_meets_the_requirements_the_nearest_is_told() {
     let Judgement::Judged(worth) = &found.history[nearest].verdict else { panic!("judged") };
     // Coverage is at most the mass here, so both fall short alike: 0.9 (1 − s) = 0.8 (1 + s).
     let shortfall = 0.1 / 1.7;
-    let largest = worth.excess.iter().copied().fold(0.0, f64::max);
+    let largest = worth.shortfall();
     assert!((largest - shortfall).abs() < 1e-4, "{largest}");
 }
 

@@ -6,6 +6,7 @@ use results::round_off::same;
 use results::{InvalidResults, Results};
 
 use crate::filter::RequirementFilter;
+use crate::fitness::rescaled;
 use crate::front::front_of;
 use crate::preferences::Preferences;
 use crate::weights::{Criteria, MOST_CRITERIA};
@@ -163,10 +164,4 @@ fn spans(criteria: &[Criteria]) -> [(f64, f64); MOST_CRITERIA] {
         let values = criteria.iter().map(|values| values[c]);
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
     })
-}
-
-/// A value from 0 at the smallest to 1 at the largest (R2); 1 if all are equal, so that they do
-/// not count.
-fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
-    if high > low { (value - low) / (high - low) } else { 1.0 }
 }

@@ -3,8 +3,8 @@
 use geometry::OutOfRange;
 
 use super::{CAPTION, FlexureDrawing, Frames, MARGIN, PunctureDrawing, WIDTH};
+use crate::colors::INK;
 use crate::label::{Anchor, label, plain};
-use crate::palette::INK;
 use crate::svg::{Element, px};
 
 /// The page around the frames.

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use skin::Contact;
 
 use super::view::View;
-use crate::palette::RED;
+use crate::colors::RED;
 use crate::svg::{Element, Spot, arrow, circle};
 
 /// Length of the arrow of the largest force, px.

@@ -11,8 +11,8 @@ use super::scale_bar::scale_bar;
 use super::surface;
 use super::view::View;
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
+use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK};
 use crate::svg::{Element, Spot, arrow, line, polygon, polyline, px};
 
 /// The largest scale of a drawing: px for a length of `t`.

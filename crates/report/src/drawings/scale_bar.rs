@@ -1,8 +1,8 @@
 //! A bar of a round number of millimetres, for drawings of skins whose thickness is known.
 
 use super::view::View;
+use crate::colors::INK;
 use crate::label::{Anchor, label};
-use crate::palette::INK;
 use crate::svg::{Element, Spot, line};
 
 /// The longest bar, px.

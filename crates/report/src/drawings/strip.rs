@@ -11,8 +11,8 @@ use super::row::short;
 use super::scale_bar::scale_bar;
 use super::view::{Extent, View};
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
+use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK};
 use crate::svg::{Element, Spot, arrow, polygon, polyline};
 
 /// Width of the part that shows one gap enlarged, px.

@@ -5,7 +5,7 @@ use geometry::Row;
 
 use super::bodies::corners;
 use super::view::View;
-use crate::palette::RED;
+use crate::colors::RED;
 use crate::svg::{Element, line};
 
 /// Returns the strips of surface that are folded over, in red: each from the right end of a base back to the left end of the next.

@@ -2,15 +2,14 @@
 
 use std::collections::HashMap;
 
-use results::columns::{explain_value, parameter_of};
-
 use super::contours::contours;
-use super::{COMPLIANCE, COVERAGE, FORCE, Figure, PENETRATION, columns, in_words, sheet};
+use super::names::{axis_label, in_short, in_words, with_value};
+use super::{Figure, columns, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, NAME};
+use crate::colors::{FAINT, INK, RED, map_color};
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, upright};
-use crate::palette::{FAINT, INK, RED, map_color};
 use crate::svg::{Element, line};
 
 const WIDTH: f64 = 1000.0;
@@ -24,6 +23,9 @@ const HEIGHTS: [f64; 2] = [200.0, 420.0];
 const MAPS: usize = 24;
 /// Colours of the scale.
 const STEPS: u32 = 60;
+
+/// The column whose scale goes from none to all, and that no fold touches.
+const COVERAGE: &str = "coverage";
 
 /// A map that is asked for: a column over two parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,24 +107,27 @@ pub fn map(name: &str, designs: &Designs, request: &MapRequest) -> Result<Figure
     if parts.len() > MAPS {
         return Err(too_many(&parts));
     }
-    let label = measure_label(of);
-    let scale = ChartAxis::fit(&label, held.numbers(of));
+    let scale = ChartAxis::fit(&axis_label(of), held.numbers(of));
     let subject = MapSubject { x, y, of, scale };
     let at = request.at.iter().map(|(axis, value)| (axis.as_str(), value.as_str()));
     let at: AxisValues<'_> = at.collect();
     let title = super::title(
-        &format!("{name}: {} over {} and {}", in_words(of), in_words(x), in_words(y)),
+        &format!("{name}: {} over {} and {}", in_words(of), in_short(x), in_short(y)),
         &at,
     );
     let file = format!("map-of-{of}-over-{x}-and-{y}").replace('_', "-");
     Ok(Figure { name: super::file_name(&file, &at), svg: subject.figure(&title, &parts) })
 }
 
-/// Draws the coverage over gap and aspect ratio, a map for each slant.
-pub(super) fn coverage(name: &str, designs: &Designs) -> String {
-    let (x, y, of) = ("length_over_t", "gap_over_t", COVERAGE.column);
-    let scale = ChartAxis::exact(&format!("{}; white: none", COVERAGE.label), 0.0, 1.0);
-    let title = format!("{name}: coverage by gap, aspect ratio and slant");
+/// Draws a column over gap and aspect ratio, a map for each slant.
+pub(crate) fn by_slant(name: &str, designs: &Designs, of: &str) -> String {
+    let (x, y) = ("length_over_t", "gap_over_t");
+    let label = axis_label(of);
+    let scale = match of {
+        COVERAGE => ChartAxis::exact(&format!("{label}; white: none"), 0.0, 1.0),
+        _ => ChartAxis::fit(&label, designs.numbers(of)),
+    };
+    let title = format!("{name}: {} by gap, aspect ratio and slant", in_words(of));
     MapSubject { x, y, of, scale }.figure(&title, &designs.parts_by(&[x, y]))
 }
 
@@ -160,37 +165,6 @@ fn too_many(parts: &[(AxisValues<'_>, Designs)]) -> InvalidMap {
     InvalidMap::TooMany { count: parts.len(), axes, example }
 }
 
-/// Returns the label of a column that is shown.
-fn measure_label(of: &str) -> String {
-    let known = [COVERAGE, FORCE, PENETRATION, COMPLIANCE].into_iter().find(|q| q.column == of);
-    let unit = explain_value(of).map_or("-", |(unit, _)| unit);
-    let unit = if unit == "-" { "dimensionless" } else { unit };
-    known.map_or_else(|| format!("{}, {unit}", in_words(of)), |quantity| quantity.label.to_owned())
-}
-
-/// Returns the label of a parameter, with its symbol where it has one.
-fn axis_label(axis: &str) -> String {
-    let symbol = match axis {
-        "gap_over_t" => "gap $d/t$",
-        "length_over_t" => "aspect ratio $L/t$",
-        "width_over_t" => "width $b/t$",
-        "slant_deg" => "slant $α$, degrees",
-        _ => return in_words(axis),
-    };
-    let unit = if axis.ends_with("_deg") { "" } else { ", dimensionless" };
-    format!("{symbol}{unit}")
-}
-
-/// Returns the value of a parameter as the title of a map has it.
-fn value_label((axis, value): &(&str, &str)) -> String {
-    match *axis {
-        "gap_over_t" => format!("$d/t$ = {value}"),
-        "length_over_t" => format!("$L/t$ = {value}"),
-        "slant_deg" => format!("$α$ = {value}°"),
-        axis => format!("{} = {value}", parameter_of(axis).map_or(axis.into(), |_| in_words(axis))),
-    }
-}
-
 /// The column that a map shows, and the parameters over which it does.
 struct MapSubject<'a> {
     x: &'a str,
@@ -218,7 +192,7 @@ impl MapSubject<'_> {
                 x: designs.values(self.x),
                 y: designs.values(self.y),
             };
-            let title = values.iter().map(value_label).collect::<Vec<_>>().join(", ");
+            let title = values.iter().map(with_value).collect::<Vec<_>>().join(", ");
             inside.extend(map.drawn(&title, k + count >= parts.len(), k % count == 0));
         }
         let bottom = TOP + rows as f64 * (height + BETWEEN[1]) - BETWEEN[1];
@@ -237,11 +211,11 @@ impl MapSubject<'_> {
 
     /// Whether the column depends on the substrate that may have folded over.
     fn marks_folds(&self) -> bool {
-        self.of != COVERAGE.column
+        self.of != COVERAGE
     }
 
     fn color(&self, value: f64) -> Option<String> {
-        if self.of == COVERAGE.column && value <= 0.0 {
+        if self.of == COVERAGE && value <= 0.0 {
             return Some("#fff".to_owned());
         }
         self.scale.place(value).map(map_color)
@@ -332,7 +306,8 @@ impl Map<'_> {
                     .at("y", top)
                     .at("width", width + 0.3)
                     .at("height", height + 0.3)
-                    .with("fill", color),
+                    .with("fill", color)
+                    .with("data-design", self.designs.text("design", row)),
             );
             if self.subject.marks_folds() && self.designs.folded(row) {
                 map.add(line([left, top + height], [left + width, top], RED, 1.4));

@@ -1,12 +1,14 @@
 //! One value against the aspect ratio: a panel for each gap, a line for each slant (Figs. 7b and 12).
 
-use super::{FigureQuantity, columns, sheet};
+use super::names::{axis_label, with_value};
+use super::{Quantity, columns, sheet};
 use crate::axis::ChartAxis;
-use crate::chart::{Area, ChartPanel, MarkLook, NAME, fold_legend, mark, slant_legend};
+use crate::chart::{Area, ChartPanel, MarkLook, NAME, design_mark, mark, mark_legend};
+use crate::colors::INK;
 use crate::designs::Designs;
 use crate::label::{Anchor, label, upright};
-use crate::palette::{INK, SlantPalette};
-use crate::svg::{Element, Spot, polyline};
+use crate::palette::SlantPalette;
+use crate::svg::{Element, Spot, polygon, polyline};
 
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 78.0;
@@ -19,65 +21,47 @@ const HEIGHT: f64 = 190.0;
 /// Panels at most: of more gaps some are shown.
 const PANELS: usize = 15;
 
-/// The two lengths: one along the axis, one from panel to panel.
-struct Lengths {
-    along: &'static str,
-    along_label: &'static str,
-    across: &'static str,
-    across_symbol: &'static str,
-}
-
-/// Returns the length with more values stands along the axis.
-fn lengths(designs: &Designs) -> Lengths {
+/// Returns the length along the axis and the one from panel to panel: the one with more values stands along the axis.
+fn lengths(designs: &Designs) -> [&'static str; 2] {
     let (gap, length) = ("gap_over_t", "length_over_t");
-    if designs.values(length).len() >= designs.values(gap).len() {
-        Lengths {
-            along: length,
-            along_label: "aspect ratio $L/t$, dimensionless",
-            across: gap,
-            across_symbol: "$d/t$",
-        }
-    } else {
-        Lengths {
-            along: gap,
-            along_label: "gap $d/t$, dimensionless",
-            across: length,
-            across_symbol: "$L/t$",
-        }
-    }
+    let is_longer = designs.values(length).len() >= designs.values(gap).len();
+    if is_longer { [length, gap] } else { [gap, length] }
 }
 
-/// Returns the figure of a quantity; dots are filled where the column `filled` says so.
-pub(super) fn figure(
+/// Returns the figure of a quantity; marks are filled where the column `filled` says so.
+pub(crate) fn figure(
     name: &str,
     designs: &Designs,
-    quantity: FigureQuantity,
+    quantity: &Quantity,
     filled: Option<&str>,
 ) -> String {
-    let lengths = lengths(designs);
-    let x = ChartAxis::fit(lengths.along_label, designs.numbers(lengths.along));
-    let y = ChartAxis::fit(quantity.label, designs.numbers(quantity.column));
-    let values = some(designs.values(lengths.across));
+    let [along, across] = lengths(designs);
+    let x = ChartAxis::fit(&axis_label(along), designs.numbers(along));
+    let y = ChartAxis::fit(&axis_label(&quantity.column), quantity.numbers(designs));
+    let values = some(designs.values(across));
     let columns = columns(values.len());
     let palette = designs.palette();
-    let mut inside = vec![slant_legend(&palette, [LEFT, 50.0])];
-    inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 470.0, 50.0])));
-    inside.extend(designs.any_folded().then(|| fold_legend(&palette, [LEFT + 735.0, 50.0])));
+    let mut inside = vec![mark_legend(designs, &palette, [LEFT, 50.0])];
+    inside.extend(filled.map(|_| contact_legend(&palette, [LEFT + 630.0, 50.0])));
+    inside.extend(quantity.band.as_ref().map(|_| {
+        label("band: 5 % to 95 % of the samples", [LEFT + 630.0, 68.0], 12.0, Anchor::Start)
+    }));
     for (k, &value) in values.iter().enumerate() {
-        let title = format!("{} = {value}", lengths.across_symbol);
+        let title = with_value(&(across, &value.to_string()));
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
         let area = area(k, columns);
         let panel = ChartPanel { area, x: &x, y: &y, title, x_labels, y_labels };
         inside.push(panel.frame());
-        let here =
-            PanelSeries { designs, palette: &palette, lengths: &lengths, value, quantity, filled };
+        let is_here = |row: &usize| designs.number(across, *row) == Some(value);
+        let rows: Vec<usize> = (0..designs.count()).filter(is_here).collect();
+        let here = PanelSeries { designs, palette: &palette, along, rows, quantity, filled };
         inside.extend(palette.slants().iter().map(|&slant| here.series(&panel, slant)));
     }
     let bottom = area(values.len().saturating_sub(1), columns).bottom();
     let middle = 0.5 * (LEFT + WIDTH - RIGHT);
     inside.push(label(&x.label, [middle, bottom + 38.0], NAME, Anchor::Middle).with("fill", INK));
     inside.push(upright(&y.label, [18.0, 0.5 * (TOP + bottom)], NAME).with("fill", INK));
-    let title = format!("{name}: {}", title(quantity.label));
+    let title = format!("{name}: {}", super::in_words(&quantity.column));
     sheet(WIDTH, bottom + BOTTOM, &title, inside)
 }
 
@@ -87,11 +71,6 @@ fn area(k: usize, columns: usize) -> Area {
     let width = (WIDTH - LEFT - RIGHT - BETWEEN[0] * (columns - 1) as f64) / columns as f64;
     let (left, top) = (LEFT + column * (width + BETWEEN[0]), TOP + row * (HEIGHT + BETWEEN[1]));
     Area { left, top, width, height: HEIGHT }
-}
-
-/// Returns the words of a label before its symbol.
-fn title(label: &str) -> String {
-    label.split(" $").next().unwrap_or(label).to_owned()
 }
 
 /// Returns at most as many of `values` as there is room for, from end to end.
@@ -106,42 +85,59 @@ fn some(values: Vec<f64>) -> Vec<f64> {
 struct PanelSeries<'a> {
     designs: &'a Designs,
     palette: &'a SlantPalette,
-    lengths: &'a Lengths,
-    value: f64,
-    quantity: FigureQuantity,
+    along: &'static str,
+    rows: Vec<usize>,
+    quantity: &'a Quantity,
     filled: Option<&'a str>,
 }
 
 impl PanelSeries<'_> {
-    /// Returns the designs of one slant: a line where each aspect ratio stands once, and their marks.
+    /// Returns the designs of one slant: a line and a band where each value along the axis stands once, and their marks.
     fn series(&self, panel: &ChartPanel, slant: f64) -> Element {
         let designs = self.designs;
-        let is_here = |row: &usize| {
-            designs.number(self.lengths.across, *row) == Some(self.value)
-                && designs.number("slant_deg", *row) == Some(slant)
-        };
-        let point = |row: usize| {
-            let along = designs.number(self.lengths.along, row)?;
-            let at = panel.place(along, designs.number(self.quantity.column, row)?)?;
-            Some((along, at, row))
-        };
+        let own = |row: &&usize| designs.number("slant_deg", **row) == Some(slant);
         let mut points: Vec<(f64, Spot, usize)> =
-            (0..designs.count()).filter(is_here).filter_map(point).collect();
+            self.rows.iter().filter(own).filter_map(|&row| self.point(panel, row)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut series = Element::group("series").with("data-slant", slant.to_string());
         if points.windows(2).all(|pair| pair[0].0 < pair[1].0) {
             let color = self.palette.color(slant);
+            let band = self.quantity.band.as_ref().map(|band| self.band(panel, &points, band));
+            series = series.containing(band.map(|band| band.with("fill", color.as_str())));
             // No line crosses the place where contact begins: the value jumps there.
             for part in points.chunk_by(|a, b| self.is_filled(a.2) == self.is_filled(b.2)) {
                 let spots: Vec<Spot> = part.iter().map(|point| point.1).collect();
                 series.add(polyline(&spots).with("stroke", color.as_str()).at("stroke-width", 1.2));
             }
         }
-        for (_, at, row) in points {
-            let look = MarkLook { filled: self.is_filled(row), folded: self.designs.folded(row) };
-            series.add(mark(self.palette, slant, at, 3.2, look));
-        }
-        series
+        series.containing(points.iter().filter_map(|&(_, at, row)| {
+            design_mark(designs, self.palette, row, at, !self.is_filled(row))
+        }))
+    }
+
+    /// Returns the value of a design along the axis, its spot, and its row.
+    fn point(&self, panel: &ChartPanel, row: usize) -> Option<(f64, Spot, usize)> {
+        let along = self.designs.number(self.along, row)?;
+        let value = self.designs.number(&self.quantity.column, row)?;
+        Some((along, panel.place(along, value)?, row))
+    }
+
+    /// Returns the area between two quantiles of some designs.
+    fn band(
+        &self,
+        panel: &ChartPanel,
+        points: &[(f64, Spot, usize)],
+        quantiles: &[String; 2],
+    ) -> Element {
+        let edge = |column: &String| -> Vec<Spot> {
+            let spot = |&(along, _, row): &(f64, Spot, usize)| {
+                panel.place(along, self.designs.number(column, row)?)
+            };
+            points.iter().filter_map(spot).collect()
+        };
+        let [low, high] = quantiles.each_ref().map(edge);
+        let around: Vec<Spot> = low.into_iter().chain(high.into_iter().rev()).collect();
+        polygon(&around).with("class", "band").with("fill-opacity", "0.18")
     }
 
     fn is_filled(&self, row: usize) -> bool {
@@ -156,9 +152,9 @@ fn is_true(text: &str) -> bool {
 fn contact_legend(palette: &SlantPalette, [x, y]: Spot) -> Element {
     let slant = palette.slants().first().copied().unwrap_or(0.0);
     Element::group("legend").containing([
-        mark(palette, slant, [x, y], 4.5, MarkLook::FILLED),
+        mark(palette, slant, [x, y], MarkLook::Filled),
         label("contact", [x + 10.0, y + 4.0], 12.0, Anchor::Start).with("fill", INK),
-        mark(palette, slant, [x + 76.0, y], 4.5, MarkLook::OPEN),
+        mark(palette, slant, [x + 76.0, y], MarkLook::Open),
         label("no contact: slants alike", [x + 86.0, y + 4.0], 12.0, Anchor::Start)
             .with("fill", INK),
     ])

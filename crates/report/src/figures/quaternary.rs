@@ -5,9 +5,9 @@ use ranking::{RankedDesign, Ranking, Weights};
 
 use super::weight_slices::{RegionLook, WeightSlices};
 use super::{in_words, sheet};
+use crate::colors::{FAINT, INK, RED, shaded};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK, RED, shaded};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 const WIDTH: f64 = 1000.0;

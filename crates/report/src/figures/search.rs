@@ -3,8 +3,8 @@
 use super::{in_words, sheet};
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
+use crate::colors::{INK, RED};
 use crate::label::{Anchor, label};
-use crate::palette::{INK, RED};
 use crate::svg::{Element, Spot, circle, polyline};
 
 const WIDTH: f64 = 760.0;

@@ -1,8 +1,8 @@
 //! The tetrahedron of weights cut into slices of equal weight of coverage, so that no weighting hides another.
 
+use crate::colors::{FAINT, INK, RED};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::palette::{FAINT, INK, RED};
 use crate::svg::{Element, Spot, circle, line, polygon};
 
 /// Slices, without the corner at which coverage counts alone.
@@ -21,19 +21,19 @@ const LARGEST_DOT: f64 = 8.0;
 const OTHERS: &str = "#d9d9d9";
 
 /// How a region of weights looks.
-pub(super) struct RegionLook {
+pub(crate) struct RegionLook {
     /// Row of the design that is best there.
-    pub(super) row: usize,
-    pub(super) color: String,
-    pub(super) letter: String,
+    pub(crate) row: usize,
+    pub(crate) color: String,
+    pub(crate) letter: String,
 }
 
 /// The best design for every weighting, in slices.
-pub(super) struct WeightSlices {
+pub(crate) struct WeightSlices {
     /// Steps from one corner of the tetrahedron to the next.
-    pub(super) resolution: u32,
+    pub(crate) resolution: u32,
     /// Weights, and the row of the design that is best for them.
-    pub(super) winners: Vec<([f64; 4], usize)>,
+    pub(crate) winners: Vec<([f64; 4], usize)>,
 }
 
 /// A weighting on paper.
@@ -41,11 +41,12 @@ struct Dot {
     spot: Spot,
     row: usize,
     slice: usize,
+    weights: [f64; 4],
 }
 
 impl WeightSlices {
-    /// Draws the slices; `best` names the design that is best by each criterion alone.
-    pub(super) fn drawn(
+    /// Draws the slices; `best` names the design that is best by each criterion alone, or none where that may change.
+    pub(crate) fn drawn(
         &self,
         designs: &Designs,
         looks: &[RegionLook],
@@ -84,7 +85,7 @@ impl WeightSlices {
         let dot = |(weights, row): &([f64; 4], usize)| {
             let is_here = |steps: &u32| (self.weight(*steps) - weights[0]).abs() < 1e-9;
             let slice = slices.iter().position(is_here)?;
-            Some(Dot { spot: Self::spot(slice, *weights), row: *row, slice })
+            Some(Dot { spot: Self::spot(slice, *weights), row: *row, slice, weights: *weights })
         };
         self.winners.iter().filter_map(dot).collect()
     }
@@ -97,7 +98,10 @@ impl WeightSlices {
     fn marked(&self, designs: &Designs, looks: &[RegionLook], dot: &Dot) -> Vec<Element> {
         let look = looks.iter().find(|look| look.row == dot.row);
         let color = look.map_or(OTHERS, |look| look.color.as_str());
-        let mut marked = vec![circle(dot.spot, self.radius()).with("fill", color)];
+        let steps =
+            dot.weights.map(|weight| (weight * f64::from(self.resolution)).round().to_string());
+        let own = circle(dot.spot, self.radius()).with("fill", color);
+        let mut marked = vec![own.with("data-steps", steps.join(","))];
         if designs.folded(dot.row) {
             let [x, y] = dot.spot;
             let r = 0.7 * self.radius();
@@ -119,13 +123,13 @@ impl WeightSlices {
         let below = [0.5 * (left[0] + right[0]), left[1] + 40.0];
         let mut frame = Element::group("slice").containing([outline, middle(&title, below, 12.5)]);
         frame = frame.containing(self.corner_names(k));
+        let [coverage, force, resistance, compliance] = *best else { return frame };
         if m >= 1.0 {
-            let best = format!("best: {}", best.first().copied().unwrap_or_default());
+            let best = format!("best: {coverage}");
             frame.add(middle(&best, [left[0], left[1] + 56.0], 12.0));
         } else if k == 0 {
             let alone = format!(
-                "best alone: critical force {}, penetration resistance {}, compliance {}",
-                best[1], best[2], best[3]
+                "best alone: critical force {force}, penetration resistance {resistance}, compliance {compliance}"
             );
             frame.add(label(&alone, [20.0, 622.0], 12.0, Anchor::Start).with("fill", FAINT));
         }

@@ -6,7 +6,18 @@ use sweep::visible;
 
 use super::data::cells;
 use crate::axis::ChartAxis;
+use crate::chart::{Area, ChartPanel};
 use crate::designs::Designs;
+use crate::figures::names::axis_label;
+use crate::figures::{sheet, thinned};
+use crate::svg::{Element, Spot, circle, polygon, polyline};
+
+/// Height of a panel, and the room around it: left, right, above, below.
+const PANEL: f64 = 360.0;
+const MARGINS: [f64; 4] = [74.0, 16.0, 46.0, 58.0];
+const WIDTH: f64 = 1000.0;
+/// Colours of the front and of the designs of the grid.
+const COLORS: [&str; 2] = ["#b34700", "#b9c1c9"];
 
 /// The designs that `squama optimise` has found, on a page whose designs are those of a grid.
 #[derive(Clone, Debug)]
@@ -42,12 +53,66 @@ impl PageFront {
         axes
     }
 
-    /// Returns the data of the front, as the scripts of the page read them; its axes span the designs of `grid` too.
-    pub(super) fn to_json(&self, grid: &Designs) -> Value {
-        let axis = |column: &&str| {
+    /// Draws what was found over the designs of `grid`: a panel for each pair of axes.
+    pub(super) fn figure(&self, grid: &Designs) -> String {
+        let axes = self.axes();
+        let pairs = (0..axes.len()).flat_map(|i| (i + 1..axes.len()).map(move |j| (i, j)));
+        let pairs: Vec<[&str; 2]> = pairs.map(|(i, j)| [axes[i], axes[j]]).collect();
+        let [left, right, above, below] = MARGINS;
+        let columns = pairs.len().clamp(1, 3);
+        let step = (WIDTH - right) / columns as f64;
+        let dot = circle([0.0, 0.0], 2.2).with("fill", "currentColor").with("id", "grid-design");
+        let found = polygon(&[[0.0, -6.0], [6.0, 0.0], [0.0, 6.0], [-6.0, 0.0]]);
+        let found = found.with("fill", COLORS[0]).with("stroke", "#fff").with("id", "found");
+        let mut inside = vec![Element::new("defs").containing([dot, found])];
+        for (k, pair) in pairs.iter().enumerate() {
+            let area = Area {
+                left: left + (k % columns) as f64 * step,
+                top: above + (k / columns) as f64 * (PANEL + below),
+                width: step - left,
+                height: PANEL,
+            };
+            inside.extend(self.panel(grid, pair, area));
+        }
+        let rows = pairs.len().div_ceil(columns) as f64;
+        sheet(WIDTH, above + rows * (PANEL + below), "What a search has found", inside)
+    }
+
+    /// Draws two axes: the designs of the grid, and above them those that were found, joined by a line where they are a front of two.
+    fn panel(&self, grid: &Designs, pair: &[&str; 2], area: Area) -> Vec<Element> {
+        let axis = |column: &str| {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
-            ((*column).to_owned(), ChartAxis::fit("", values).to_json())
+            ChartAxis::fit(&axis_label(column), values)
         };
+        let (x, y, title) = (&axis(pair[0]), &axis(pair[1]), String::new());
+        let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+        let spot = |designs: &Designs, row: usize| {
+            let [x, y] = pair.map(|column| designs.number(column, row));
+            panel.place(x?, y?)
+        };
+        let mark = |shape: &str, [x, y]: Spot| {
+            Element::new("use").with("href", shape).at("x", x).at("y", y)
+        };
+        let of_grid = thinned(grid.count(), self.axes().len()).filter_map(|row| {
+            let mark = mark("#grid-design", spot(grid, row)?).with("color", COLORS[1]);
+            Some(mark.with("data-design", grid.text("design", row)))
+        });
+        let mut found: Vec<(usize, Spot)> =
+            (0..self.designs.count()).filter_map(|k| Some((k, spot(&self.designs, k)?))).collect();
+        found.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]));
+        let joined = if self.objectives.len() == 2 { found.as_slice() } else { &[] };
+        let line: Vec<Spot> = joined.iter().map(|(_, spot)| *spot).collect();
+        let line = polyline(&line).with("stroke", COLORS[0]).at("stroke-width", 2.0);
+        let found =
+            found.iter().map(|&(k, spot)| mark("#found", spot).with("data-front", k.to_string()));
+        let grid = Element::group("grid").containing(of_grid);
+        let found =
+            Element::group("found").containing([line.with("class", "line")]).containing(found);
+        vec![panel.frame(), panel.x_name(), panel.y_name(52.0), grid, found]
+    }
+
+    /// Returns the data of the front, as the scripts of the page read them.
+    pub(super) fn to_json(&self) -> Value {
         let objective = |criterion: &Criterion| json!({"column": criterion.column, "goal": criterion.goal.key()});
         let requirement = |requirement: &Requirement| json!({"column": requirement.column, "sign": requirement.relation.sign(), "limit": requirement.limit});
         let headers = self.designs.headers().iter();
@@ -61,7 +126,6 @@ impl PageFront {
             "variables": self.variables,
             "differences": self.differences,
             "axes": self.axes(),
-            "axesOf": self.axes().iter().map(axis).collect::<Map<_, _>>(),
             "count": self.designs.count(),
             "values": values.collect::<Map<_, _>>(),
         })

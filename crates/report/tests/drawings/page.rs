@@ -1,9 +1,12 @@
 //! Figures and page of a table.
 
 use std::fmt::Write as _;
+use std::io::Read as _;
 
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use ranking::{Ranking, TetrahedralGrid};
-use report::{Designs, Page, PageDesign, figures};
+use report::{Designs, Page, PageDesign, figures, untitled};
 use results::Results;
 
 /// A table of 24 designs with made-up values.
@@ -102,7 +105,7 @@ fn every_value_of_a_further_axis_has_figures_of_its_own() {
     );
     // Each has the half of the marks, and says which.
     for (figure, width) in forces.iter().zip(["2", "0.5"]) {
-        assert!(figure.svg.contains(&format!("x, width/t {width}: critical force")));
+        assert!(figure.svg.contains(&format!("x, b/t = {width}: critical force")));
     }
 }
 
@@ -144,27 +147,68 @@ fn a_page_of_720_designs_is_below_1_mb() {
 }
 
 #[test]
-fn a_page_has_an_axis_for_every_column_of_numbers() {
+fn a_page_knows_which_columns_are_numbers() {
     let html = page(designs()).html();
-    let axes = html.split("\"axesOf\":").nth(1).expect("the axes of the columns");
-    let (axes, _) = axes.split_once("\"columns\"").expect("the columns behind them");
+    let numeric = html.split("\"numeric\":[").nth(1).and_then(|rest| rest.split(']').next());
+    let numeric = numeric.expect("the columns of numbers");
     for header in designs().headers() {
-        // What is no number has no axis.
-        let is_there = axes.contains(&format!("\"{header}\":{{"));
-        assert_eq!(is_there, header != "flexure_contact", "{header}");
+        assert_eq!(
+            numeric.contains(&format!("\"{header}\"")),
+            header != "flexure_contact",
+            "{header}"
+        );
+    }
+}
+
+/// The figures of a page, unpacked, each with its kind and its choice.
+fn figures_of(html: &str) -> Vec<(String, String)> {
+    let data = html.split("id=\"data\">").nth(1).and_then(|rest| rest.split("</script>").next());
+    let data: serde_json::Value = serde_json::from_str(data.expect("data")).expect("JSON");
+    let unpacked = |figure: &serde_json::Value| {
+        let packed = BASE64_STANDARD.decode(figure["svg"].as_str()?).ok()?;
+        let mut svg = String::new();
+        flate2::read::DeflateDecoder::new(packed.as_slice()).read_to_string(&mut svg).ok()?;
+        Some((format!("{} {}", figure["kind"].as_str()?, figure["choice"].as_str()?), svg))
+    };
+    let figures = data["figures"].as_array().expect("figures").iter();
+    figures.map(|figure| unpacked(figure).expect("a figure")).collect()
+}
+
+#[test]
+fn the_figures_of_a_page_are_those_of_files() {
+    let results = results(&table());
+    let ranking = Ranking::new(&results, TetrahedralGrid::default()).expect("designs to rank");
+    let files = figures("x", &designs(), Some(&ranking));
+    let own = figures_of(&page(designs()).html());
+    let kinds = [
+        ("critical-force-by-gap-aspect-slant", "critical-force "),
+        ("compliance-by-gap-aspect-slant", "compliance "),
+        ("stiffness-against-critical-force", "stiffness "),
+        ("coverage-maps-by-slant", "coverage "),
+        ("pareto-fronts-pairwise", "pareto "),
+    ];
+    for (name, kind) in kinds {
+        let file = files.iter().find(|figure| figure.name == name).expect("a file");
+        let (_, svg) = own.iter().find(|(own, _)| own == kind).expect("a figure");
+        let drawn = |svg: &str| svg.split_once("</title>").expect("a title").1.to_owned();
+        assert!(drawn(svg) == drawn(&untitled(&file.svg)), "{name}");
+        assert!(svg.contains("data-design=\"0007\""), "{name}: marks know their designs");
     }
 }
 
 #[test]
-fn curves_of_solved_designs_have_axes_that_they_fit_on() {
-    let solved = PageDesign {
-        number: "0001".to_owned(),
-        puncture: vec![[0.0, 0.0], [0.1, 2.345_678_912]],
+fn curves_of_solved_designs_stand_in_one_chart() {
+    let solved = |number: &str, force| PageDesign {
+        number: number.to_owned(),
+        puncture: vec![[0.0, 0.0], [0.1, force]],
         flexure: vec![[0.0, 0.0]],
         ..PageDesign::default()
     };
-    let html = Page { solved: vec![solved], ..page(designs()) }.html();
-    assert!(html.contains("\"points\":[[0.0,0.0],[0.1,2.3457]]"), "with few digits");
-    // One point is no curve.
-    assert!(html.contains("\"puncture\":{") && !html.contains("\"flexure\":{"));
+    let solved = vec![solved("0001", 2.0), solved("0002", 0.02)];
+    let all = figures_of(&Page { solved, ..page(designs()) }.html());
+    for choice in ["curves linear", "curves log"] {
+        let (_, svg) = all.iter().find(|(kind, _)| kind == choice).expect("curves");
+        assert_eq!(svg.matches("class=\"curve\"").count(), 2, "one point is no curve: {svg}");
+        assert!(svg.contains("force") && !svg.contains("moment"));
+    }
 }

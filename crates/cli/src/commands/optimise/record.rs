@@ -60,7 +60,7 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
         "values": measures,
         "binding": best.bindings.iter().map(binding).collect::<Vec<_>>(),
     });
-    if let Some(made) = &best.made {
+    if let Some(made) = &best.confirmation {
         design["made"] = skins::record(made);
     }
     design
@@ -70,7 +70,7 @@ fn design(goal: &DesignGoal, words: &Words<'_>, best: &BestDesign) -> Value {
 fn objectives(goal: &DesignGoal, best: &BestDesign) -> Map<String, Value> {
     let Judgement::Judged(worth) = &best.candidate.verdict else { return Map::new() };
     let values = goal.objectives.iter().zip(&worth.objectives);
-    let drawn = values.filter(|(objective, _)| goal.quantity(&objective.column).is_none());
+    let drawn = values.filter(|(objective, _)| goal.statistic(&objective.column).is_none());
     drawn.map(|(objective, value)| (objective.column.to_string(), json!(value))).collect()
 }
 
@@ -92,7 +92,7 @@ fn infeasible(
     };
     let nearest = nearest.map(|index| &found.history[index]);
     let is_judged =
-        |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Drawn(_));
+        |c: &&Candidate| matches!(c.verdict, Judgement::Judged(_) | Judgement::Nominal(_));
     json!({
         "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),
         "nearest": nearest.filter(is_judged).map(|candidate| variables(goal, candidate)),

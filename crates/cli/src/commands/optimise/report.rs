@@ -75,7 +75,7 @@ impl SearchReport<'_> {
             let rows: Vec<_> = bindings.map(row).collect();
             let _ = write!(text, "\nIt cannot be better because of\n{}", aligned(&rows));
         }
-        text + &best.made.as_ref().map(skins::text).unwrap_or_default()
+        text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
     }
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
@@ -91,9 +91,9 @@ impl SearchReport<'_> {
     fn values(&self, best: &BestDesign) -> Vec<[String; 2]> {
         let Judgement::Judged(worth) = &best.candidate.verdict else { return Vec::new() };
         let mut rows: Vec<[String; 2]> = Vec::new();
-        for (column, value) in worth.values(self.goal) {
+        for (column, value) in self.goal.values(worth) {
             let is_variable = self.goal.space.parameters().any(|p| p.key == column);
-            let is_of_skins = self.goal.quantity(column).is_some();
+            let is_of_skins = self.goal.statistic(column).is_some();
             if !is_variable && !is_of_skins && !rows.iter().any(|[known, _]| *known == column) {
                 rows.push([column.to_owned(), digits(value)]);
             }
@@ -140,7 +140,7 @@ impl SearchReport<'_> {
         let (title, designs) = (self.title(front), &front.designs);
         let Some(first) = designs.first() else { return title };
         let named = |best: &BestDesign| {
-            let made = best.made.as_ref().map(skins::row).unwrap_or_default();
+            let made = best.confirmation.as_ref().map(skins::row).unwrap_or_default();
             [self.variables(&best.candidate), self.values(best), made].concat()
         };
         let mut header: Vec<String> = named(first).into_iter().map(|[name, _]| name).collect();
@@ -165,7 +165,7 @@ impl SearchReport<'_> {
         let unmet = unmet(self.goal, self.found, &requirements);
         // Requirements of columns act within a yield, too: what is left without one, nobody has looked at.
         let obstacle =
-            if self.goal.is_about_skins() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
+            if self.goal.is_about_samples() { skins::shortfalls(&unmet) } else { obstacle(&unmet) };
         let mut text = format!("No design meets all requirements\n{obstacle}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
@@ -178,14 +178,14 @@ impl SearchReport<'_> {
 /// The obstacle to the requirements among all designs that were looked at: to those of what is drawn, if skins were made of none.
 pub fn unmet(goal: &DesignGoal, found: &Found, requirements: &[Requirement]) -> Unmet {
     let has_skins = found.history.iter().any(|c| matches!(c.verdict, Judgement::Judged(_)));
-    let is_told = |r: &&Requirement| has_skins || goal.quantity(&r.column).is_none();
+    let is_told = |r: &&Requirement| has_skins || goal.statistic(&r.column).is_none();
     let requirements: Vec<Requirement> = requirements.iter().filter(is_told).cloned().collect();
     let values = |candidate: &Candidate| match &candidate.verdict {
         Judgement::Judged(worth) => worth.required.iter().copied().map(Some).collect(),
-        Judgement::Drawn(worth) => {
+        Judgement::Nominal(worth) => {
             let mut drawn = worth.required.iter().copied();
             let value = |requirement: &Requirement| {
-                let is_drawn = goal.quantity(&requirement.column).is_none();
+                let is_drawn = goal.statistic(&requirement.column).is_none();
                 is_drawn.then(|| drawn.next()).flatten()
             };
             requirements.iter().map(value).collect()

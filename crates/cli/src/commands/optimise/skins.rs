@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use optimisation::{BestDesign, MadeEstimate, MadeReport};
+use optimisation::{BestDesign, Confirmation, Estimate};
 use ranking::{Requirement, Unmet};
 use serde_json::{Value, json};
 
@@ -10,9 +10,9 @@ use super::super::rank::distance;
 use crate::print::{aligned, counted, digits};
 
 /// What is made of the best design.
-pub fn text(made: &MadeReport) -> String {
+pub fn text(made: &Confirmation) -> String {
     let header = ["", "search", "others", "95 % interval of the others"].map(str::to_owned);
-    let row = |of: &MadeEstimate| {
+    let row = |of: &Estimate| {
         let [low, high] = of.interval.map(value);
         [of.name.clone(), value(of.seen), value(of.value), format!("{low} to {high}")]
     };
@@ -54,13 +54,14 @@ fn joined(requirements: &[&Requirement]) -> String {
 }
 
 /// What is made of a design of a front: the values of the skins that the search did not see.
-pub fn row(made: &MadeReport) -> Vec<[String; 2]> {
+pub fn row(made: &Confirmation) -> Vec<[String; 2]> {
     made.estimates.iter().map(|of| [of.name.clone(), value(of.value)]).collect()
 }
 
 /// What is to be said of the skins of a whole front.
 pub fn of_all(designs: &[BestDesign]) -> String {
-    let made: Vec<&MadeReport> = designs.iter().filter_map(|best| best.made.as_ref()).collect();
+    let made: Vec<&Confirmation> =
+        designs.iter().filter_map(|best| best.confirmation.as_ref()).collect();
     let Some(first) = made.first() else { return String::new() };
     let fresh = sweep::number::text(first.fresh as f64);
     let mut text = format!(
@@ -78,8 +79,8 @@ pub fn of_all(designs: &[BestDesign]) -> String {
 }
 
 /// What is made of a best design, for programs.
-pub fn record(made: &MadeReport) -> Value {
-    let estimate = |of: &MadeEstimate| json!({"quantity": of.name, "seen": of.seen, "value": of.value, "interval": of.interval});
+pub fn record(made: &Confirmation) -> Value {
+    let estimate = |of: &Estimate| json!({"quantity": of.name, "seen": of.seen, "value": of.value, "interval": of.interval});
     json!({
         "seen": made.seen,
         "fresh": made.fresh,

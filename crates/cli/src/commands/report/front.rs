@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use optimisation::{DesignGoal, FRONT, GOAL, MadeQuantity, OPTIMUM};
+use optimisation::{DesignGoal, FRONT, GOAL, OPTIMUM, Statistic};
 use ranking::{Criterion, Goal, Relation, Requirement};
 use report::{Designs, PageFront};
 use results::{Completeness, Results, VerifiedFolder};
@@ -22,8 +22,8 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let designs = Designs::of(&Results::of_file(&found, table)?);
     let goal = DesignGoal::read(&folder.join(GOAL), &[])?;
     let headers = grid.designs.headers();
-    let drawn = goal.as_drawn();
-    let objectives = objectives(&drawn);
+    let nominal = goal.nominal();
+    let objectives = objectives(&nominal);
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
@@ -38,16 +38,16 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
         variables: goal.space.parameters().map(|parameter| parameter.key.to_owned()).collect(),
         objectives,
         made: made(&goal),
-        requirements: drawn.requirements,
+        requirements: nominal.requirements,
         sound: goal.sound,
         designs,
     })
 }
 
-/// The objectives as far as designs as they are drawn have them; of a yield alone the columns that skins are to meet.
-fn objectives(drawn: &DesignGoal) -> Vec<Criterion> {
-    let of_grid = |objective: &&Criterion| objective.column != MadeQuantity::MARGIN;
-    let objectives: Vec<Criterion> = drawn.objectives.iter().filter(of_grid).cloned().collect();
+/// The objectives as far as nominal designs have them; of a yield alone the columns that samples are to meet.
+fn objectives(nominal: &DesignGoal) -> Vec<Criterion> {
+    let of_grid = |objective: &&Criterion| objective.column != Statistic::MARGIN;
+    let objectives: Vec<Criterion> = nominal.objectives.iter().filter(of_grid).cloned().collect();
     if !objectives.is_empty() {
         return objectives;
     }
@@ -56,7 +56,7 @@ fn objectives(drawn: &DesignGoal) -> Vec<Criterion> {
         let goal = if is_upper { Goal::Minimize } else { Goal::Maximize };
         Criterion::new(&requirement.column, goal)
     };
-    drawn.requirements.iter().take(1).map(criterion).collect()
+    nominal.requirements.iter().take(1).map(criterion).collect()
 }
 
 /// The quantities over what is made that a goal names, each once.
@@ -64,7 +64,7 @@ fn made(goal: &DesignGoal) -> Vec<String> {
     let objectives = goal.objectives.iter().map(|objective| objective.column.as_ref());
     let columns = objectives.chain(goal.requirements.iter().map(|r| r.column.as_str()));
     let mut made: Vec<String> = Vec::new();
-    for column in columns.filter(|column| goal.quantity(column).is_some()) {
+    for column in columns.filter(|column| goal.statistic(column).is_some()) {
         if !made.iter().any(|known| known == column) {
             made.push(column.to_owned());
         }
@@ -77,7 +77,7 @@ fn of_skins(goal: &DesignGoal) -> Option<String> {
     let tolerances = goal.space.sweep().deviations().iter();
     let tolerances = tolerances.map(|d| format!("tolerance.{} {}", d.key(), d.to_toml()));
     let all: Vec<String> = tolerances.collect();
-    goal.is_about_skins().then(|| all.join(", "))
+    goal.is_about_samples().then(|| all.join(", "))
 }
 
 /// What has one value in the search and another one in the grid: each parameter with both.

@@ -19,7 +19,7 @@
     if (state.scale !== "paper") parts.set("scale", state.scale);
     if (state.sound) parts.set("sound", "yes");
     if (state.log) parts.set("log", "yes");
-    for (const key of ["against", "panels", "measure", "mapX", "mapY", "mapOf", "columns"]) if (state[key] !== null) parts.set(key, state[key]);
+    for (const key of ["measure", "map", "columns"]) if (state[key] !== null) parts.set(key, state[key]);
     for (const [axis, value] of Object.entries(state.shown)) parts.set(`show.${axis}`, String(value));
     if (state.sort !== "design") parts.set("sort", state.sort);
     for (const key of ["design", "pinned"]) if (state[key] !== null) parts.set(key, squama.number(state[key]));
@@ -34,11 +34,11 @@
     next.weights = right ? squama.hundredths(weights) : squama.equalWeights(next.criteria.length);
   };
 
-  /** A value of an axis by its text; "all" stands for all of them. */
-  const valueOf = (axis, text) => (text === "all" ? "all" : squama.different(axis).find((value) => String(value) === text));
+  /** A value of an axis by its text. */
+  const valueOf = (axis, text) => squama.different(axis).find((value) => String(value) === text);
 
   const readView = (parts, next) => {
-    for (const key of ["against", "panels", "measure", "mapX", "mapY", "mapOf"]) if (squama.numeric.includes(parts.get(key))) next[key] = parts.get(key);
+    for (const key of ["measure", "map"]) if (squama.numeric.includes(parts.get(key))) next[key] = parts.get(key);
     for (const axis of squama.varied) {
       const value = valueOf(axis, parts.get(`show.${axis}`));
       if (value !== undefined) next.shown[axis] = value;

@@ -14,13 +14,10 @@ squama.comparable = (() => {
     return [...found].map(([parameter, column]) => ({ parameter, column, values: valuesOf(rows, parameter) })).filter(({ values }) => values.length > 1);
   };
 
-  /** The value among which designs are ranked: the one that figures show, if any design has it; "all" stands for none. */
-  const held = ({ parameter, values }) => {
-    const shown = squama.view.shown(parameter);
-    return shown === "all" || values.includes(shown) ? shown : values[0];
-  };
+  /** The value among which designs are ranked: the one that figures show, if any design has it. */
+  const held = ({ parameter, values }) => (values.includes(squama.view.shown(parameter)) ? squama.view.shown(parameter) : values[0]);
 
-  /** Of some rows those that are ranked: of one value of each parameter that measures; none where all values are to be shown. */
+  /** Of some rows those that are ranked: of one value of each parameter that measures. */
   const ranked = (rows, criteria) => differing(rows, criteria)
     .reduce((left, one) => left.filter((row) => squama.cell(row, one.parameter) === held(one)), rows);
 
@@ -38,9 +35,6 @@ squama.comparable = (() => {
   /** The parameters among whose values designs are ranked now, each with its value. */
   const now = () => differing(squama.meeting, state.criteria).map((one) => ({ ...one, value: held(one) }));
 
-  /** Why nothing is ranked, as the command says it. */
-  const refusal = ({ column, parameter, values }) => `${column} cannot be compared between designs of different ${parameter} (${values.join(", ")})`;
-
   // Another value is shown: another ranking.
   let last = "";
   squama.listen("view design", () => {
@@ -49,5 +43,5 @@ squama.comparable = (() => {
   });
   squama.listen("selection", () => { last = JSON.stringify(now().map(({ value }) => value)); });
 
-  return { differing, ranked, groups, now, refusal };
+  return { differing, ranked, groups, now };
 })();

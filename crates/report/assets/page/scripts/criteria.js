@@ -77,7 +77,7 @@
   squama.rankCommand = () => [
     `squama rank ${squama.folder}`,
     ...state.requirements.filter(({ sign }) => sign !== "~").map((one) => `--require ${quoted(ranking.written(one))}`),
-    ...squama.comparable.now().filter(({ value }) => value !== "all").map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
+    ...squama.comparable.now().map(({ parameter, value }) => `--require ${quoted(`${parameter} == ${value}`)}`),
     // The surface folds over where a gap between two bases has closed.
     ...(state.sound ? [`--require ${quoted("gap_stretch_min > 0")}`] : []),
     ...(isPaper() ? [] : [`--criteria ${state.criteria.map(({ goal, column }) => `${goal}:${column}`).join(",")}`]),
@@ -111,20 +111,19 @@
       ...(other ? ["The best without is ", squama.element("button", { type: "button", onclick: () => squama.choose(other.row) }, squama.title(other.row)), `, fitness ${other.fitness.toFixed(4)}.`] : []));
   };
 
-  /** Says among which designs the ranking goes, because others are not measured alike; or why there is none. */
+  /** Says among which designs the ranking goes, because others are not measured alike. */
   const showIncomparable = () => {
-    const found = squama.comparable.now(), refused = found.find(({ value }) => value === "all");
+    const found = squama.comparable.now();
     const note = squama.at("incomparable");
     note.hidden = found.length === 0;
-    note.className = refused ? "doubt" : "note";
     const show = (parameter, values, text) => {
       state.shown[parameter] = values.find((value) => String(value) === text);
       squama.tell("view");
     };
     const chooser = ({ parameter, values, value }) => squama.element("label", {}, ` ${squama.label(parameter)} `, squama.dropdown({ onchange: (event) => show(parameter, values, event.target.value) },
-      [...values.map((one) => [String(one), squama.short(one)]), ...(value === "all" ? [["all", "choose"]] : [])], String(value)));
+      values.map((one) => [String(one), squama.short(one)]), String(value)));
     const why = ({ column, parameter }) => `${squama.label(column)} is measured differently for designs of different ${squama.label(parameter)}`;
-    note.replaceChildren(refused ? `⚠ ${squama.comparable.refusal(refused)}. Choose one of them, or other criteria:` : "Ranked are designs of", ...found.map(chooser), ...(refused ? [] : [`, because ${found.map(why).join(", and ")}.`]));
+    note.replaceChildren("Ranked are designs of", ...found.map(chooser), `, because ${found.map(why).join(", and ")}.`);
   };
 
   /** Says how far the best design moves with its gap, where that is known. */

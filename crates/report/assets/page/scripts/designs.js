@@ -36,17 +36,15 @@ squama.numbers = (() => {
   };
 })();
 
-/** Columns that hold a number for one design at least. */
-squama.numeric = squama.names.filter((name) => name in squama.axesOf);
-
 /** Number of a design, as the tables write it. */
 squama.number = (row) => squama.cell(row, "design");
 
-/** Row of a design by its number, or null. */
-squama.rowOf = (number) => {
-  const row = squama.cells("design").indexOf(number);
-  return row < 0 ? null : row;
-};
+/** Row of a design by its number, or null; zeros before it do not matter. */
+squama.rowOf = (() => {
+  const plain = (number) => String(number).replace(/^0+(?=.)/, "");
+  const known = new Map(squama.cells("design").map((number, row) => [plain(number), row]));
+  return (number) => known.get(plain(number)) ?? null;
+})();
 
 /** What the page holds of a design that was solved again: drawing, curves; nothing of others. */
 squama.solved = (() => {
@@ -116,13 +114,6 @@ squama.label = (name) => {
   return plain.replaceAll("_over_t", "/t").replaceAll("_", " ") + (unit ? ` (${unit[1]})` : "");
 };
 
-/** A column as the axis of a chart is called. */
-squama.axisName = (name) => {
-  const unit = squama.unitOf(name);
-  if (SYMBOLS[name]) return `${SYMBOLS[name][1]}, ${unit ? "degrees" : "dimensionless"}`;
-  return unit ? squama.label(name).replace(/ \((.*)\)$/, ", $1") : `${squama.label(name)}, dimensionless`;
-};
-
 /** The unit of a column; nothing for lengths over t, and where the name of the column says it. */
 squama.unit = (name, unit) => {
   if (unit === "-" || unit === "deg" || name.endsWith("_over_t") || squama.physical(name)) return [];
@@ -141,7 +132,7 @@ squama.withUnit = (name, value, unit) => {
 /** Colour and mark of the slant of a design: the same everywhere. */
 squama.slant = (() => {
   const known = new Map(squama.slants.map((slant) => [slant.degrees, slant]));
-  const none = { degrees: null, color: "#888888", path: "M-4 0 A4 4 0 1 1 4 0 A4 4 0 1 1 -4 0 Z" };
+  const none = { degrees: null, color: "#888888", mark: "circle" };
   return (row) => known.get(squama.cell(row, "slant_deg")) ?? none;
 })();
 

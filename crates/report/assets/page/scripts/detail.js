@@ -11,9 +11,9 @@
   ];
 
   /** Shows a drawing as large as the window; Escape or a click closes it. */
-  const enlarge = (svg) => {
+  const enlarge = async (svg) => {
     const large = squama.at("large");
-    large.querySelector("div").innerHTML = svg;
+    large.querySelector("div").innerHTML = await svg;
     large.showModal();
   };
   squama.at("large").addEventListener("click", (event) => event.currentTarget.close());
@@ -22,8 +22,9 @@
   squama.solvedDrawing = (row) => {
     const number = squama.number(row), solved = squama.solved(row);
     if (!solved?.svg) return [];
-    const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(solved.svg) });
-    button.innerHTML = solved.svg;
+    const drawn = squama.unpacked(solved.svg);
+    const button = squama.element("button", { type: "button", class: "solved", "aria-label": `Enlarge the drawing of design ${number}`, onclick: () => enlarge(drawn) });
+    drawn.then((svg) => { button.innerHTML = svg; });
     return [button, squama.element("p", { class: "note" }, "At rest and at the critical tilt; a click enlarges it.")];
   };
 

@@ -42,11 +42,6 @@ squama.chooser = (row) => ({
   },
 });
 
-/** A mark as it stands in a legend. */
-squama.symbol = ({ path, color }, kind = "filled") => squama.svg("svg", { viewBox: "-7 -7 14 14", "aria-hidden": "true" },
-  squama.svg("path", kind === "open" ? { d: path, fill: "none", stroke: color, "stroke-width": 1.6 } : { d: path, fill: color, "fill-opacity": kind === "folded" ? 0.4 : 1 }),
-  ...(kind === "folded" ? [squama.svg("path", { d: "M-6 6 L6 -6", stroke: "var(--warning)", "stroke-width": 1.8 })] : []));
-
 /** The sign of a design whose surface folds; nothing for others. */
 squama.warning = (row) => (squama.folded(row)
   ? [squama.element("span", { class: "warning", title: "The surface of the substrate folds: the critical force is not to be trusted.", role: "img", "aria-label": "folded" }, "⚠")]

@@ -1,201 +1,194 @@
 "use strict";
-// The figures of the sweep.
+// The figures, as the program has drawn them: those in sight are unpacked; their marks are pointed at, chosen, and hidden by
+// requirements. Nothing is drawn here.
+
+squama.charts = [];
+
+/** Unpacks a drawing: base64 of deflated text. */
+squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
 
 (() => {
-  const PANELS = 15;
-  const { view, state } = squama;
-  const axisOf = (name) => (squama.axesOf[name] ? squama.axesOf[name] : { scale: "linear", low: 0, high: 1, ticks: [] });
-  const values = (row, names) => names.map((name) => `${squama.label(name)} ${squama.short(squama.cell(row, name))}`).join(", ");
-  const isNumber = (...names) => (row) => names.every((name) => !Number.isNaN(squama.numbers(name)[row]));
+  const REACH = 14;
+  const NAMED = 4;
+  const { state, view } = squama;
+  const tip = squama.element("div", { id: "tip", hidden: true, "aria-hidden": "true" });
+  document.body.append(tip);
 
-  /** The names of the axes that panels share: below and to the left of all. */
-  const sharedNames = (x, y, width, height, margin) => [
-    { text: x, at: [(width + margin.left - margin.right) / 2, height - 8] },
-    { text: y, at: [16, (height + margin.top - margin.bottom) / 2], turn: -90 },
-  ];
+  /** The figure of a chart that is to be seen: of what was chosen, for the further parameters that are shown. */
+  const wanted = (chart) => squama.figures.find(({ kind, choice, part }) => kind === chart.id && (chart.choices.length === 0 || choice === chart.choice())
+    && Object.entries(part).every(([name, value]) => view.shown(name) === value));
 
-  const spread = (all) => (all.length <= PANELS ? all : Array.from({ length: PANELS }, (_, k) => all[Math.floor((k * (all.length - 1)) / (PANELS - 1))]));
-
-  const contact = (row) => {
-    const cell = squama.cell(row, "flexure_contact");
-    return cell !== "false" && cell !== "no" && cell !== 0;
-  };
-
-  /** Lines through the designs of each slant; none across the place where contact begins in bending. */
-  const linesOf = (rows, x, y, broken) => squama.slants.flatMap((slant) => {
-    const own = rows.filter((row) => squama.slant(row) === slant).sort((a, b) => x[a] - x[b]);
-    if (new Set(own.map((row) => x[row])).size < own.length) return [];
-    const parts = [[]];
-    own.forEach((row, k) => {
-      if (broken && k > 0 && contact(row) !== contact(own[k - 1])) parts.push([]);
-      parts.at(-1).push([x[row], y[row]]);
-    });
-    return parts.filter((part) => part.length > 1).map((points) => ({ color: slant.color, points }));
+  /** The marks of a drawing: each with its design, or with the design of a front, and its middle on the drawing. */
+  const marksOf = (svg) => [...svg.querySelectorAll("[data-design], [data-front]")].map((element) => {
+    const [x, y, width, height] = ["x", "y", "width", "height"].map((name) => Number(element.getAttribute(name)));
+    return { element, row: squama.rowOf(element.dataset.design), front: element.dataset.front, x: x + width / 2, y: y + height / 2 };
   });
 
-  /** One value against a parameter, a panel for each value of another. `column()` may change. */
-  const multiples = (id, column, title, description, { open = false, controls } = {}) => {
-    const make = (width) => {
-      const [along, across, name] = [view.against(), view.panels(), column()];
-      const all = spread(across ? squama.different(across) : [null]);
-      const rows = view.slice(view.free()).filter(isNumber(name, along)).filter((row) => !across || all.includes(squama.cell(row, across)));
-      const margin = { left: 70, right: 12, top: 26, bottom: 48 };
-      const { places, height } = squama.panel.grid(rows.length > 0 ? all.length : 0, width, { least: 150, height: 165, gaps: [10, 30], margin });
-      const [x, y] = [squama.numbers(along), squama.numbers(name)];
-      const panels = places.map((place, k) => {
-        const own = across ? rows.filter((row) => squama.cell(row, across) === all[k]) : rows;
-        return {
-          ...place, x: axisOf(along), y: axisOf(name), title: across ? `${squama.axisName(across).replace(/,.*/, "")} = ${squama.short(all[k])}` : "",
-          lines: linesOf(own, x, y, open), marks: own.map((row) => squama.mark(row, x[row], y[row], { size: 7, open: open && !contact(row) })),
-        };
-      });
-      const held = view.fixed(view.free());
-      const note = [held.length > 0 ? `Shown: ${view.words(held)}.` : "", across && all.length < squama.different(across).length ? `${all.length} of ${squama.different(across).length} panels.` : ""].filter(Boolean).join(" ");
-      return { panels, height, rows, note, names: sharedNames(squama.axisName(along), squama.axisName(name), width, height, margin) };
-    };
-    squama.addChart({ id, title, description, make, controls, says: (row) => values(row, [column()]) });
+  /** Hides what does not meet the requirements, and puts rings around the designs that are chosen and pinned. */
+  const restyle = (chart) => {
+    chart.stale = false;
+    for (const mark of chart.marks) {
+      mark.silent = mark.row !== null && !chart.passes(mark.row);
+      mark.element.classList.toggle("out", mark.silent);
+    }
+    if (chart.svg) chart.restyle?.(chart);
+    rings(chart);
   };
 
-  /** Panels of one column against another. `front` adds the designs that no other beats in the two, and their line. */
-  const scatter = (id, title, description, pairs, { front = false } = {}) => {
-    const make = (width) => {
-      const chosen = pairs();
-      const slice = view.slice(view.free());
-      const margin = { left: 70, right: 12, top: 12, bottom: 48 };
-      const { places, height } = squama.panel.grid(chosen.length, width, { least: 250, height: chosen.length > 2 ? 240 : 300, gaps: [72, 62], margin });
-      const panels = places.map((place, k) => {
-        const [a, b] = chosen[k], [x, y] = [squama.numbers(a.column), squama.numbers(b.column)];
-        const rows = slice.filter(isNumber(a.column, b.column));
-        const all = front ? fronts(rows.filter((row) => squama.passes[row]), a, b) : [];
-        const best = front ? new Set(all.flatMap((one) => [...one])) : null;
-        const marks = rows.map((row) => squama.mark(row, x[row], y[row], { faint: best !== null && !best.has(row) }));
-        // Those that stand out are drawn last.
-        if (best) marks.sort((p, q) => best.has(p.row) - best.has(q.row));
-        return { ...place, x: axisOf(a.column), y: axisOf(b.column), xTicks: true, yTicks: true, xName: squama.axisName(a.column), yName: squama.axisName(b.column), marks, lines: all.map((one) => line(one, x, y)) };
-      });
-      const held = view.fixed(view.free());
-      const rows = slice.filter((row) => chosen.some(([a, b]) => isNumber(a.column, b.column)(row)));
-      return { panels: rows.length > 0 ? panels : [], height, rows, note: held.length > 0 ? `Shown: ${view.words(held)}.` : "" };
-    };
-    squama.addChart({ id, title, description, make, says: (row) => values(row, [...new Set(pairs().flat().map(({ column }) => column))]) });
-  };
-
-  /** The designs that no other beats in two criteria: a front for each group of designs that can be compared. */
-  const fronts = (rows, a, b) => squama.comparable.groups(rows, [a, b]).map((group) => squama.ranking.front(squama.ranking.contest(squama, group, [a, b], "linear")));
-  const line = (best, x, y) => ({ color: squama.themeNow.faint, width: 1.4, points: [...best].sort((p, q) => x[p] - x[q] || y[p] - y[q]).map((row) => [x[row], y[row]]) });
-
-  const shade = (value) => squama.shades[Math.max(0, Math.min(squama.shades.length - 1, Math.floor(value * squama.shades.length)))];
-
-  /** An axis on which every value has a place of its own; labels as many as there is room for. */
-  const placesAxis = (all, room) => {
-    const every = Math.ceil(all.length / Math.max(1, room));
-    return { scale: "places", low: -0.5, high: all.length - 0.5, ticks: all.map((value, k) => ({ value: k, label: k % every === 0 ? squama.short(value) : null })).filter(({ label }) => label !== null) };
-  };
-
-  /** Cells of one map, with the lines along which its column has the values of the ticks of its scale. */
-  const mapped = (rows, name, [x, y], scale, blank) => {
-    const [across, up] = [x, y].map((axis) => new Map(squama.different(axis).map((value, k) => [value, k])));
-    const cells = new Map();
-    const marks = rows.map((row) => {
-      const value = squama.cell(row, name), at = [across.get(squama.cell(row, x)), up.get(squama.cell(row, y))];
-      cells.set(at.join(), squama.panel.along(scale, value));
-      const fill = blank(value) ? squama.themeNow.paper : squama.passes[row] ? shade(squama.panel.along(scale, value)) : squama.themeNow.line;
-      return { row, x: at[0], y: at[1], fill, folded: name !== "coverage" && squama.folded(row), silent: !squama.passes[row] };
-    });
-    const levels = scale.ticks.filter(({ label }) => label !== null).map(({ value }) => squama.panel.along(scale, value));
-    const value = (i, j) => cells.get(`${i},${j}`) ?? null;
-    const pieces = levels.flatMap((level) => squama.contours([across.size, up.size], value, level));
-    return { marks, lines: pieces.flatMap((points) => [{ points, color: "#ffffff", width: 2.6 }, { points, color: "#222222", width: 1.2 }]) };
-  };
-
-  /** A column over two parameters, a map for each value of a third; `axes()` names the three, `name()` the column. */
-  const maps = (id, title, description, { axes, name, scale, blank = () => false, controls, shown = () => {} }) => {
-    const make = (width) => {
-      const [x, y, across] = axes(), free = [x, y, across].filter(Boolean), own = scale();
-      const rows = view.slice(free).filter(isNumber(name(), ...free));
-      const all = across ? spread(squama.different(across)) : [null];
-      const margin = { left: 70, right: 12, top: 26, bottom: 48 };
-      const { places, height } = squama.panel.grid(rows.length > 0 ? all.length : 0, width, { least: 190, height: all.length > 1 ? 190 : 320, gaps: [14, 34], margin });
-      const [xs, ys] = [x, y].map(squama.different);
-      const panels = places.map((place, k) => {
-        const cell = [place.width / xs.length + 0.4, place.height / ys.length + 0.4];
-        const { marks, lines } = mapped(rows.filter((row) => !across || squama.cell(row, across) === all[k]), name(), [x, y], own, blank);
-        const part = across ? `${squama.axisName(across).replace(/,.*/, "")} = ${squama.short(all[k])}${across.endsWith("_deg") ? "°" : ""}` : "";
-        return { ...place, x: placesAxis(xs, place.width / 36), y: placesAxis(ys, place.height / 18), title: part, marks: marks.map((mark) => ({ ...mark, cell })), lines, linesOnTop: true };
-      });
-      shown(own);
-      const held = view.fixed(free);
-      const note = [held.length > 0 ? `Shown: ${view.words(held)}.` : "", across && all.length < squama.different(across).length ? `${all.length} of ${squama.different(across).length} maps.` : ""].filter(Boolean).join(" ");
-      return { panels, height, rows, note, names: sharedNames(squama.axisName(x), squama.axisName(y), width, height, margin) };
-    };
-    squama.addChart({ id, title, description, controls, make, says: (row) => values(row, [name()]) });
-  };
-
-  /** A scale of colours with its ends, which `show` sets. */
-  const colorBar = () => {
-    const [low, high] = [squama.element("span", { class: "end" }), squama.element("span", { class: "end" })];
-    const bar = squama.element("span", { class: "shades" }, low, squama.element("span", { style: `background: linear-gradient(to right, ${squama.shades.join(", ")})` }), high);
-    const show = (scale) => {
-      low.textContent = squama.short(Number(scale.low.toPrecision(2)));
-      high.textContent = `${squama.short(Number(scale.high.toPrecision(2)))}${scale.scale === "log" ? ", logarithmic" : ""}`;
-    };
-    return { bar, show };
-  };
-
-  const coverageMaps = () => {
-    const { bar, show } = colorBar();
-    const scale = { scale: "linear", low: 0, high: 1, ticks: [0.2, 0.4, 0.6, 0.8].map((value) => ({ value, label: String(value) })) };
-    maps("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours at 0.2, 0.4, 0.6 and 0.8; empty: none; grey: does not meet the requirements.", {
-      axes: () => ["length_over_t", "gap_over_t", "slant_deg"], name: () => "coverage", scale: () => scale, blank: (value) => value <= 0, controls: [bar], shown: show,
-    });
-  };
-
-  /** A map of any column over any two parameters, a map for each value of a third. */
-  const anyMap = () => {
-    const choices = squama.varied.filter((name) => squama.numeric.includes(name));
-    if (choices.length < 2 || measures.length === 0) return;
-    const or = (chosen, others) => (choices.includes(chosen) ? chosen : others.find((name) => choices.includes(name)) ?? choices[0]);
-    const x = () => or(state.mapX, ["gap_over_t"]);
-    const y = () => (state.mapY !== x() && choices.includes(state.mapY) ? state.mapY : or(null, ["slant_deg", "length_over_t", ...choices].filter((name) => name !== x())));
-    const across = () => ["length_over_t", "slant_deg", "gap_over_t", ...choices].find((name) => choices.includes(name) && name !== x() && name !== y());
-    const name = () => (measures.includes(state.mapOf) ? state.mapOf : measures.includes("critical_force") ? "critical_force" : measures[0]);
-    const { bar, show } = colorBar();
-    const chooser = (key, label, options, chosen) => squama.dropdown({ id: key, "aria-label": label, onchange: (event) => { state[key] = event.target.value; squama.tell("view"); } }, options.map((one) => [one, squama.label(one)]), chosen());
-    const all = [["mapOf", "Column", measures, name], ["mapX", "Parameter across", choices, x], ["mapY", "Parameter upwards", choices, y]];
-    const [of, over, and] = all.map((one) => chooser(...one));
-    squama.listen("view", () => all.forEach(([key, , , chosen]) => { squama.at(key).value = chosen(); }));
-    maps("map", "Map: ", "Colours and contours; where contours crowd, a small change of a parameter changes much: a cliff. Struck through: the surface folds; grey: does not meet the requirements.", {
-      axes: () => [x(), y(), across()], name, scale: () => axisOf(name()), controls: [of, " over ", over, " and ", and, bar], shown: show,
-    });
-  };
-
-  const measures = squama.numeric.filter((name) => name !== "design" && !squama.axes.includes(name));
-  const measure = () => (measures.includes(state.measure) ? state.measure : measures.find(squama.physical) ?? measures.find((name) => name === "sound_force") ?? measures[0]);
-
-  const fixedMultiples = [
-    ["critical-force", "critical_force", "Critical force", "Critical force for each slant."],
-    ["penetration", "penetration", "Penetration", "Penetration at the critical tilt for each slant."],
-    ["compliance", "compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", { open: true }],
-  ].filter(([, column]) => squama.numeric.includes(column));
-
-  const column = (name) => ({ column: name, goal: "max" });
-  const draw = () => {
-    const [first, ...others] = fixedMultiples;
-    const put = ([id, name, ...more]) => multiples(id, () => name, ...more);
-    if (first) put(first);
-    const stiffnesses = ["max_stiffness", "secant_stiffness"].filter((name) => squama.numeric.includes(name) && squama.numeric.includes("critical_force"));
-    if (stiffnesses.length > 0) scatter("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", () => stiffnesses.map((name) => [column("critical_force"), column(name)]));
-    others.forEach(put);
-    if (["coverage", "length_over_t", "gap_over_t", "slant_deg"].every((name) => squama.numeric.includes(name))) coverageMaps();
-    anyMap();
-    const first4 = () => state.criteria.slice(0, 4);
-    const pairs = () => first4().flatMap((a, i) => first4().slice(i + 1).map((b) => [a, b]));
-    scatter("pareto", "Pareto fronts of two criteria", "In colour, on a line: designs that no other beats in both criteria, of those that meet the requirements.", pairs, { front: true });
-    if (measures.length > 0) {
-      const chooser = squama.dropdown({ id: "measure", "aria-label": "Column", onchange: (event) => { state.measure = event.target.value; squama.tell("view"); } }, measures.map((name) => [name, squama.label(name)]), measure());
-      squama.listen("view", () => { chooser.value = measure(); });
-      multiples("measure", measure, "Any column: ", "The column of your choice for each slant.", { controls: [chooser] });
+  const rings = (chart) => {
+    chart.svg?.querySelectorAll(".ring").forEach((ring) => ring.remove());
+    for (const [row, name, r] of [[state.pinned, "ring pinned", 11], [state.design, "ring", 8.5]].filter(([own]) => own !== null)) {
+      chart.svg?.append(...chart.marks.filter((mark) => mark.row === row).map(({ x, y }) => squama.svg("circle", { class: name, cx: x, cy: y, r })));
     }
   };
-  draw();
+
+  const isReady = (chart) => wanted(chart)?.text !== undefined || !wanted(chart);
+
+  /** Shows the drawing of a chart, if it is unpacked. */
+  const draw = (chart) => {
+    const figure = wanted(chart);
+    if (!isReady(chart)) return;
+    if (figure !== chart.figure || !chart.svg) {
+      chart.figure = figure;
+      chart.paper.innerHTML = figure?.text ?? "";
+      chart.svg = chart.area.querySelector("svg");
+      chart.marks = chart.svg ? marksOf(chart.svg) : [];
+      chart.rows = [...new Set(chart.marks.map(({ row }) => row).filter((row) => row !== null))].sort((a, b) => a - b);
+    }
+    const missing = view.further.map((name) => `${squama.label(name)} ${squama.short(view.shown(name))}`).join(", ");
+    chart.caption.textContent = figure ? chart.description : `The page has no figure for ${missing}. squama plot draws it from a run of these designs.`;
+    restyle(chart);
+  };
+
+  // What is out of sight waits; one chart in each slice of time, so that what answers to the reader is not kept waiting.
+  const seen = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) squama.charts.find(({ area }) => area === target).seen = isIntersecting;
+    later();
+  }, { rootMargin: "300px" });
+  let waiting = null;
+  const drawNext = () => {
+    waiting = null;
+    const next = squama.contest && squama.charts.find((chart) => chart.stale && chart.seen && isReady(chart));
+    if (!next) return;
+    draw(next);
+    later();
+  };
+  const later = () => {
+    if (waiting === null) waiting = requestAnimationFrame(() => { waiting = setTimeout(drawNext); });
+  };
+  // One after the other, those that are in sight first; all in the end, so that they can be printed.
+  const unpackNext = async () => {
+    const next = squama.charts.filter(({ seen: own }) => own).map(wanted).find((figure) => figure && figure.text === undefined) ?? squama.figures.find(({ text }) => text === undefined);
+    if (!next) return;
+    next.text = await squama.unpacked(next.svg);
+    later();
+    unpackNext();
+  };
+  squama.redraw = () => {
+    squama.charts.forEach((chart) => { chart.stale = true; });
+    later();
+  };
+  /** Draws every chart, whether it is in sight or not. */
+  squama.drawAll = () => squama.charts.forEach(draw);
+  squama.listen("selection view", squama.redraw);
+  squama.listen("design pinned", () => squama.charts.forEach(rings));
+  squama.listen("design", () => { if (view.further.length > 0) squama.redraw(); });
+
+  /** Marks nearest to a place in the window: one, or those of several designs that stand on each other. */
+  const near = (chart, event) => {
+    if (!chart.svg) return [];
+    const box = chart.svg.getBoundingClientRect(), scale = chart.svg.viewBox.baseVal.width / box.width, top = chart.svg.viewBox.baseVal.y;
+    const [x, y] = [(event.clientX - box.x) * scale, (event.clientY - box.y) * scale + top];
+    let nearest = null, least = (REACH * scale) ** 2;
+    for (const mark of chart.marks) {
+      const away = (mark.x - x) ** 2 + (mark.y - y) ** 2;
+      if (away <= least && (nearest === null || !mark.silent || nearest.silent)) [nearest, least] = [mark, away];
+    }
+    const here = ({ x: left, y: down, silent }) => silent === nearest.silent && (left - nearest.x) ** 2 + (down - nearest.y) ** 2 < 2;
+    const known = new Map(nearest === null ? [] : chart.marks.filter(here).map((mark) => [mark.front ?? mark.row, mark]));
+    return [...known.values()].sort((a, b) => a.row - b.row);
+  };
+
+  const line = (chart, { row, front }) => (row === null ? chart.tip(Number(front))
+    : squama.element("div", {}, ...squama.warning(row), ` ${squama.title(row)} `, squama.element("small", {}, chart.columns().map((name) => `${squama.label(name)} ${squama.short(squama.cell(row, name))}`).join(", "))));
+
+  const showTip = (chart, event) => {
+    const marks = near(chart, event);
+    tip.hidden = marks.length === 0;
+    chart.area.style.cursor = marks.some(({ row }) => row !== null) ? "pointer" : "default";
+    if (marks.length === 0) return;
+    tip.replaceChildren(...marks.slice(0, NAMED).map((mark) => line(chart, mark)),
+      ...(marks.length > NAMED ? [squama.element("div", {}, `and ${marks.length - NAMED} more in the same place`)] : []),
+      ...(marks.some(({ row }) => row !== null && squama.folded(row)) ? [squama.element("small", {}, "⚠ The surface folds: the critical force is not to be trusted.")] : []));
+    tip.style.left = `${Math.max(4, Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 6))}px`;
+    tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
+  };
+
+  /** A click chooses; another click on marks in one place goes to the next of them. */
+  const click = (chart, event) => {
+    const rows = near(chart, event).map(({ row }) => row).filter((row) => row !== null);
+    if (rows.length > 0) squama.choose(rows[(rows.indexOf(state.design) + 1) % rows.length]);
+  };
+
+  const key = (chart, event) => {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    squama.step(step, chart.rows);
+  };
+
+  /**
+   * Adds the chart of a kind of figure, if there is one. `columns()` are those that the tip tells of a design, `tip(k)` tells of the
+   * design `k` of a front; `passes(row)` says which designs are hidden; `restyle(chart)` does what else follows requirements.
+   */
+  squama.addChart = ({ id, title, description, columns = () => [], passes = (row) => squama.passes[row], ...more }) => {
+    const own = squama.figures.filter(({ kind }) => kind === id), choices = [...new Set(own.map(({ choice }) => choice))].filter(Boolean);
+    if (own.length === 0) return;
+    const choice = () => (choices.includes(state[id]) ? state[id] : choices[0]);
+    const chooser = squama.dropdown({ id, "aria-label": "Column", onchange: (event) => { state[id] = event.target.value; squama.tell("view"); } }, choices.map((name) => [name, squama.label(name)]), choices[0]);
+    squama.listen("view", () => { if (choices.length > 0) chooser.value = choice(); });
+    const chart = { id, title, description, columns: () => [...columns(), ...choices.filter((name) => name === choice())], passes, choices, choice, ...more, marks: [], rows: [], stale: true, seen: false, caption: squama.element("figcaption") };
+    // As high as the figure will be, so that nothing moves when it comes.
+    chart.paper = squama.element("div", { style: `aspect-ratio: ${own[0].size.split(" ").slice(2).join("/")}` });
+    chart.area = squama.element("div", { class: "chart drawn", id: `chart-${id}`, tabindex: 0, role: "img", "aria-label": `${title}. ${description} The arrow keys go from design to design.` }, chart.paper);
+    (more.into ?? squama.at("figure-list")).append(squama.element("figure", { id: `figure-${id}` }, squama.element("h3", {}, title, ...(choices.length > 1 ? [" ", chooser] : [])), chart.area, chart.caption));
+    squama.charts.push(chart);
+    chart.area.addEventListener("pointermove", (event) => showTip(chart, event));
+    chart.area.addEventListener("pointerleave", () => { tip.hidden = true; });
+    chart.area.addEventListener("click", (event) => click(chart, event));
+    chart.area.addEventListener("keydown", (event) => key(chart, event));
+    seen.observe(chart.area);
+  };
+
+  const criteria = ["coverage", "critical_force", "penetration", "compliance"];
+  const goalOf = (column) => ({ column, goal: column === "penetration" ? "min" : "max" });
+
+  /** The fronts of the designs that meet the requirements, each of designs that can be compared: in colour and on a line. */
+  const fronts = ({ svg }) => {
+    const { rows } = squama.ranking.contest(squama, squama.rows.filter((row) => squama.passes[row]), criteria.map(goalOf), "paper");
+    for (const panel of svg.querySelectorAll("[data-criteria]")) {
+      const pair = panel.dataset.criteria.split(" ").map(goalOf);
+      const best = squama.comparable.groups(rows, pair).map((group) => [...squama.ranking.front(squama.ranking.contest(squama, group, pair, "linear"))]);
+      const all = new Set(best.flat()), marks = new Map();
+      for (const element of panel.querySelectorAll("[data-design]")) {
+        const row = squama.rowOf(element.dataset.design), { mark, color } = squama.slant(row), href = all.has(row) ? `#${mark}${squama.folded(row) ? "-folded" : ""}` : "#dot";
+        if (element.getAttribute("href") !== href) squama.attributes(element, { href, color: all.has(row) ? color : "#b5b5b5" });
+        if (all.has(row)) marks.set(row, element);
+      }
+      panel.append(...marks.values());
+      const line = (group) => group.filter((row) => marks.has(row)).map((row) => ["x", "y"].map((name) => marks.get(row).getAttribute(name))).sort((a, b) => a[0] - b[0]);
+      panel.querySelector(".line").setAttribute("d", best.map((group) => line(group).map(([x, y], k) => `${k === 0 ? "M" : "L"}${x} ${y}`).join(" ")).join(" "));
+    }
+  };
+
+  const add = (id, title, description, ...columns) => squama.addChart({ id, title, description, columns: () => columns });
+  add("critical-force", "Critical force", "Critical force for each slant.", "critical_force");
+  add("stiffness", "Stiffness against critical force", "Puncture stiffness, the largest and that of the secant, against the critical force.", "critical_force", "max_stiffness", "secant_stiffness");
+  add("penetration", "Penetration", "Penetration at the critical tilt for each slant.", "penetration");
+  add("compliance", "Flexural compliance", "Flexural compliance for each slant; open marks: no contact in bending. Without contact the slant does not matter, so that its marks coincide.", "compliance");
+  add("coverage", "Coverage", "Coverage by gap, aspect ratio and slant, with contours; white: none.", "coverage");
+  add("map", "Map: ", "Colours and contours; where contours crowd, a small change of a parameter changes much: a cliff. Struck through: the surface folds.");
+  squama.addChart({ id: "pareto", title: "Pareto fronts of two criteria", description: "In colour, on a line: designs that no other beats in both criteria, of those that meet the requirements.", columns: () => criteria, restyle: fronts });
+  add("measure", "Any column: ", "The column of your choice for each slant.");
+  unpackNext();
 })();

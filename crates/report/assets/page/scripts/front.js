@@ -4,10 +4,8 @@
 (() => {
   const { found, ranking } = squama;
   if (!found) return;
-  const MARK = "M0 -8 L8 0 L0 8 L-8 0 Z";
   const rows = Array.from({ length: found.count }, (_, k) => k);
   const cell = (k, name) => found.values[name]?.[k] ?? null;
-  const numbers = (name) => Float64Array.from(rows, (k) => (typeof cell(k, name) === "number" ? cell(k, name) : NaN));
   const columns = [...new Set([...found.variables, ...found.objectives.map(({ column }) => column), ...found.requirements.map(({ column }) => column)])];
   const isFront = found.objectives.length > 1;
 
@@ -40,27 +38,11 @@
   const title = (k) => `${isFront ? `Front ${k + 1}` : "Optimum"}: ${columns.map((name) => `${squama.label(name)} ${value(k, name)}`).join(", ")}`;
   const tip = (k) => squama.element("div", {}, title(k), " ", squama.element("small", {}, `Held by ${cell(k, "binding") || "nothing"}.`, ...(cell(k, "prices") ? [` ${cell(k, "prices")}`] : [])));
 
-  /** Axes in pairs, a panel each. */
-  const pairs = found.axes.flatMap((a, i) => found.axes.slice(i + 1).map((b) => [a, b]));
-  const make = (width) => {
-    const margin = { left: 70, right: 12, top: 12, bottom: 48 }, theme = squama.themeNow;
-    const { places, height } = squama.panel.grid(pairs.length, width, { least: 300, height: pairs.length > 1 ? 260 : 360, gaps: [72, 62], margin });
-    const faint = (row) => ({ row, path: "M-4 0 A4 4 0 1 1 4 0 A4 4 0 1 1 -4 0 Z", size: could.has(row) ? 5 : 4, color: could.has(row) ? theme.grey : theme.line, kind: "filled", silent: true });
-    const panels = places.map((place, p) => {
-      const [a, b] = pairs[p], [x, y] = [squama.numbers(a), squama.numbers(b)], [fx, fy] = [numbers(a), numbers(b)];
-      const grid = squama.rows.filter((row) => !Number.isNaN(x[row]) && !Number.isNaN(y[row])).sort((one, other) => could.has(one) - could.has(other));
-      const marks = [...grid.map((row) => ({ ...faint(row), x: x[row], y: y[row] })), ...rows.map((k) => ({ row: null, tip: k, x: fx[k], y: fy[k], path: MARK, size: 8, color: theme.front, kind: "filled" }))];
-      const points = [...rows].sort((one, other) => fx[one] - fx[other]).map((k) => [fx[k], fy[k]]);
-      const lines = found.objectives.length === 2 ? [{ color: theme.front, width: 2, points }] : [];
-      return { ...place, x: found.axesOf[a], y: found.axesOf[b], xTicks: true, yTicks: true, xName: squama.axisName(a), yName: squama.axisName(b), marks, lines };
-    });
-    return { panels, height, rows: squama.rows };
-  };
   squama.at("front").hidden = false;
   squama.at("front-link").hidden = false;
   squama.addChart({
     id: "front", into: squama.at("front-figure"), title: isFront ? "The front over the designs of the grid" : "The best design over those of the grid",
-    description: "Diamonds: found by the search. Grey: designs of the grid; pale: those that do not keep the bounds of the search.", make, tip, says: (row) => found.axes.map((name) => `${squama.label(name)} ${squama.short(squama.cell(row, name))}`).join(", "),
+    description: "Diamonds: found by the search. Grey: designs of the grid; pale: those that do not keep the bounds of the search.", tip, passes: (row) => could.has(row), columns: () => found.axes,
   });
 
   const within = (k, name) => `${value(k, name)} (${value(k, `${name}_low`)} to ${value(k, `${name}_high`)})`;

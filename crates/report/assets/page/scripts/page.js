@@ -7,8 +7,6 @@
     root.dataset.theme = dark ? "dark" : "light";
     button.setAttribute("aria-pressed", String(dark));
     button.textContent = dark ? "Light" : "Dark";
-    squama.redraw();
-    squama.tell("theme");
   };
   const isDark = () => root.dataset.theme === "dark";
   button.addEventListener("click", () => setTheme(!isDark()));

@@ -31,7 +31,7 @@ squama.initial = () => {
     .filter((one) => one && squama.numeric.includes(one.column));
   return {
     requirements: [], criteria, weights: squama.equalWeights(criteria.length), scale: "paper", sound: false,
-    shown: {}, against: null, panels: null, measure: null, mapX: null, mapY: null, mapOf: null, log: false, sort: "design", columns: null, design: null, pinned: null,
+    shown: {}, measure: null, map: null, log: false, sort: "design", columns: null, design: null, pinned: null,
   };
 };
 

@@ -1,6 +1,6 @@
-//! Goals about what is made, whose answers are known in closed form.
+//! Goals about samples, whose answers are known in closed form.
 
-use optimisation::{Answer, BestDesign, DesignGoal, Found, Limit, MadeEstimate};
+use optimisation::{Answer, BestDesign, DesignGoal, Estimate, Found, Limit};
 use run::Start;
 
 use crate::searches::{found_in, objectives, optimum};
@@ -20,8 +20,8 @@ fn found(goal: &DesignGoal) -> Found {
     found_in(folder.path(), goal, 2, Start::New)
 }
 
-fn estimate<'b>(best: &'b BestDesign, name: &str) -> &'b MadeEstimate {
-    best.made.as_ref().and_then(|made| made.estimate(name)).expect("an estimate")
+fn estimate<'b>(best: &'b BestDesign, name: &str) -> &'b Estimate {
+    best.confirmation.as_ref().and_then(|made| made.estimate(name)).expect("an estimate")
 }
 
 /// The reach `S` of scales of 60°, whose coverage is `(S − d)/S`.
@@ -138,12 +138,12 @@ fn a_front_may_have_a_quantile() {
         // No skin of a front of designs as they are drawn covers more for its mass.
         let gap = (reach() * (1.0 - covered)).min(1.0 + 0.02 * Z05) - 0.02 * Z05;
         assert!(*mass >= (1.0 / (1.0 + gap)).min(1.0) - 0.01, "{covered} {mass}");
-        assert!(best.made.is_some());
+        assert!(best.confirmation.is_some());
     }
 }
 
 #[test]
-fn skins_do_not_depend_on_threads_or_interruptions() {
+fn samples_do_not_depend_on_threads_or_interruptions() {
     let text =
         "minimize = 'areal_mass_kg_m2'\nrequire = ['coverage >= 0.5', 'yield >= 0.9']\nskins = 50";
     let goal = goal(text);
@@ -153,7 +153,7 @@ fn skins_do_not_depend_on_threads_or_interruptions() {
         let best = optimum(found);
         (
             found.history.iter().map(candidate).collect::<Vec<_>>(),
-            best.made.clone(),
+            best.confirmation.clone(),
             best.bindings.clone(),
         )
     };
@@ -171,7 +171,7 @@ fn skins_do_not_depend_on_threads_or_interruptions() {
 }
 
 #[test]
-fn where_no_skins_are_good_enough_the_nearest_design_is_told() {
+fn where_no_samples_are_good_enough_the_nearest_design_is_told() {
     let text = "maximize = 'gap_over_t'\nrequire = ['coverage >= 0.5', 'areal_mass_kg_m2 <= 0.54', 'yield >= 0.99']";
     let Answer::Infeasible(Some(nearest)) = found(&goal(text)).answer else { panic!("no design") };
     assert!(

@@ -1,38 +1,31 @@
-//! What a goal may say of skins that are made: quantiles and yields, which need deviations.
+//! What a goal may say of samples: quantiles and yields, which need deviations.
 
 use ranking::{Goal, Relation};
 use results::columns::{Cell, design_columns, measure_of};
 use results::{Column, DesignResult, DesignRow, FlexureResult, Outcome, PunctureResult, QUANTILES};
-use sweep::toml_source::Place;
 use sweep::{InvalidDefinition, Sweep};
 
-use super::reader::not_accepted;
-use super::section::GoalSection;
-use crate::made::MadeQuantity;
+use super::refusal::not_accepted;
+use super::section::{GoalSection, Written};
+use crate::statistic::Statistic;
 
 const DEVIATIONS: &str = "it beside a [tolerance], e.g. gap_over_t = { batch_sd = 0.02 } there";
 const ONE_SCATTER: &str =
     "scatter from scale to scale as scale_sd in [tolerance], without [imperfection]";
 
-/// Why a quantity over skins cannot be had from a sweep; `None` if it can, or `column` is none.
-pub(super) fn unavailable(
-    column: &str,
-    key: &str,
-    place: &Place,
-    sweep: &Sweep,
-) -> Option<InvalidDefinition> {
-    let refused = |expected: String| Some(not_accepted(place, key, column, expected));
-    let quantity = MadeQuantity::named(column)?;
+/// Why a statistic cannot be had from a sweep; `None` if it can, or the column is none.
+pub(super) fn unavailable(named: &Written, sweep: &Sweep) -> Option<InvalidDefinition> {
+    let Written { column, key, place } = *named;
+    let statistic = Statistic::named(column)?;
     let is_column = design_columns(sweep).iter().any(|known| known.name == column);
-    match (sweep.deviations().is_empty(), sweep.is_imperfect()) {
-        (true, _) | (false, true) if is_column => None,
-        (true, _) => refused(DEVIATIONS.to_owned()),
-        (false, true) => refused(ONE_SCATTER.to_owned()),
-        (false, false) => match quantity {
-            MadeQuantity::Yield => None,
-            MadeQuantity::Quantile { column, .. } => refused(not_of_numbers(&column, sweep)?),
-        },
-    }
+    let expected = match (sweep.deviations().is_empty(), sweep.is_imperfect(), statistic) {
+        (true, ..) | (false, true, _) if is_column => return None,
+        (true, ..) => DEVIATIONS.to_owned(),
+        (false, true, _) => ONE_SCATTER.to_owned(),
+        (false, false, Statistic::Yield) => return None,
+        (false, false, Statistic::Quantile { column, .. }) => not_of_numbers(&column, sweep)?,
+    };
+    Some(not_accepted(place, key, column, expected))
 }
 
 /// What is expected in place of a quantile of `column`; `None` if it is one of numbers.
@@ -77,39 +70,35 @@ pub(super) fn nearly(column: &str, known: &[&str]) -> Option<String> {
     is_nearly.then(|| format!("one of the quantiles {}", quantiles(base)))
 }
 
-/// Lines about yields that can have no meaning, and a count of skins that none asks for.
+/// Lines about yields that can have no meaning, and a count of samples that none asks for.
 pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
-    let is_yield = |column: &str| column == MadeQuantity::YIELD;
+    let is_yield = |column: &str| column == Statistic::YIELD;
     let mut refused = Vec::new();
-    for placed in &goal.requirements {
-        let requirement = &placed.requirement;
+    for (requirement, place) in &goal.requirements {
         let is_bound = matches!(requirement.relation, Relation::AtLeast | Relation::Above);
         let is_share = requirement.limit > 0.0 && requirement.limit <= 1.0;
         let is_strict = requirement.relation == Relation::Above && requirement.limit >= 1.0;
         if is_yield(&requirement.column) && (!is_bound || !is_share || is_strict) {
-            let expected = "the least share of skins, at most 1, e.g. yield >= 0.9".to_owned();
-            let text = requirement.to_string();
-            refused.push(not_accepted(&placed.place, "goal.require", &text, expected));
+            let expected = "the least share of samples, at most 1, e.g. yield >= 0.9";
+            refused.push(not_accepted(place, "goal.require", requirement, expected));
         }
     }
-    for placed in &goal.objectives {
-        if is_yield(&placed.criterion.column) && placed.criterion.goal == Goal::Minimize {
-            let expected = "it in maximize".to_owned();
-            refused.push(not_accepted(&placed.place, "goal.minimize", "yield", expected));
+    for (criterion, place) in &goal.objectives {
+        if is_yield(&criterion.column) && criterion.goal == Goal::Minimize {
+            refused.push(not_accepted(place, "goal.minimize", "yield", "it in maximize"));
         }
     }
-    let plain = |column: &str| MadeQuantity::named(column).is_none();
-    let has_bounds = goal.requirements.iter().any(|placed| plain(&placed.requirement.column));
-    let yields = goal.columns().find(|(column, ..)| is_yield(column));
-    if let Some((column, key, place)) = yields.filter(|_| !has_bounds) {
-        let expected =
-            "a requirement that skins are to meet beside it, e.g. \"coverage >= 0.5\"".to_owned();
-        refused.push(not_accepted(place, key, column, expected));
-    }
-    let is_made = goal.columns().any(|(column, ..)| !plain(column));
-    if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_made) {
-        let expected = "it beside a yield or a quantile".to_owned();
-        refused.push(not_accepted(place, "goal.skins", &goal.skins.to_string(), expected));
+    let plain = |column: &str| Statistic::named(column).is_none();
+    let has_bounds = goal.requirements.iter().any(|(requirement, _)| plain(&requirement.column));
+    let mut yields = goal.columns().filter(|named| is_yield(named.column) && !has_bounds);
+    refused.extend(yields.next().map(|Written { column, key, place }| {
+        let expected = "a requirement that samples are to meet beside it, e.g. \"coverage >= 0.5\"";
+        not_accepted(place, key, column, expected)
+    }));
+    let is_sampled = goal.columns().any(|named| !plain(named.column));
+    if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_sampled) {
+        let expected = "it beside a yield or a quantile";
+        refused.push(not_accepted(place, "goal.skins", goal.skins, expected));
     }
     refused
 }

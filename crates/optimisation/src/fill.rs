@@ -1,0 +1,104 @@
+//! Points that fill a space: its corners, and a low-discrepancy sequence.
+
+use crate::space::{DesignSpace, SpacePoint};
+
+/// Intervals whose corners are all among the points, at most.
+const CORNERED: usize = 6;
+
+/// `count` points that fill `space`, or every one of them if there are no intervals and they are fewer: the corners of the box, as
+/// far as they take no more than half, and a sequence that `seed` shifts.
+///
+/// The sequence is Roberts's: the coordinate `j` of the point `k` is the fractional part of `s_j + k φ^−(j+1)`, where `φ` is the root
+/// of `φ^(n+1) = φ + 1`, the golden ratio for `n = 1` (M. Roberts, *The unreasonable effectiveness of quasirandom sequences*, 2018).
+pub(crate) fn points(space: &DesignSpace, count: usize, seed: u64) -> Vec<SpacePoint> {
+    let combinations = space.combinations();
+    if space.intervals().is_empty() && combinations <= count {
+        let point = |index| SpacePoint { shares: Vec::new(), chosen: space.combination(index) };
+        return (0..combinations).map(point).collect();
+    }
+    let mut points = corners(space, count / 2);
+    let sequence = Sequence::new(space.intervals().len() + space.choices().len(), seed);
+    let missing = count.saturating_sub(points.len());
+    points.extend((1..=missing).map(|index| split(space, &sequence.point(index))));
+    points
+}
+
+/// The corners of the box for every combination of choices, unless they are more than `most`.
+fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
+    let (intervals, combinations) = (space.intervals().len(), space.combinations());
+    if intervals > CORNERED || combinations.saturating_mul(1 << intervals) > most {
+        return Vec::new();
+    }
+    let share = |corner: usize, j: usize| f64::from(u8::from(corner >> j & 1 == 1));
+    let of = |combination| {
+        let corner = move |corner| SpacePoint {
+            shares: (0..intervals).map(|j| share(corner, j)).collect(),
+            chosen: space.combination(combination),
+        };
+        (0..1 << intervals).map(corner)
+    };
+    (0..combinations).flat_map(of).collect()
+}
+
+/// The point of the space that coordinates from 0 to 1 stand for.
+fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
+    let (shares, rest) = unit.split_at(space.intervals().len());
+    let index = |(share, count): (&f64, usize)| ((share * count as f64) as usize).min(count - 1);
+    let counts = space.choices().iter().map(|choice| choice.values.len());
+    SpacePoint { shares: shares.to_vec(), chosen: rest.iter().zip(counts).map(index).collect() }
+}
+
+/// A low-discrepancy sequence in a unit cube.
+pub(crate) struct Sequence {
+    start: Vec<f64>,
+    step: Vec<f64>,
+}
+
+impl Sequence {
+    pub fn new(dimensions: usize, seed: u64) -> Self {
+        let ratio = ratio(dimensions);
+        let step: Vec<f64> = (1..=dimensions).map(|j| ratio.powi(-(j as i32))).collect();
+        // Seeds shift the start by another irrational number, so that none is another's beginning.
+        let shift = |j: usize| (0.5 + seed as f64 * (j as f64 + 2.0).sqrt() * 0.731).fract();
+        Self { start: (0..dimensions).map(shift).collect(), step }
+    }
+
+    /// The point `index`, from 1.
+    pub fn point(&self, index: usize) -> Vec<f64> {
+        let coordinate = |(start, step): (&f64, &f64)| (start + index as f64 * step).fract();
+        self.start.iter().zip(&self.step).map(coordinate).collect()
+    }
+}
+
+/// The root above 1 of `φ^(n+1) = φ + 1`.
+fn ratio(dimensions: usize) -> f64 {
+    let root = 1.0 / (dimensions as f64 + 1.0);
+    (0..64).fold(2.0, |ratio: f64, _| (1.0 + ratio).powf(root))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ratio_is_golden_in_one_dimension_and_plastic_in_two() {
+        assert!((ratio(1) - 1.618_033_988_749_895).abs() < 1e-15);
+        assert!((ratio(2) - 1.324_717_957_244_746).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_sequence_fills_every_part_of_the_cube() {
+        for seed in [0, 1, 17] {
+            let sequence = Sequence::new(3, seed);
+            let mut counts = [0; 64];
+            for index in 1..=1024 {
+                let cell = |x: &f64| (x * 4.0) as usize;
+                let [a, b, c] = sequence.point(index)[..] else { panic!("three coordinates") };
+                counts[cell(&a) + 4 * cell(&b) + 16 * cell(&c)] += 1;
+            }
+            // Random points would leave counts from 6 to 28.
+            let [least, most] = [counts.iter().min(), counts.iter().max()].map(Option::unwrap);
+            assert!(*least >= 11 && *most <= 21, "{seed}: {least} to {most}");
+        }
+    }
+}

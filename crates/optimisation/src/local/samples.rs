@@ -1,0 +1,67 @@
+//! Derivatives of statistics over samples: those of the samples that make them, with respect to the nominal design.
+
+use results::DesignRow;
+use sweep::Parameter;
+
+use crate::evaluations::{Evaluations, Halt};
+use crate::judge::Judge;
+use crate::looked::{StatisticSlopes, Use};
+use crate::sample::{OrderStatistic, SampleJudge, Samples};
+use crate::slopes::Slopes;
+use crate::space::{DesignSpace, SpacePoint};
+
+/// A point with its samples, of which derivatives are asked for.
+pub(super) struct SampledPoint<'a> {
+    pub space: &'a DesignSpace,
+    pub evaluations: &'a Evaluations<'a>,
+    pub judge: &'a SampleJudge,
+    pub point: &'a SpacePoint,
+    pub samples: &'a Samples,
+}
+
+impl SampledPoint<'_> {
+    /// The derivatives of every statistic of the goal of `judge`.
+    pub fn slopes(&self, judge: &Judge) -> Result<Vec<StatisticSlopes>, Halt> {
+        let mut slopes = Vec::new();
+        for (of, q) in judge.uses() {
+            let requirement = match of {
+                Use::Objective(_) => None,
+                Use::Requirement(k) => judge.requirements().nth(k),
+            };
+            let mut rows = Vec::new();
+            for order in self.judge.order_statistics(q, requirement, self.samples) {
+                rows.extend(self.row(order.sample)?.map(|row| (order, row)));
+            }
+            for interval in self.space.intervals() {
+                let parameter = interval.parameter;
+                let parts = rows.iter().map(|(order, row)| self.part(q, *order, row, parameter));
+                let sum = parts.reduce(Slopes::plus).unwrap_or(Slopes::UNKNOWN);
+                slopes.push(StatisticSlopes { of, parameter: parameter.key, slopes: sum });
+            }
+        }
+        Ok(slopes)
+    }
+
+    /// The row of a sample, solved with derivatives; `None` if there is no such sample.
+    fn row(&self, sample: u64) -> Result<Option<DesignRow>, Halt> {
+        let Some(result) = self.evaluations.even_sample(self.point, sample)? else {
+            return Ok(None);
+        };
+        let nominal = self.evaluations.row(0, self.point, &result);
+        let case = self.evaluations.even_case(&nominal.case, sample);
+        Ok(case.map(|case| DesignRow { case, ..nominal }))
+    }
+
+    /// The part of a sample in the derivatives of statistic `q`: the sample moves as the design does, with the same deviations.
+    fn part(&self, q: usize, of: OrderStatistic, row: &DesignRow, parameter: &Parameter) -> Slopes {
+        let values = &self.samples.0[of.sample as usize - 1];
+        let Some((column, factor)) = self.judge.moving(q, values) else { return Slopes::UNKNOWN };
+        let nominal = self.space.case(self.point);
+        let at = |by, side| {
+            let moved = parameter.moved(&nominal, by)?;
+            let sampled = self.evaluations.even_case(&moved, of.sample)?;
+            column.value(&row.extrapolated(&sampled, side))
+        };
+        Slopes::between(parameter.size(&nominal), at).scaled(factor * of.part)
+    }
+}

@@ -1,0 +1,122 @@
+//! The search among designs that are sampled: it begins at the best nominal designs, which are sampled then.
+
+use rayon::iter::{
+    IntoParallelIterator as _, IntoParallelRefMutIterator as _, ParallelIterator as _,
+};
+
+use super::confirmation::confirm;
+use crate::answer::{Answer, Plan, answer};
+use crate::best::{BestDesign, apart, best_design};
+use crate::candidate::{Candidate, Merit, SearchStage, Target};
+use crate::evaluations::Halt;
+use crate::goal::DesignGoal;
+use crate::local::{Effort, Search};
+use crate::meter::SearchPart;
+use crate::space::SpacePoint;
+
+/// Points of a front of nominal designs, at most: a front of sampled ones begins there.
+const NOMINAL_POINTS: usize = 10;
+
+/// Nominal designs, for each objective, that are sampled at first.
+const SEEDS: usize = 16;
+
+/// The searches among nominal designs, among sampled ones, and near the best of these with more samples.
+#[derive(Clone, Copy)]
+pub(crate) struct Searches<'s> {
+    pub nominal: &'s Search<'s>,
+    pub sampled: &'s Search<'s>,
+    pub finer: &'s Search<'s>,
+}
+
+impl Searches<'_> {
+    /// The answer to a goal about samples. The history of the nominal designs is part of it.
+    pub fn answer(&self, goal: &DesignGoal, history: &mut Vec<Candidate>) -> Result<Answer, Halt> {
+        let Self { nominal, sampled, finer } = self;
+        let plan = Plan { points: goal.points.min(NOMINAL_POINTS), ..Plan::NOMINAL };
+        let first = answer(nominal, history, plan)?;
+        let seeds = seeds(nominal, history, &first);
+        let mut is_admitted = false;
+        for candidate in history.iter_mut() {
+            let row = sampled.evaluations.row(0, &candidate.point, &candidate.result);
+            candidate.verdict = sampled.judge.verdict(&row);
+            is_admitted |= sampled.judge.samples().is_some_and(|judge| judge.admits(&row));
+        }
+        if !is_admitted {
+            return Ok(first);
+        }
+        sampled.meter.begin(SearchPart::Samples, seeds.len());
+        let look = |point: SpacePoint| {
+            let looked = sampled.look(SearchStage::Tolerance, &point, false)?.0;
+            sampled.meter.step();
+            Ok(looked)
+        };
+        let looked: Vec<Candidate> = seeds.into_par_iter().map(look).collect::<Result<_, _>>()?;
+        history.extend(looked);
+        let plan = Plan { points: goal.points, ..Plan::SAMPLED };
+        let mut answer = answer(sampled, history, plan)?;
+        match &mut answer {
+            Answer::Optimum(best) => {
+                let is_refined = refine(finer, best, history)?;
+                check(
+                    if is_refined { finer } else { sampled },
+                    std::slice::from_mut(best.as_mut()),
+                )?;
+            }
+            Answer::Front(front) => check(sampled, &mut front.designs)?,
+            Answer::Infeasible(_) => {}
+        }
+        Ok(answer)
+    }
+}
+
+/// Takes the best design to where more samples want it: one that was chosen by few looks better on them than it is. Returns whether there
+/// is one near by that meets everything.
+fn refine(
+    finer: &Search<'_>,
+    best: &mut BestDesign,
+    history: &mut Vec<Candidate>,
+) -> Result<bool, Halt> {
+    finer.meter.begin(SearchPart::Refine, 1);
+    let start = finer.look(SearchStage::Tolerance, &best.candidate.point, false)?.0;
+    let mut looked = finer.improve(&best.target, &start, Effort::SHORT)?;
+    looked.push(start);
+    let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
+    let is_refined = looked.iter().any(is_met);
+    if is_refined {
+        *best = best_design(finer, &looked, best.target.clone())?;
+    }
+    history.append(&mut looked);
+    finer.meter.step();
+    Ok(is_refined)
+}
+
+/// Adds to the best designs what other samples say of them.
+fn check(search: &Search<'_>, best: &mut [BestDesign]) -> Result<(), Halt> {
+    search.meter.begin(SearchPart::Check, best.len());
+    best.par_iter_mut().try_for_each(|best| {
+        search.meter.step();
+        best.confirmation = confirm(search, &best.candidate.point)?;
+        Ok(())
+    })
+}
+
+/// The designs that are sampled first: the best nominal ones, and the best of all others that are apart from each other.
+fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<SpacePoint> {
+    let best = match answer {
+        Answer::Optimum(best) => std::slice::from_ref(best.as_ref()),
+        Answer::Front(front) => front.designs.as_slice(),
+        Answer::Infeasible(_) => &[],
+    };
+    let best = best.iter().map(|best| best.candidate.point.clone());
+    let others = (0..nominal.judge.objectives()).flat_map(|objective| {
+        let target = Target { objective, floors: Vec::new() };
+        apart(nominal, history, &target, SEEDS).into_iter().map(|candidate| candidate.point)
+    });
+    let mut seeds: Vec<SpacePoint> = Vec::new();
+    for point in best.chain(others) {
+        if !seeds.contains(&point) {
+            seeds.push(point);
+        }
+    }
+    seeds
+}

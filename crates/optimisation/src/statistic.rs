@@ -1,0 +1,72 @@
+//! Statistics over the samples of a design, by their names.
+
+use results::QUANTILES;
+
+/// A statistic over the samples of a design.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Statistic {
+    /// The value of a column below which this share of the samples lies.
+    Quantile {
+        /// The column.
+        column: String,
+        /// The share.
+        share: f64,
+    },
+    /// The share of the samples that meets every requirement of a column of `designs.csv`, and whose surface has not folded if that
+    /// is wanted.
+    Yield,
+}
+
+impl Statistic {
+    /// The name of the yield.
+    pub const YIELD: &'static str = "yield";
+
+    /// The name of what takes the place of a yield of a nominal design: how far the design is within its requirements.
+    pub const MARGIN: &'static str = "yield_margin";
+
+    /// The statistic that has this name, e.g. `yield` or `critical_force_p05`; `None` of other names.
+    pub fn named(name: &str) -> Option<Self> {
+        let quantile =
+            |(column, share): (&str, f64)| Self::Quantile { column: column.to_owned(), share };
+        if name == Self::YIELD { Some(Self::Yield) } else { split(name).map(quantile) }
+    }
+
+    /// The column that a name is about: of a quantile that which it is of, of others the name.
+    pub fn base(name: &str) -> &str {
+        split(name).map_or(name, |(column, _)| column)
+    }
+
+    /// The meaning of its column.
+    pub fn meaning(&self) -> &'static str {
+        match self {
+            Self::Quantile { .. } => {
+                "quantile over the samples of the design, of the column before _p05, _p50 or _p95 (5 %, 50 %, 95 %)"
+            }
+            Self::Yield => "share of the samples of the design that meet the requirements",
+        }
+    }
+}
+
+/// The column and the share in the name of a quantile.
+fn split(name: &str) -> Option<(&str, f64)> {
+    let cut = |(ending, share)| Some((name.strip_suffix(ending)?.strip_suffix('_')?, share));
+    QUANTILES.into_iter().find_map(cut)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Statistic;
+
+    #[test]
+    fn names_end_with_the_quantile() {
+        let quantile =
+            |column: &str, share| Some(Statistic::Quantile { column: column.into(), share });
+        assert_eq!(Statistic::named("critical_force_p05"), quantile("critical_force", 0.05));
+        assert_eq!(Statistic::named("critical_force_N_p95"), quantile("critical_force_N", 0.95));
+        assert_eq!(Statistic::named("yield"), Some(Statistic::Yield));
+        for other in ["critical_force", "critical_force_p5", "p05", "yield_p"] {
+            assert_eq!(Statistic::named(other), None, "{other}");
+        }
+        assert_eq!(Statistic::base("coverage_p50"), "coverage");
+    }
+}

@@ -1,0 +1,130 @@
+//! The fitness of a design (Eq. 7 of Shafiei et al. 2021) between ends that do not move with the designs: criteria, rescaled and weighted.
+//!
+//! ```text
+//! f = Π s_c^w_c,    s_c = (c − worst c)/(best c − worst c),    0 where an s_c is not above 0          (O3)
+//! ∂f/∂q = f Σ (w_c/s_c) ∂s_c/∂q                                                                      (O4)
+//! ```
+
+use crate::criterion::{Criterion, Goal};
+use crate::scale::Scale;
+use crate::weights::Weights;
+
+/// The criteria of a fitness with their weights, and the ends that the goal gives them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FitnessGoal {
+    /// The criteria.
+    pub criteria: Vec<Criterion>,
+    /// Their weights.
+    pub weights: Weights,
+    /// The ends that the goal gives; what a search has looked at gives those of the other criteria.
+    pub ends: Vec<CriterionEnds>,
+}
+
+/// The values of a column between which a criterion is rescaled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CriterionEnds {
+    /// The column.
+    pub column: String,
+    /// The value of fitness 0.
+    pub worst: f64,
+    /// The value of fitness 1, which a design may surpass.
+    pub best: f64,
+}
+
+/// A criterion with its weight, and the criteria of the worst and of the best.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RescaledCriterion {
+    goal: Goal,
+    weight: f64,
+    ends: Option<(f64, f64)>,
+}
+
+impl CriterionEnds {
+    /// The worst and the best of values that make a criterion.
+    pub fn of(criterion: &Criterion, values: impl Iterator<Item = f64>) -> Option<Self> {
+        let exists = |value: &f64| Scale::Paper.criterion(criterion.goal, *value).is_some();
+        let (low, high) = values
+            .filter(exists)
+            .map(|value| (value, value))
+            .reduce(|(low, high), (value, _)| (low.min(value), high.max(value)))?;
+        let (worst, best) =
+            if criterion.goal == Goal::Maximize { (low, high) } else { (high, low) };
+        Some(Self { column: criterion.column.to_string(), worst, best })
+    }
+}
+
+impl FitnessGoal {
+    /// The criteria that have a weight, rescaled between those of `ends`.
+    pub fn rescaled(
+        &self,
+        ends: &[CriterionEnds],
+    ) -> impl Iterator<Item = (&Criterion, RescaledCriterion)> {
+        let weighted = self.criteria.iter().zip(self.weights.values());
+        weighted.filter(|(_, weight)| **weight > 0.0).map(|(criterion, &weight)| {
+            let goal = criterion.goal;
+            let made = |value| Scale::Paper.criterion(goal, value);
+            let ends = ends.iter().find(|ends| ends.column == criterion.column);
+            let ends = ends.and_then(|ends| Some((made(ends.worst)?, made(ends.best)?)));
+            (criterion, RescaledCriterion { goal, weight, ends })
+        })
+    }
+}
+
+impl RescaledCriterion {
+    /// The criterion that a value makes, 0 at the worst and 1 at the best (R2); `None` without ends, or if it cannot be formed.
+    fn of(&self, value: f64) -> Option<f64> {
+        Some(rescaled(Scale::Paper.criterion(self.goal, value)?, self.ends?))
+    }
+
+    /// Its part `w ln s` in the logarithm of the fitness.
+    pub fn part(&self, value: f64) -> Option<f64> {
+        Some(self.weight * self.of(value)?.max(0.0).ln())
+    }
+
+    /// The derivative of that part with respect to the value; 0 where all are equal, so that the criterion does not count.
+    pub fn rate(&self, value: f64) -> Option<f64> {
+        let (worst, best) = self.ends?;
+        let rescaled = self.of(value)?;
+        let made = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
+        Some(if best > worst { self.weight * made / ((best - worst) * rescaled) } else { 0.0 })
+    }
+}
+
+/// A value from 0 at the smallest to 1 at the largest (R2); 1 if all are equal, so that they do not count.
+pub(crate) fn rescaled(value: f64, (low, high): (f64, f64)) -> f64 {
+    if high > low { (value - low) / (high - low) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_are_those_of_the_goal_and_what_is_beyond_them_counts() {
+        let criterion = Criterion::new("coverage", Goal::Maximize);
+        let found = CriterionEnds::of(&criterion, [0.2, 0.7, 0.4].into_iter()).expect("ends");
+        assert_eq!((found.worst, found.best), (0.2, 0.7));
+        let goal = FitnessGoal {
+            criteria: vec![criterion, Criterion::new("gap_over_t", Goal::Minimize)],
+            weights: Weights::new(&[1.0, 3.0]).expect("weights"),
+            ends: vec![CriterionEnds { column: "gap_over_t".to_owned(), worst: 1.0, best: 0.5 }],
+        };
+        let ends = [found, goal.ends[0].clone()];
+        let parts: Vec<RescaledCriterion> = goal.rescaled(&ends).map(|(_, part)| part).collect();
+        let fitness = |coverage: f64, gap: f64| {
+            (parts[0].part(coverage).expect("a part") + parts[1].part(gap).expect("a part")).exp()
+        };
+        // The inverse of the gap, 1.5, is in the middle between 1 and 2.
+        let gap = 1.0 / 1.5;
+        for (coverage, share) in [(0.7, 1.0_f64), (0.45, 0.5), (1.2, 2.0)] {
+            let expected = share.powf(0.25) * 0.5_f64.powf(0.75);
+            assert!((fitness(coverage, gap) - expected).abs() < 1e-14);
+        }
+        assert_eq!([fitness(0.2, gap), fitness(0.1, gap)], [0.0, 0.0]);
+        let rate = (parts[1].part(gap + 1e-6).expect("a part")
+            - parts[1].part(gap - 1e-6).expect("a part"))
+            / 2e-6;
+        assert!((parts[1].rate(gap).expect("a rate") - rate).abs() < 1e-8);
+        assert!(goal.rescaled(&[]).all(|(_, part)| part.part(0.5).is_none()));
+    }
+}

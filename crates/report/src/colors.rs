@@ -1,0 +1,53 @@
+//! Colours of drawings, figures and maps.
+
+/// Ink of axes and labels.
+pub(crate) const INK: &str = "#222222";
+/// Ink of secondary marks and notes.
+pub(crate) const FAINT: &str = "#767676";
+/// Lines of a grid.
+pub(crate) const GRID: &str = "#e6e6e6";
+/// Colour of contacts.
+pub(crate) const RED: &str = "#d0021b";
+
+/// Steps of the sequential scale of maps: cividis, which the colour-blind see as others do.
+const SEQUENCE: [[u8; 3]; 9] = [
+    [0, 32, 77],
+    [0, 51, 111],
+    [57, 72, 107],
+    [87, 93, 109],
+    [112, 113, 115],
+    [138, 134, 120],
+    [166, 157, 117],
+    [196, 182, 108],
+    [255, 234, 70],
+];
+
+/// Returns the colour of a value from 0 to 1 in a map.
+pub(crate) fn map_color(fraction: f64) -> String {
+    mixed(&SEQUENCE, fraction)
+}
+
+/// Returns a colour mixed with white, or, below 0, with black.
+pub(crate) fn shaded(color: &str, part: f64) -> String {
+    let channel = |k: usize| {
+        let text = color.get(2 * k + 1..2 * k + 3).unwrap_or_default();
+        let own = f64::from(u8::from_str_radix(text, 16).unwrap_or_default());
+        let other = if part > 0.0 { 255.0 } else { 0.0 };
+        (own + part.abs() * (other - own)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2))
+}
+
+/// Returns the colour at a fraction of the way along `steps`.
+pub(crate) fn mixed(steps: &[[u8; 3]], fraction: f64) -> String {
+    let last = steps.len() - 1;
+    let place = fraction.clamp(0.0, 1.0) * last as f64;
+    // Between 0 and the last step.
+    let below = (place.floor() as usize).min(last - 1);
+    let part = place - below as f64;
+    let [r, g, b] = [0, 1, 2].map(|k| {
+        let (from, to) = (f64::from(steps[below][k]), f64::from(steps[below + 1][k]));
+        (from + part * (to - from)).round() as u8
+    });
+    format!("#{r:02x}{g:02x}{b:02x}")
+}

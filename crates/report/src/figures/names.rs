@@ -1,0 +1,117 @@
+//! The names of columns in titles, at axes and in legends. `$` begins and ends italics, as in labels.
+
+use results::columns::explain_value;
+
+/// Columns that have a symbol: the words, the symbol, and what the symbol stands for where there is room to say it.
+const NAMED: [(&str, &str, &str, &str); 13] = [
+    ("coverage", "coverage", "$λ$", ""),
+    ("critical_force", "critical force", "$F_c^*$", " = $F_c$(1 − $ν$^2)/($E_s L t$)"),
+    ("penetration", "penetration", "$u_{max}/t$", ""),
+    ("compliance", "flexural compliance", "$C_f^*$", " = $C_f E_m I_m/t$"),
+    ("max_stiffness", "largest stiffness", "$K_{max}^*$", " = $K_{max}$/($E_s t$)"),
+    ("secant_stiffness", "secant stiffness", "$K_{sec}^*$", " = $K_{sec}$/($E_s t$)"),
+    ("gap_over_t", "gap", "$d/t$", ""),
+    ("length_over_t", "aspect ratio", "$L/t$", ""),
+    ("width_over_t", "width", "$b/t$", ""),
+    ("membrane_thickness_over_t", "membrane thickness", "$h/t$", ""),
+    ("critical_tilt_deg", "critical tilt", "$θ_c$", ""),
+    ("slant_deg", "slant", "$α$", ""),
+    ("thickness_mm", "thickness", "$t$", ""),
+];
+
+/// Units at the end of a name, the longest first, and as they are printed.
+const UNITS: [(&str, &str); 7] = [
+    ("_N_mm2", "N mm²"),
+    ("_kg_m2", "kg/m²"),
+    ("_N_mm", "N mm"),
+    ("_MPa", "MPa"),
+    ("_mm", "mm"),
+    ("_N", "N"),
+    ("_deg", "°"),
+];
+
+/// Quantiles at the end of a name.
+const QUANTILES: [(&str, &str); 3] =
+    [("_p05", "5 % quantile of "), ("_p50", "median of "), ("_p95", "95 % quantile of ")];
+
+/// Returns the name of a column without its unit, and the unit; an empty one if it has none.
+fn without_unit(column: &str) -> (&str, String) {
+    let end = UNITS.iter().find_map(|(end, unit)| Some((column.strip_suffix(end)?, *unit)));
+    let Some((name, unit)) = end else { return (column, String::new()) };
+    // A moment and a force over a width end alike: the column itself says which it is.
+    let said = explain_value(column).map(|(unit, _)| unit.replace("^2", "²"));
+    (name, said.filter(|said| !["-", "deg"].contains(&said.as_str())).unwrap_or(unit.to_owned()))
+}
+
+/// Returns the symbol of a column and what that stands for, if it has one.
+fn symbol(column: &str) -> Option<(&'static str, &'static str)> {
+    NAMED.iter().find(|(name, ..)| *name == column).map(|(.., symbol, meaning)| (*symbol, *meaning))
+}
+
+/// Returns a name without unit in words.
+fn words(name: &str) -> String {
+    let quantile = |(end, words): &(&str, &'static str)| Some((name.strip_suffix(end)?, *words));
+    let (name, quantile) = QUANTILES.iter().find_map(quantile).unwrap_or((name, ""));
+    let named = NAMED.iter().find(|(column, ..)| without_unit(column).0 == name);
+    let plain = || name.replace("_over_t", "/t").replace('_', " ");
+    quantile.to_owned() + &named.map_or_else(plain, |(_, words, ..)| (*words).to_owned())
+}
+
+/// Returns a column in words, with its unit in parentheses.
+pub(crate) fn in_words(column: &str) -> String {
+    match without_unit(column) {
+        (name, unit) if unit.is_empty() => words(name),
+        (name, unit) => format!("{} ({unit})", words(name)),
+    }
+}
+
+/// Returns a parameter as short as a title has it: its symbol, or its words.
+pub(crate) fn in_short(parameter: &str) -> String {
+    let symbol = symbol(parameter).map(|(symbol, _)| symbol.to_owned());
+    symbol.unwrap_or_else(|| words(without_unit(parameter).0))
+}
+
+/// Returns a parameter with its value, as titles and panels have it.
+pub(crate) fn with_value((parameter, value): &(&str, &str)) -> String {
+    let unit = without_unit(parameter).1;
+    let space = if ["", "°"].contains(&unit.as_str()) { "" } else { " " };
+    format!("{} = {value}{space}{unit}", in_short(parameter))
+}
+
+/// Returns the label of an axis along which a column goes.
+pub(crate) fn axis_label(column: &str) -> String {
+    let (name, unit) = without_unit(column);
+    let (symbol, meaning) = symbol(column).unwrap_or_default();
+    let words = [&words(name), symbol].join(" ");
+    match unit.as_str() {
+        "" => format!("{}{meaning}, dimensionless", words.trim_end()),
+        "°" => format!("{}, degrees", words.trim_end()),
+        unit => format!("{} ({unit})", words.trim_end()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{axis_label, in_short, in_words, with_value};
+
+    #[test]
+    fn columns_are_called_as_people_call_them() {
+        let words =
+            ["critical_force_N", "critical_force_p50_N", "max_moment_N_mm", "peak_tilt_deg"];
+        assert_eq!(
+            words.map(in_words),
+            [
+                "critical force (N)",
+                "median of critical force (N)",
+                "max moment (N mm)",
+                "peak tilt (°)"
+            ]
+        );
+        assert_eq!(["gap_over_t", "slant_deg", "gap_cv"].map(in_short), ["$d/t$", "$α$", "gap cv"]);
+        let values = [("thickness_mm", "1"), ("slant_deg", "30"), ("gap_cv", "0.3")];
+        assert_eq!(values.each_ref().map(with_value), ["$t$ = 1 mm", "$α$ = 30°", "gap cv = 0.3"]);
+        assert_eq!(axis_label("slant_deg"), "slant $α$, degrees");
+        assert_eq!(axis_label("penetration_mm"), "penetration (mm)");
+        assert_eq!(axis_label("coverage"), "coverage $λ$, dimensionless");
+    }
+}
