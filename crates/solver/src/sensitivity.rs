@@ -24,6 +24,16 @@ pub struct Neighbours<S> {
     pub step: f64,
 }
 
+impl<S> Neighbours<S> {
+    /// What a function makes of both.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn map<T, E>(&self, f: impl Fn(&S) -> Result<T, E>) -> Result<Neighbours<T>, E> {
+        Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
+    }
+}
+
 /// A place for a neighbouring value of a parameter, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved<M> {

@@ -1,7 +1,7 @@
 //! Derivatives of the measures of bending.
 
 use geometry::OutOfRange;
-use solver::Path;
+use solver::{Neighbours, Path};
 
 use super::first_touch::curvature_derivatives;
 use super::mesh::Resolution;
@@ -11,8 +11,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
-    first_contact, rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -42,7 +42,7 @@ const STRAIN: usize = 1;
 /// As [`solve`](super::solve).
 pub fn differentiate(
     input: &FlexureInput,
-    variations: &[Variation<FlexureInput>],
+    variations: &[Neighbours<FlexureInput>],
 ) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
@@ -63,7 +63,7 @@ impl FlexureProblem<'_> {
         &self,
         bent: &mut Bent,
         resolution: Resolution,
-        variations: &[Variation<FlexureInput>],
+        variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| {
