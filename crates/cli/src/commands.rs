@@ -1,4 +1,4 @@
-//! The commands, one file each.
+//! The commands: a file for each, with its arguments and what it does, and files that several share.
 
 mod audit;
 mod calibrate;
@@ -27,30 +27,12 @@ mod source;
 mod status;
 mod tolerance;
 mod validate;
-
-pub use calibrate::calibrate;
-pub use check::check;
-pub use compare::compare;
-pub use completions::completions;
-pub use design::design;
-pub use draw::draw;
-pub use export::export;
-pub use init::init;
-pub use man::man;
-pub use merge::merge;
-pub use optimise::optimise;
-pub use plot::plot;
-pub use rank::rank;
-pub use report::report;
-pub use rerun::rerun;
-pub use run::run;
-pub use sensitivity::sensitivity;
-pub use slurm::slurm;
-pub use status::status;
-pub use tolerance::tolerance;
-pub use validate::validate;
+mod work;
 
 use ::run::Program;
+use clap::{Parser, Subcommand};
+
+use crate::interrupt::Interrupt;
 
 /// This program.
 const PROGRAM: Program =
@@ -62,3 +44,107 @@ const DONE: u8 = 0;
 const INCOMPLETE: u8 = 1;
 /// Exit code when two runs differ and the exit code is to say so.
 const DIFFERENT: u8 = 1;
+
+/// Version and revision of the source.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (", env!("SQUAMA_REVISION"), ")");
+
+/// Design flexible armour: solve, rank and optimise skins of hard scales.
+#[derive(Debug, Parser)]
+#[command(
+    name = "squama",
+    version = VERSION,
+    arg_required_else_help = true,
+    after_help = "\
+Examples:
+  squama init smoke                         write a commented definition, smoke.toml
+  squama check smoke.toml                   show what would run
+  squama run smoke.toml                     solve a handful of designs, into results/smoke/
+  squama rank results/smoke                 show the best of them
+  squama design smoke.toml --design 0007    solve one design, with its whole path
+
+Commands accept a definition or a results folder.
+
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error."
+)]
+pub struct Arguments {
+    /// The command.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The command.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Write a commented definition to start from
+    Init(init::Arguments),
+    /// Solve every design of a sweep and write the tables
+    Run(run::Arguments),
+    /// Solve some designs of a run again, with other settings
+    Rerun(rerun::Arguments),
+    /// Show how far a run is, which designs failed, and why
+    Status(status::Arguments),
+    /// Combine the shards of a sweep in one results folder
+    Merge(merge::Arguments),
+    /// Write the scripts that run a sweep on a Slurm cluster
+    Slurm(slurm::Arguments),
+    /// Solve one design, print its measures and write its path
+    Design(design::Arguments),
+    /// Predict the effect of manufacturing tolerances, and the yield
+    Tolerance(tolerance::Arguments),
+    /// Find the parameters that the measures depend on most, over whole ranges
+    Sensitivity(sensitivity::Arguments),
+    /// Rank designs by weighted criteria, and list the Pareto front
+    Rank(rank::Arguments),
+    /// Search between the grid points for the optimum of a goal, or its Pareto front
+    #[command(visible_alias = "optimize")]
+    Optimise(optimise::Arguments),
+    /// Show where two runs differ, and by how much
+    Compare(compare::Arguments),
+    /// Draw designs to scale: at rest, punctured, bent
+    Draw(draw::Arguments),
+    /// Plot the figures of a sweep, a map, or the curves of designs
+    Plot(plot::Arguments),
+    /// Write one HTML page with the figures and designs of a sweep
+    Report(report::Arguments),
+    /// Write the tables of a run as one workbook for Excel and other spreadsheets
+    Export(export::Arguments),
+    /// Check a definition and show what would run
+    Check(check::Arguments),
+    /// Print the stiffness of the springs that represent the substrate
+    Calibrate(calibrate::Arguments),
+    /// Compare squama with benchmarks and with the claims of the paper
+    Validate(validate::Arguments),
+    /// Print shell completions
+    Completions(completions::Arguments),
+    /// Write manual pages
+    Man(man::Arguments),
+}
+
+impl Command {
+    /// Does what the command asks for, and returns its exit code.
+    pub fn run(self, interrupt: &Interrupt) -> anyhow::Result<u8> {
+        match self {
+            Self::Init(arguments) => init::init(&arguments),
+            Self::Run(arguments) => run::run(&arguments, interrupt),
+            Self::Rerun(arguments) => rerun::rerun(&arguments, interrupt),
+            Self::Status(arguments) => status::status(&arguments),
+            Self::Merge(arguments) => merge::merge(&arguments),
+            Self::Slurm(arguments) => slurm::slurm(&arguments),
+            Self::Design(arguments) => design::design(&arguments),
+            Self::Tolerance(arguments) => tolerance::tolerance(&arguments, interrupt),
+            Self::Sensitivity(arguments) => sensitivity::sensitivity(&arguments, interrupt),
+            Self::Rank(arguments) => rank::rank(&arguments),
+            Self::Optimise(arguments) => optimise::optimise(&arguments, interrupt),
+            Self::Compare(arguments) => compare::compare(&arguments),
+            Self::Draw(arguments) => draw::draw(&arguments),
+            Self::Plot(arguments) => plot::plot(&arguments),
+            Self::Report(arguments) => report::report(&arguments),
+            Self::Export(arguments) => export::export(&arguments),
+            Self::Check(arguments) => check::check(&arguments),
+            Self::Calibrate(arguments) => calibrate::calibrate(&arguments),
+            Self::Validate(arguments) => validate::validate(&arguments),
+            Self::Completions(arguments) => completions::completions(&arguments),
+            Self::Man(arguments) => man::man(&arguments),
+        }
+    }
+}

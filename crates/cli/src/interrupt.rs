@@ -62,12 +62,14 @@ mod system {
     const ONE_REQUEST: Duration = Duration::from_secs(1);
 
     pub fn listen(interrupt: Interrupt) -> io::Result<()> {
+        // With a handler the signal does not end the process, and the write that was too long fails with an error.
         flag::register(SIGXFSZ, Arc::default())?;
         let asking = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| !is_ignored(*signal));
         let mut signals = Signals::new(asking)?;
         let attend = move || {
             let mut asked: Option<Instant> = None;
             for signal in signals.forever() {
+                // A handler may do next to nothing, so signals are attended to in a thread, which may remove files.
                 let is_request = interrupt.asks_first.load(Ordering::Relaxed)
                     && asked.is_none_or(|asked| asked.elapsed() < ONE_REQUEST);
                 if !is_request {
@@ -75,6 +77,7 @@ mod system {
                 }
                 asked.get_or_insert_with(Instant::now);
                 let number = usize::try_from(signal).unwrap_or_default();
+                // The first signal decides the exit code, whatever follows.
                 let first = interrupt.signal.compare_exchange(
                     0,
                     number,
@@ -91,6 +94,7 @@ mod system {
     fn is_ignored(signal: i32) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+        // Bit n − 1 of the mask is signal n.
         let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
         mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
     }

@@ -2,20 +2,16 @@
 //!
 //! | Module | Role |
 //! |---|---|
-//! | `args` | command-line arguments |
-//! | `commands` | one file per command |
+//! | `commands` | command-line arguments, and a file per command |
 //! | `interrupt` | signals that ask a process to end |
 //! | `progress` | the bar on the terminal |
 //! | `print`, `json` | text for people: aligned tables, closed pipes; the same for programs |
-//! | `templates` | definitions to begin with |
 
-mod args;
 mod commands;
 mod interrupt;
 mod json;
 mod print;
 mod progress;
-mod templates;
 
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -23,7 +19,7 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory as _, Parser as _};
 
-use crate::args::{Arguments, Command};
+use crate::commands::Arguments;
 use crate::interrupt::Interrupt;
 
 /// The input, or the disk, is at fault.
@@ -35,36 +31,14 @@ fn main() -> ExitCode {
         Err(error) if error.use_stderr() && !is_help(&error) => return refuse(&one_line(&error)),
         Err(error) => error.exit(),
     };
+    // Before any file is opened, so that no signal leaves half of one behind.
     let interrupt = match Interrupt::listen() {
         Ok(interrupt) => interrupt,
         Err(error) => {
-            return refuse(&anyhow::Error::new(error).context("signals cannot be listened to"));
+            return refuse(&anyhow::Error::new(error).context("cannot listen to signals"));
         }
     };
-    let done = match command {
-        Command::Init(arguments) => commands::init(&arguments),
-        Command::Run(arguments) => commands::run(&arguments, &interrupt),
-        Command::Rerun(arguments) => commands::rerun(&arguments, &interrupt),
-        Command::Status(arguments) => commands::status(&arguments),
-        Command::Merge(arguments) => commands::merge(&arguments),
-        Command::Slurm(arguments) => commands::slurm(&arguments),
-        Command::Design(arguments) => commands::design(&arguments),
-        Command::Tolerance(arguments) => commands::tolerance(&arguments, &interrupt),
-        Command::Sensitivity(arguments) => commands::sensitivity(&arguments, &interrupt),
-        Command::Rank(arguments) => commands::rank(&arguments),
-        Command::Optimise(arguments) => commands::optimise(&arguments, &interrupt),
-        Command::Compare(arguments) => commands::compare(&arguments),
-        Command::Draw(arguments) => commands::draw(&arguments),
-        Command::Plot(arguments) => commands::plot(&arguments),
-        Command::Report(arguments) => commands::report(&arguments),
-        Command::Export(arguments) => commands::export(&arguments),
-        Command::Check(arguments) => commands::check(&arguments),
-        Command::Calibrate(arguments) => commands::calibrate(&arguments),
-        Command::Validate(arguments) => commands::validate(&arguments),
-        Command::Completions(arguments) => commands::completions(&arguments),
-        Command::Man(arguments) => commands::man(&arguments),
-    };
-    done.map_or_else(|error| refuse(&error), ExitCode::from)
+    command.run(&interrupt).map_or_else(|error| refuse(&error), ExitCode::from)
 }
 
 /// Whether the error is a question for help.

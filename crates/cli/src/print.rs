@@ -8,6 +8,7 @@ use results::VerifiedFolder;
 /// Prints `text`. A reader that has seen enough and closed the pipe is no error.
 pub fn print(text: &str) -> io::Result<()> {
     let mut stdout = io::stdout().lock();
+    // Flushed here, because at the end of the process nobody is left to tell of an error.
     match stdout.write_all(sweep::visible(text).as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         result => result,
@@ -32,6 +33,7 @@ pub fn aligned<R: AsRef<[String]>>(rows: &[R]) -> String {
     for row in rows.iter().map(AsRef::as_ref) {
         widths.resize(widths.len().max(row.len()), 0);
         for (width, cell) in widths.iter_mut().zip(row) {
+            // Characters, not bytes: `×` takes one column.
             *width = cell.chars().count().max(*width);
         }
     }

@@ -22,7 +22,7 @@ const PARTS: u64 = 10_000;
 
 /// Said when the first signal has come.
 const ENDING: &str =
-    "ending once the designs in hand are done; a second signal ends at once, --resume goes on";
+    "ending after the designs in progress; a second signal ends at once, and --resume continues";
 
 /// Work that can be looked at while it is done.
 trait Watched: Send + Sync + 'static {
@@ -137,6 +137,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ended: &Receiver<()>) {
     }
     let begun = Instant::now();
     let mut is_ending = false;
+    // The channel is a clock that stops at once: work that ends does not wait for the pause.
     while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
@@ -163,6 +164,7 @@ impl Counts {
             [&self.designs, &self.before, &self.done, &self.failed]
                 .map(|count| count.load(Ordering::Relaxed));
         let rate = done as f64 / elapsed.as_secs_f64();
+        // A rate below one would read 0/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
         let left = left(share, elapsed).map_or(String::new(), |left| format!("  {left} left"));
         format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)

@@ -2,7 +2,7 @@
 
 use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 
-use crate::best::{BestDesign, apart, best_design};
+use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, Target, best};
 use crate::evaluations::Halt;
 use crate::front::{self, Front};
@@ -23,7 +23,9 @@ pub enum Answer {
 /// How much is improved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan {
-    /// Designs that are improved along derivatives for each objective.
+    /// Designs that are improved a little, for each objective.
+    pub regions: usize,
+    /// Designs that are improved along derivatives after that.
     pub starts: usize,
     /// Designs that are improved to the end after that.
     pub finalists: usize,
@@ -33,9 +35,9 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// Among nominal designs.
-    pub const NOMINAL: Self = Self { starts: 12, finalists: 3, points: 0 };
+    pub const NOMINAL: Self = Self { regions: 24, starts: 6, finalists: 3, points: 0 };
     /// Among designs that are sampled.
-    pub const SAMPLED: Self = Self { starts: 6, finalists: 3, points: 0 };
+    pub const SAMPLED: Self = Self { regions: 6, starts: 6, finalists: 3, points: 0 };
 }
 
 /// The answer to a goal, from the designs that are known so far.
@@ -47,10 +49,12 @@ pub(crate) fn answer(
     let mut targets: Vec<Target> = Vec::new();
     for objective in 0..search.judge.objectives() {
         let target = Target { objective, floors: Vec::new() };
-        let first = apart(search, history, &target, plan.starts);
-        search.meter.begin(SearchPart::Climb, first.len());
-        history.extend(improved(search, &target, first, Effort::CLIMB)?);
-        let best = apart(search, history, &target, plan.finalists);
+        let first = starts(search, history, &target, plan.regions);
+        search.meter.begin(SearchPart::Climb, first.len() + plan.starts);
+        history.extend(improved(search, &target, first, Effort::PROBE)?);
+        let best = starts(search, history, &target, plan.starts);
+        history.extend(improved(search, &target, best, Effort::CLIMB)?);
+        let best = starts(search, history, &target, plan.finalists);
         search.meter.begin(SearchPart::Finish, best.len());
         history.extend(improved(search, &target, best, Effort::WHOLE)?);
         targets.push(target);

@@ -1,12 +1,14 @@
 //! The best of the designs that were looked at, and starts that are apart from each other.
 
 use results::DesignRow;
+use sweep::Measure;
 
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
 use crate::local::Search;
 use crate::price::{Binding, bindings};
 use crate::sampled::confirmation::Confirmation;
+use crate::tooth::Tooth;
 
 /// A distance between two starts, a share of the intervals, at least.
 const APART: f64 = 0.12;
@@ -39,33 +41,47 @@ pub(crate) fn best_design(
     Ok(BestDesign { candidate: best, row, target, bindings, confirmation: None })
 }
 
-/// The best designs for a target that are apart from each other, as starts of local searches.
-pub(crate) fn apart(
+/// A part of the space in which a local search stays: choices, the peak of coverage, whether bending brings scales into contact.
+pub(crate) type Region = (Vec<usize>, Option<u32>, Option<bool>);
+
+/// The region of a design, as far as the goal tells regions apart.
+pub(crate) fn region(search: &Search<'_>, candidate: &Candidate) -> Region {
+    let teeth =
+        search.judge.is_about(Measure::Coverage).then(|| search.space.case(&candidate.point));
+    let peak = teeth.and_then(|case| Tooth::beside(&case).first().map(|tooth| tooth.peak));
+    let flexure = candidate.result.flexure.filter(|_| search.judge.is_about(Measure::Flexure));
+    let contact = flexure.and_then(|flexure| flexure.measures.contact);
+    (candidate.point.chosen.clone(), peak, contact)
+}
+
+/// Starts of local searches for a target: the best design of each region, then others that are apart from those.
+pub(crate) fn starts(
     search: &Search<'_>,
     history: &[Candidate],
     target: &Target,
     count: usize,
 ) -> Vec<Candidate> {
+    let judged = history.iter().map(|candidate| (search.merit(candidate, target), candidate));
     let mut order: Vec<(Merit, &Candidate)> =
-        history.iter().map(|candidate| (search.merit(candidate, target), candidate)).collect();
+        judged.filter(|(merit, _)| *merit != Merit::None).collect();
     order.sort_by(|(a, _), (b, _)| b.compare(*a));
-    let mut starts: Vec<Candidate> = Vec::new();
-    for (merit, candidate) in order {
-        if merit == Merit::None || starts.len() == count {
-            break;
+    let mut regions: Vec<Region> = Vec::new();
+    let is_first = |(_, candidate): &(Merit, &Candidate)| {
+        let region = region(search, candidate);
+        let is_new = !regions.contains(&region);
+        if is_new {
+            regions.push(region);
         }
-        if starts.iter().all(|start| distance(start, candidate) >= APART) {
+        is_new
+    };
+    let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(is_first);
+    let mut starts: Vec<Candidate> =
+        firsts.into_iter().take(count).map(|(_, candidate)| candidate.clone()).collect();
+    for (_, candidate) in others {
+        let is_apart = |start: &Candidate| start.point.distance(&candidate.point) >= APART;
+        if starts.len() < count && starts.iter().all(is_apart) {
             starts.push(candidate.clone());
         }
     }
     starts
-}
-
-/// The largest difference between two designs in any interval; infinite if their choices differ.
-fn distance(one: &Candidate, other: &Candidate) -> f64 {
-    if one.point.chosen != other.point.chosen {
-        return f64::INFINITY;
-    }
-    let pairs = one.point.shares.iter().zip(&other.point.shares);
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }

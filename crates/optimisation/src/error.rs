@@ -13,7 +13,7 @@ pub enum OptimisationError {
     #[error(transparent)]
     Journal(#[from] JournalError),
     /// No design has a value in a column of the goal.
-    #[error("{column}: none of the {designs} designs has a number there, expected another column")]
+    #[error("{column}: none of the {designs} designs has a number in this column")]
     NoValue {
         /// The column.
         column: String,

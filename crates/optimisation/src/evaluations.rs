@@ -29,6 +29,8 @@ pub(crate) enum Halt {
     Interrupted,
     /// The journal cannot be written.
     Output(OutputError),
+    /// A climb does not move any more.
+    Stalled,
 }
 
 /// Solves points of a space, each once: what an earlier session has solved is read from its journal.
@@ -65,6 +67,24 @@ impl<'a> Evaluations<'a> {
         })
     }
 
+    /// The intervals of parameters that no measure depends on: they only scale columns in physical units.
+    pub fn scaling_intervals(&self) -> Vec<usize> {
+        let measures = self.space.sweep().measures();
+        let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
+        let intervals = self.space.intervals().iter().enumerate();
+        let scaling = intervals.filter(|(_, interval)| !is_measured(interval.parameter.section));
+        scaling.map(|(j, _)| j).collect()
+    }
+
+    /// The point that stands for all whose designs only scale each other, and have one result.
+    fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
+        let mut unscaled = point.clone();
+        for j in self.scaling_intervals() {
+            unscaled.shares[j] = 0.0;
+        }
+        unscaled
+    }
+
     /// The row of the design at `point`, as number `index` of a table.
     pub fn row(&self, index: u64, point: &SpacePoint, result: &DesignResult) -> DesignRow {
         let number = self.number(index);
@@ -85,7 +105,8 @@ impl<'a> Evaluations<'a> {
         differentiated: bool,
     ) -> Result<Arc<DesignResult>, Halt> {
         let evaluator = if differentiated { &self.differentiating } else { &self.plain };
-        self.known_or(point, differentiated, None, &self.space.case(point), evaluator)
+        let point = self.unscaled(point);
+        self.known_or(&point, differentiated, None, &self.space.case(&point), evaluator)
     }
 
     /// As [`Self::solve`] with derivatives, of the sample of that number, but for its scatter from scale to scale; `None` if there is no

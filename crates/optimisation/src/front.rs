@@ -3,15 +3,24 @@
 use ranking::dominates;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
-use crate::best::{BestDesign, best_design};
+use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, Target};
 use crate::evaluations::Halt;
 use crate::local::{Effort, Search};
 use crate::meter::SearchPart;
 use crate::worth::Judgement;
 
-/// Rounds in which points that came to nothing are put elsewhere, at most.
-const REFILLS: usize = 2;
+/// Rounds in which points are put into the widest gaps, at most.
+const REFILLS: usize = 3;
+
+/// Regions from which a point is searched, at most.
+const REGIONS: usize = 3;
+
+/// A floor is inside a gap that is this share of it away from both ends.
+const INSIDE: f64 = 1e-3;
+
+/// The ratio of the ends of a front from which on its points are spaced by equal ratios.
+const DECADE: f64 = 10.0;
 
 /// The front of several objectives.
 #[derive(Clone, Debug)]
@@ -26,39 +35,93 @@ pub struct Front {
     pub empty: usize,
 }
 
-/// The front: points between its ends, and where they come to nothing, others in the widest gaps that are left.
+/// The front: points between its ends, then others in the widest gaps that are left.
 pub(crate) fn search(
     search: &Search<'_>,
     history: &mut Vec<Candidate>,
     points: usize,
 ) -> Result<Front, Halt> {
-    let mut targets = targets(search, history, points);
+    // Half of the points tell where the front changes.
+    let mut targets = targets(search, history, points.div_ceil(2).max(2).min(points));
     improve(search, history, &targets)?;
-    let mut front = designs(search, history, &targets)?;
+    let mut front = rescaled_front(search, history, &targets)?;
     for _ in 0..REFILLS {
-        let more = between(search, &front.designs, points);
+        let more = between(search, &front.designs, &targets, points);
         if more.is_empty() {
             break;
         }
         improve(search, history, &more)?;
         targets.extend(more);
-        front = designs(search, history, &targets)?;
+        front = rescaled_front(search, history, &targets)?;
     }
     Ok(front)
 }
 
-/// Targets in the widest gaps of a front of two objectives that has fewer than so many points.
-fn between(search: &Search<'_>, designs: &[BestDesign], points: usize) -> Vec<Target> {
-    let turned = designs.iter().filter_map(|design| turned(search, &design.candidate));
-    let seconds: Vec<f64> = turned.filter(|t| t.len() == 2).map(|t| t[1]).collect();
-    let mut gaps: Vec<[f64; 2]> = seconds.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    gaps.sort_by(|a, b| (b[1] - b[0]).total_cmp(&(a[1] - a[0])));
-    gaps.truncate(points.saturating_sub(designs.len()));
-    let target = |[low, high]: [f64; 2]| Target {
-        objective: 0,
-        floors: vec![(1, f64::midpoint(low, high))],
+/// Targets in the widest gaps of a front of two objectives that has fewer than so many points, but for gaps that have had one: the front
+/// has a step there.
+fn between(
+    search: &Search<'_>,
+    designs: &[BestDesign],
+    targets: &[Target],
+    points: usize,
+) -> Vec<Target> {
+    let turned: Vec<Vec<f64>> =
+        designs.iter().filter_map(|design| turned(search, &design.candidate)).collect();
+    let (Some(first), Some(last)) = (turned.first(), turned.last()) else { return Vec::new() };
+    if first.len() != 2 {
+        return Vec::new();
+    }
+    let scales = [0, 1].map(|k| Spacing::between(first[k], last[k]));
+    let width = |pair: &[Vec<f64>]| {
+        let parts = [0, 1].map(|k| scales[k].share(pair[0][k]) - scales[k].share(pair[1][k]));
+        parts[0].hypot(parts[1])
     };
-    gaps.into_iter().map(target).collect()
+    let is_untried = |pair: &&[Vec<f64>]| {
+        let mut floors = targets.iter().flat_map(|target| &target.floors);
+        // A design keeps its own floor by a little more than it must.
+        let spacing = Spacing::between(pair[0][1], pair[1][1]);
+        floors.all(|(_, floor)| !(INSIDE..1.0 - INSIDE).contains(&spacing.share(*floor)))
+    };
+    let mut gaps: Vec<&[Vec<f64>]> = turned.windows(2).filter(is_untried).collect();
+    gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    gaps.truncate(points.saturating_sub(designs.len()));
+    let floor = |pair: &[Vec<f64>]| Spacing::between(pair[0][1], pair[1][1]).at(0.5);
+    gaps.into_iter().map(|pair| Target { objective: 0, floors: vec![(1, floor(pair))] }).collect()
+}
+
+/// How values are spaced between two ends: by equal ratios where they span a power of ten, or else by equal differences.
+#[derive(Clone, Copy)]
+struct Spacing {
+    ends: [f64; 2],
+    logarithmic: bool,
+}
+
+impl Spacing {
+    fn between(from: f64, to: f64) -> Self {
+        let ratio = (to / from).max(from / to);
+        Self { ends: [from, to], logarithmic: ratio.is_finite() && ratio >= DECADE }
+    }
+
+    /// The value at a share of the way.
+    fn at(self, share: f64) -> f64 {
+        let [from, to] = self.ends;
+        let is_end = share <= 0.0 || share >= 1.0;
+        match self.logarithmic {
+            _ if is_end => self.ends[usize::from(share >= 1.0)],
+            true => from * (to / from).powf(share),
+            false => from + (to - from) * share,
+        }
+    }
+
+    /// The share of the way at which a value is.
+    fn share(self, value: f64) -> f64 {
+        let [from, to] = self.ends;
+        match self.logarithmic {
+            true => (value / from).ln() / (to / from).ln(),
+            false if to == from => 0.0,
+            false => (value - from) / (to - from),
+        }
+    }
 }
 
 /// A local search for each of the points, from the best that is known for it, then from its neighbours' designs, from both ends.
@@ -69,12 +132,15 @@ fn improve(
 ) -> Result<(), Halt> {
     search.meter.begin(SearchPart::Front, 3 * targets.len());
     let first = |target: &Target| {
-        let walk = match search.best(history.iter(), target) {
-            Some(start) => search.improve(target, start, Effort { rounds: 2, ..Effort::WHOLE }),
-            None => Ok(Vec::new()),
-        };
+        let mut walk = Vec::new();
+        for start in starts(search, history, target, REGIONS) {
+            walk.extend(search.improve(target, &start, Effort::CLIMB)?);
+        }
+        if let Some(start) = search.best(history.iter().chain(&walk), target).cloned() {
+            walk.extend(search.improve(target, &start, Effort { rounds: 2, ..Effort::WHOLE })?);
+        }
         search.meter.step();
-        walk
+        Ok(walk)
     };
     let walks: Vec<Vec<Candidate>> = targets.par_iter().map(first).collect::<Result<_, _>>()?;
     let bests: Vec<Option<Candidate>> = targets
@@ -109,6 +175,27 @@ fn chain(
         neighbour = search.best(bests[k].iter().chain(&log), &targets[k]).cloned();
     }
     Ok(log)
+}
+
+/// The front once the design of every target has been scaled to every other: what a result does not depend on, as a thickness in mm, only
+/// scales forces and lengths, and costs nothing.
+fn rescaled_front(
+    search: &Search<'_>,
+    history: &mut Vec<Candidate>,
+    targets: &[Target],
+) -> Result<Front, Halt> {
+    let front = designs(search, history, targets)?;
+    let scaling = search.evaluations.scaling_intervals();
+    // Samples of a scaled design are other samples, and do cost.
+    if scaling.is_empty() || search.judge.samples().is_some() {
+        return Ok(front);
+    }
+    let pairs = targets.par_iter().flat_map_iter(|target| {
+        front.designs.iter().map(move |design| (target, &design.candidate))
+    });
+    let scaled = pairs.map(|(target, candidate)| search.scaled(target, candidate, &scaling));
+    history.extend(scaled.collect::<Result<Vec<_>, _>>()?);
+    designs(search, history, targets)
 }
 
 /// The best design of each target that no other design among them beats, and what became of the others.
@@ -160,7 +247,7 @@ fn targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Tar
     floors.into_iter().map(target).collect()
 }
 
-/// Floors of the second of two objectives at equal distances, from where the first is the best to where the second is.
+/// Floors of the second of two objectives, from where the first is the best to where the second is.
 fn even(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
     let end = |k: usize| {
         let better = |a: &&Vec<f64>, b: &&Vec<f64>| {
@@ -168,10 +255,9 @@ fn even(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
         };
         values.iter().max_by(better).map_or(f64::NAN, |value| value[1])
     };
-    let (low, high) = (end(0), end(1));
+    let spacing = Spacing::between(end(0), end(1));
     let share = |k: usize| k as f64 / (points - 1) as f64;
-    let floor = |k: usize| if k + 1 == points { high } else { low + (high - low) * share(k) };
-    (0..points).map(|k| vec![floor(k)]).collect()
+    (0..points).map(|k| vec![spacing.at(share(k))]).collect()
 }
 
 /// Floors of all objectives but the first at designs of the front that is known, as far from each other as can be.

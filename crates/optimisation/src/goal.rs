@@ -1,5 +1,6 @@
 //! The goal of an optimisation as it is written: variables, objectives, requirements.
 
+mod bounds;
 mod fitness_section;
 mod reader;
 mod refusal;

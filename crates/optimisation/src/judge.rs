@@ -3,8 +3,8 @@
 mod parts;
 
 use ranking::{Goal, Requirement, Worth};
-use results::DesignRow;
-use sweep::Parameter;
+use results::{DesignResult, DesignRow};
+use sweep::{Case, DesignNumber, Measure, Parameter};
 
 use crate::column::NumberColumn;
 use crate::looked::{LookedRow, Use};
@@ -30,7 +30,8 @@ pub struct Judge {
     requirements: Vec<Bound<Source>>,
     /// The index of the requirement that the surface has not folded, if that is wanted.
     soundness: Option<usize>,
-    bends: bool,
+    /// The measures that the goal is about.
+    measures: Vec<Measure>,
     samples: SampleJudge,
 }
 
@@ -88,9 +89,27 @@ impl Judge {
         self.soundness.is_some()
     }
 
-    /// Whether bending counts.
-    pub(crate) fn bends(&self) -> bool {
-        self.bends
+    /// Whether a measure counts.
+    pub(crate) fn is_about(&self, measure: Measure) -> bool {
+        self.measures.contains(&measure)
+    }
+
+    /// Whether the peaks of coverage tell regions of the space apart: contacts go with the same lengths, in bending and puncture.
+    pub(crate) fn has_regions(&self) -> bool {
+        !self.measures.is_empty()
+    }
+
+    /// The requirements of columns, each with the value that a case and what is known of its result have there.
+    pub(crate) fn known(
+        &self,
+        case: &Case,
+        number: DesignNumber,
+        result: DesignResult,
+    ) -> Vec<(&Requirement, Option<f64>)> {
+        let row = DesignRow { number, case: *case, result };
+        let bounds = &self.samples.bounds;
+        let values: Vec<Option<f64>> = bounds.values(&row).collect();
+        bounds.all.iter().map(|bound| &bound.requirement).zip(values).collect()
     }
 
     /// 1 if objective `k` is to be large, −1 if it is to be small.

@@ -63,7 +63,9 @@ mod local;
 mod looked;
 mod margin;
 mod meter;
+mod peaks;
 mod price;
+mod room;
 mod sample;
 mod sampled;
 mod search;
@@ -71,6 +73,7 @@ mod slopes;
 mod space;
 mod statistic;
 mod tables;
+mod tooth;
 mod words;
 mod worth;
 
@@ -88,8 +91,8 @@ pub use search::{Found, LeftOutDesigns, SearchOptions, optimise};
 pub use space::{Choice, DesignSpace, Interval, SpacePoint};
 pub use statistic::Statistic;
 pub use tables::{
-    FRONT, GOAL, HISTORY, OPTIMUM, OPTIMUM_DEFINITION, history_columns, optimum_columns,
-    write_found,
+    FRONT, GOAL, HISTORY, NEAREST_DEFINITION, OPTIMUM, OPTIMUM_DEFINITION, history_columns,
+    optimum_columns, write_found,
 };
 pub use words::Words;
 pub use worth::{Judgement, NominalWorth};

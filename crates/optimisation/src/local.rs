@@ -6,12 +6,9 @@ mod climb;
 mod polish;
 mod problem;
 mod ridge;
-mod room;
 mod samples;
 
 use std::cell::RefCell;
-
-pub(crate) use room::{bending_room, bending_room_slopes};
 
 use crate::candidate::{Candidate, Merit, SearchStage, Target, best};
 use crate::evaluations::{Evaluations, Halt};
@@ -25,22 +22,29 @@ use samples::SampledPoint;
 /// Rounds along ridges, without derivatives, and along derivatives again, at most.
 const ROUNDS: usize = 4;
 
+/// Round-off of a share.
+const ROUND_OFF: f64 = 1e-13;
+
+/// Steps of a scaling in each of its rounds.
+const STEPS: u32 = 8;
+
+/// Rounds of a scaling.
+const SCALINGS: usize = 15;
+
 /// How fine a local search becomes before it ends.
 #[derive(Clone, Copy, Debug)]
 struct Fineness {
     /// A relative gain below which a round has come to its end.
     gain: f64,
-    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
-    looks: u64,
     /// The smallest step without derivatives, a share of the intervals.
     step: f64,
 }
 
 impl Fineness {
     /// Among nominal designs.
-    const NOMINAL: Self = Self { gain: 1e-8, looks: 15, step: 1e-7 };
+    const NOMINAL: Self = Self { gain: 1e-8, step: 1e-7 };
     /// Among sampled designs, whose number of samples leaves quantiles and yields uncertain by per cents.
-    const SAMPLED: Self = Self { gain: 1e-3, looks: 8, step: 1e-4 };
+    const SAMPLED: Self = Self { gain: 1e-3, step: 1e-4 };
 }
 
 /// The parts that all searches share: the space, its evaluations, the judge.
@@ -54,6 +58,10 @@ pub(crate) struct Search<'a> {
 /// How much a local search may take.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
+    /// Designs of a climb for each variable, at most: a smooth one takes fewer, and one that takes more goes to and fro across a ridge.
+    pub looks: u64,
+    /// Pieces of coverage that a climb goes through.
+    pub pieces: usize,
     /// Rounds.
     pub rounds: usize,
     /// First step along ridges and without derivatives, a share of the intervals.
@@ -65,16 +73,26 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
+    /// A few steps along derivatives, which tell regions that are worth more.
+    pub const PROBE: Self = Self { looks: 4, pieces: 1, ..Self::CLIMB };
     /// Along derivatives alone.
-    pub const CLIMB: Self = Self { rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
+    pub const CLIMB: Self =
+        Self { looks: 15, pieces: 2, rounds: 0, reach: 0.0, ridge: 0, polish: 0 };
     /// To the end.
-    pub const WHOLE: Self = Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8 };
+    pub const WHOLE: Self =
+        Self { rounds: ROUNDS, reach: 0.06, ridge: 20, polish: 8, ..Self::CLIMB };
     /// From a design that is nearly the best.
-    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4 };
+    pub const SHORT: Self = Self { rounds: 1, reach: 0.01, ridge: 10, polish: 4, ..Self::CLIMB };
 
     /// As much as it may take where each design costs as many solutions as it has samples.
     fn on_samples(self) -> Self {
-        Self { rounds: self.rounds.min(2), ridge: self.ridge / 2, polish: self.polish / 2, ..self }
+        Self {
+            looks: self.looks.min(8),
+            rounds: self.rounds.min(2),
+            ridge: self.ridge / 2,
+            polish: self.polish / 2,
+            ..self
+        }
     }
 }
 
@@ -119,6 +137,34 @@ impl Search<'_> {
         Merit::Short(worth.shortfall().max(floors).max(f64::MIN_POSITIVE))
     }
 
+    /// The best design for a target among those that differ from `start` in intervals that only scale it, one after the other.
+    pub fn scaled(
+        &self,
+        target: &Target,
+        start: &Candidate,
+        scaling: &[usize],
+    ) -> Result<Candidate, Halt> {
+        let mut best = start.clone();
+        for &j in scaling {
+            let (mut from, mut to) = (0.0, 1.0);
+            // Each round leaves two of the steps round the best: fifteen rounds come to round-off of the shares.
+            for _ in 0..SCALINGS {
+                let step = (to - from) / f64::from(STEPS);
+                for k in 0..=STEPS {
+                    let mut point = best.point.clone();
+                    point.shares[j] = (from + step * f64::from(k)).min(1.0);
+                    let looked = self.look(SearchStage::Gradient, &point, false)?.0;
+                    if self.merit(&looked, target).compare(self.merit(&best, target)).is_gt() {
+                        best = looked;
+                    }
+                }
+                (from, to) = (best.point.shares[j] - step, best.point.shares[j] + step);
+                (from, to) = (from.max(0.0), to.min(1.0));
+            }
+        }
+        Ok(best)
+    }
+
     fn fineness(&self) -> Fineness {
         if self.judge.samples().is_some() { Fineness::SAMPLED } else { Fineness::NOMINAL }
     }
@@ -140,6 +186,7 @@ impl Search<'_> {
         start: &Candidate,
         effort: Effort,
     ) -> Result<Vec<Candidate>, Halt> {
+        self.meter.start();
         let walk = LocalSearch {
             search: self,
             target,
@@ -151,7 +198,7 @@ impl Search<'_> {
         }
         let effort = if self.judge.samples().is_some() { effort.on_samples() } else { effort };
         let (mut reach, variables) = (effort.reach, start.point.shares.len());
-        walk.climb()?;
+        walk.climb(effort)?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
             walk.follow(reach, effort.ridge * variables)?;
@@ -159,7 +206,7 @@ impl Search<'_> {
             if !gained(before, walk.best_merit(), self.fineness().gain) {
                 break;
             }
-            walk.climb()?;
+            walk.climb(effort)?;
             reach *= 0.3;
         }
         Ok(walk.log.take())
@@ -197,7 +244,13 @@ impl LocalSearch<'_> {
         differentiated: bool,
     ) -> Result<(Candidate, LookedRow), Halt> {
         let chosen = self.best.borrow().point.chosen.clone();
-        let shares = shares.iter().map(|share| share.clamp(0.0, 1.0)).collect();
+        // An end that is missed by round-off is meant: tables show 60, not 59.99999999999999.
+        let ended = |share: &f64| match *share {
+            share if share < ROUND_OFF => 0.0,
+            share if share > 1.0 - ROUND_OFF => 1.0,
+            share => share,
+        };
+        let shares = shares.iter().map(ended).collect();
         let looked = self.search.look(stage, &SpacePoint { shares, chosen }, differentiated)?;
         self.note(&looked.0);
         Ok(looked)

@@ -25,7 +25,8 @@ pub(crate) struct Bounds {
 pub(crate) fn soundness(sweep: &Sweep) -> Option<Requirement> {
     sweep.measures().contains(&Measure::Puncture).then(|| Requirement {
         column: GAP_STRETCH_MIN.to_owned(),
-        relation: Relation::AtLeast,
+        // Strict: where a gap has just closed, the surface has folded.
+        relation: Relation::Above,
         limit: 0.0,
     })
 }

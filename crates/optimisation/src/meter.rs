@@ -29,6 +29,7 @@ pub struct SearchMeter {
     part: Mutex<(SearchPart, usize)>,
     done: AtomicUsize,
     designs: AtomicUsize,
+    starts: AtomicUsize,
 }
 
 impl SearchPart {
@@ -56,6 +57,16 @@ impl SearchMeter {
     /// Designs that were looked at.
     pub fn designs(&self) -> usize {
         self.designs.load(Ordering::Relaxed)
+    }
+
+    /// Designs from which a local search began.
+    pub fn starts(&self) -> usize {
+        self.starts.load(Ordering::Relaxed)
+    }
+
+    /// A local search begins.
+    pub(crate) fn start(&self) {
+        self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
     /// A part of so many tasks begins.

@@ -8,12 +8,13 @@
 //! ```
 
 use nalgebra::{DMatrix, DVector};
-use sweep::Parameter;
+use sweep::{Measure, Parameter};
 
 use crate::candidate::{Candidate, SearchStage, Target};
 use crate::evaluations::Halt;
-use crate::local::{Search, bending_room, bending_room_slopes, floor_size};
+use crate::local::{Search, floor_size};
 use crate::looked::{LookedRow, Use};
+use crate::room::{bending_room, bending_room_slopes};
 use crate::slopes::Slopes;
 use crate::worth::Judgement;
 
@@ -94,7 +95,7 @@ fn binding_limits(search: &Search<'_>, best: &Candidate, target: &Target) -> Vec
         }
     }
     let case = search.space.case(&best.point);
-    let touches = search.judge.bends() && bending_room(&case).abs() < NEAR;
+    let touches = search.judge.is_about(Measure::Flexure) && bending_room(&case).abs() < NEAR;
     limits.extend(touches.then_some(Limit::Touch));
     limits
 }

@@ -10,6 +10,7 @@ use results::{DesignRow, Outcome};
 use run::{Program, Start};
 
 use crate::answer::{Answer, Plan, answer};
+use crate::best::{Region, region};
 use crate::candidate::{Candidate, SearchStage};
 use crate::column::ends_over;
 use crate::error::OptimisationError;
@@ -20,6 +21,7 @@ use crate::judge::Judge;
 use crate::local::Search;
 use crate::margin::has_folded;
 use crate::meter::{SearchMeter, SearchPart};
+use crate::peaks::points_on_peaks;
 use crate::sampled::search::Searches;
 use crate::space::SpacePoint;
 use crate::worth::Judgement;
@@ -46,6 +48,10 @@ pub struct Found {
     pub answer: Answer,
     /// How many designs could not be counted on.
     pub left_out: LeftOutDesigns,
+    /// The number of local searches.
+    pub starts: usize,
+    /// The number of regions that designs were looked at in: of choices, peaks of coverage, strips whose scales touch or do not.
+    pub regions: usize,
     /// The number of evaluations, with derivatives and without.
     pub evaluations: usize,
     /// The ends between which the criteria of the fitness were rescaled.
@@ -86,7 +92,8 @@ pub fn optimise(
             check_columns(&found)?;
             Ok(Some(found))
         }
-        Err(Halt::Interrupted) => Ok(None),
+        // A climb that stalls is no reason to end a search.
+        Err(Halt::Interrupted | Halt::Stalled) => Ok(None),
         Err(Halt::Output(error)) => Err(error.into()),
     }
 }
@@ -103,6 +110,12 @@ fn find(
         [&goal.nominal(), goal, &goal.finer()].map(|goal| Judge::rescaling(goal, &rescaled));
     let [nominal, search, finer] =
         judges.each_ref().map(|judge| Search { space: &goal.space, evaluations, judge, meter });
+    let on_peaks = if nominal.judge.has_regions() {
+        points_on_peaks(&goal.space, nominal.judge, goal.seed)
+    } else {
+        Vec::new()
+    };
+    let points = [points, on_peaks].concat();
     let look = |point| Ok(nominal.look(SearchStage::Sample, &point, false)?.0);
     let mut history: Vec<Candidate> = points.into_par_iter().map(look).collect::<Result<_, _>>()?;
     let answer = if goal.is_about_samples() {
@@ -112,7 +125,15 @@ fn find(
         answer(&search, &mut history, Plan { points: goal.points, ..Plan::NOMINAL })?
     };
     let left_out = LeftOutDesigns::of(&search, &history);
-    Ok(Found { history, answer, left_out, evaluations: evaluations.count(), rescaled })
+    let mut regions: Vec<Region> = Vec::new();
+    for candidate in &history {
+        let region = region(&search, candidate);
+        if !regions.contains(&region) {
+            regions.push(region);
+        }
+    }
+    let (starts, evaluations) = (meter.starts(), evaluations.count());
+    Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
 }
 
 /// The rows of the points that fill the space.

@@ -52,6 +52,17 @@ impl Interval {
     }
 }
 
+impl SpacePoint {
+    /// The largest difference to another point in any interval; infinite if their choices differ.
+    pub(crate) fn distance(&self, other: &Self) -> f64 {
+        if self.chosen != other.chosen {
+            return f64::INFINITY;
+        }
+        let pairs = self.shares.iter().zip(&other.shares);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+}
+
 impl DesignSpace {
     /// The space of the variables of `sweep`, all whose other axes have one value.
     pub(crate) fn new(sweep: Sweep) -> Self {

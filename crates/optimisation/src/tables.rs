@@ -5,6 +5,7 @@ use results::{
     Claim, Column, CsvFormat, DesignRow, Maker, OutputError, RunFolder, finite, write_rows,
     write_text,
 };
+use sweep::Case;
 
 use crate::answer::Answer;
 use crate::best::BestDesign;
@@ -22,6 +23,8 @@ use crate::worth::Judgement;
 pub const OPTIMUM: &str = "optimum.csv";
 /// The definition of the best design, which every command reads.
 pub const OPTIMUM_DEFINITION: &str = "optimum.toml";
+/// The definition of the design that comes nearest where none meets all requirements.
+pub const NEAREST_DEFINITION: &str = "nearest.toml";
 /// The table of the designs that none beats.
 pub const FRONT: &str = "front.csv";
 /// The table of every design that was looked at.
@@ -168,15 +171,20 @@ pub fn write_found(
     match &found.answer {
         Answer::Optimum(best) => {
             write_best(folder, OPTIMUM, goal, std::slice::from_ref(best.as_ref()), format)?;
-            let definition = goal.space.sweep().at(&best.row.case).to_toml();
-            write_text(folder.path(), OPTIMUM_DEFINITION, &definition)?;
+            write_definition(folder, OPTIMUM_DEFINITION, goal, &best.row.case)?;
             files.extend([OPTIMUM, OPTIMUM_DEFINITION]);
         }
         Answer::Front(front) => {
             write_best(folder, FRONT, goal, &front.designs, format)?;
             files.push(FRONT);
         }
-        Answer::Infeasible(_) => {}
+        Answer::Infeasible(nearest) => {
+            if let Some(nearest) = nearest.and_then(|index| found.history.get(index)) {
+                let case = goal.space.case(&nearest.point);
+                write_definition(folder, NEAREST_DEFINITION, goal, &case)?;
+                files.push(NEAREST_DEFINITION);
+            }
+        }
     }
     let mut files: Vec<String> = files.into_iter().map(str::to_owned).collect();
     for (name, svg) in figures {
@@ -186,6 +194,15 @@ pub fn write_found(
     }
     claim.state()?;
     Ok(files)
+}
+
+fn write_definition(
+    folder: &RunFolder,
+    file: &str,
+    goal: &DesignGoal,
+    case: &Case,
+) -> Result<(), OutputError> {
+    write_text(folder.path(), file, &goal.space.sweep().at(case).to_toml()).map(|_| ())
 }
 
 fn write_best(

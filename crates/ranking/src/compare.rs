@@ -50,8 +50,8 @@ pub enum InvalidComparison {
     Results(#[from] InvalidResults),
     /// Designs that only differ in something that the other run says nothing about.
     #[error(
-        "{file}: designs {first} and {second} differ in nothing that both runs know, expected a \
-         run.toml beside each table"
+        "{file}: designs {first} and {second} differ only in something that one of the runs does not record; \
+         each table needs its run.toml"
     )]
     Ambiguous {
         /// The table.

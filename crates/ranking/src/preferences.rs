@@ -47,7 +47,7 @@ pub enum InvalidPreferences {
         found: usize,
     },
     /// A criterion stands there twice.
-    #[error("{column} is a criterion twice, expected it once")]
+    #[error("{column} is a criterion twice")]
     Twice {
         /// The column.
         column: String,
@@ -189,7 +189,7 @@ fn unknown(entry: &KeyValue) -> InvalidPreferences {
     InvalidPreferences::Key {
         place: entry.place.clone(),
         key: entry.key.clone(),
-        problem: "is no key, expected requirements, criteria, weights or scale".to_owned(),
+        problem: "is not a key, expected requirements, criteria, weights or scale".to_owned(),
     }
 }
 
@@ -238,7 +238,7 @@ mod tests {
         insta::assert_snapshot!(message("\nscale = 'cubic'"), @"x.toml:2: scale: cubic is not accepted, expected paper, linear or log");
         insta::assert_snapshot!(message("requirements = ['a']"), @"x.toml:1: requirements: a is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6");
         insta::assert_snapshot!(message("criteria = []"), @"x.toml: criteria: 0 criteria, expected 1 to 8");
-        insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice, expected it once");
-        insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is no key, expected requirements, criteria, weights or scale");
+        insta::assert_snapshot!(message("criteria = ['coverage', 'min:coverage']"), @"x.toml: criteria: coverage is a criterion twice");
+        insta::assert_snapshot!(message("weight = [1]"), @"x.toml:1: weight: is not a key, expected requirements, criteria, weights or scale");
     }
 }

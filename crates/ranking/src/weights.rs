@@ -53,7 +53,7 @@ pub enum InvalidWeights {
         found: usize,
     },
     /// All of them are 0.
-    #[error("all weights are 0, expected one that is not")]
+    #[error("at least one weight must be positive")]
     Nothing,
 }
 
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(weights("0.1,0.2,0.3,0.4").expect("weights").values(), [0.1, 0.2, 0.3, 0.4]);
         assert_eq!(weights("1,3").expect("weights").values(), [0.25, 0.75]);
         let message = |text: &str| weights(text).expect_err("invalid").to_string();
-        insta::assert_snapshot!(message("0,0,0,0"), @"all weights are 0, expected one that is not");
+        insta::assert_snapshot!(message("0,0,0,0"), @"at least one weight must be positive");
         insta::assert_snapshot!(message("1.5,-0.5,0,0"), @"-0.5 is out of range, expected a number of at least 0");
         insta::assert_snapshot!(message("nan,1,0,0"), @"NaN is out of range, expected a number of at least 0");
         insta::assert_snapshot!(message("1,1,1,1,1,1,1,1,1"), @"9 weights, expected 1 to 8");

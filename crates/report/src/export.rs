@@ -70,7 +70,7 @@ pub enum ExportError {
         file: PathBuf,
     },
     /// The name is not that of a workbook.
-    #[error("{}: is no name of a workbook, expected one that ends in .xlsx", file.display())]
+    #[error("{}: a workbook needs a name that ends in .xlsx", file.display())]
     NoWorkbook {
         /// The file that was asked for.
         file: PathBuf,

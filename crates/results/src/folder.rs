@@ -90,7 +90,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 39] = [
+pub static FILES: [FileEntry; 40] = [
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -114,6 +114,7 @@ pub static FILES: [FileEntry; 39] = [
     stated("history.csv", Maker::Search, Role::Record),
     stated("optimum.csv", Maker::Search, Role::Record),
     stated("optimum.toml", Maker::Search, Role::Record),
+    stated("nearest.toml", Maker::Search, Role::Record),
     stated("front.csv", Maker::Search, Role::Record),
     plain("tolerance.csv", Maker::Tolerance, Role::Record),
     plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),
@@ -315,16 +316,16 @@ mod tests {
     }
 
     #[test]
-    fn no_file_of_a_stranger_is_written_over() {
-        for file in FILES.iter().filter(|file| file.role != Role::Journal) {
+    fn no_run_writes_over_a_file_of_a_stranger() {
+        for file in FileEntry::products(Maker::Run) {
             let place = tempfile::tempdir().expect("a folder");
             let folder = RunFolder::new(place.path());
             fs::write(folder.file(file.name), "a stranger's").expect("writable");
-            let refused = folder.require_own(file.maker, Start::Resume).expect_err(file.name);
+            let refused = folder.require_own(Maker::Run, Start::Resume).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");
-            folder.require_own(file.maker, Start::Fresh).expect("what was asked for");
+            folder.require_own(Maker::Run, Start::Fresh).expect("what was asked for");
             folder.remove_results();
-            assert_eq!(folder.holds(file.name), file.maker != Maker::Run, "{}", file.name);
+            assert!(!folder.holds(file.name), "{}", file.name);
         }
     }
 

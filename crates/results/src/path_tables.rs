@@ -6,7 +6,7 @@ use store::OutputError;
 
 use crate::columns::{
     BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
-    FLEXURE_STEPS, PATH, PunctureEvent, SCALES, STEPS,
+    FLEXURE_STEPS, GUIDED_PATH, PATH, PunctureEvent, SCALES, STEPS,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
@@ -43,7 +43,9 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    write_rows(folder, path, Plain, PATH, points.collect::<Vec<_>>())?;
+    // A free needle has no lateral force, and its table no column for it.
+    let columns = if puncture.measures.passage.is_none() { PATH } else { GUIDED_PATH };
+    write_rows(folder, path, Plain, columns, points.collect::<Vec<_>>())?;
     write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;

@@ -29,7 +29,7 @@ pub struct ColumnFilter {
 
 /// A text that is no condition on a column.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
+#[error("{0:?} is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75")]
 pub struct InvalidColumnFilter(String);
 
 /// A filter that makes no sense for a run.
@@ -39,9 +39,7 @@ pub enum InvalidFilter {
     #[error("--design: {0}")]
     Number(NoSuchDesign),
     /// A design that is not done.
-    #[error(
-        "--design {0}: the design is not done yet, expected one that is; squama run --resume solves it"
-    )]
+    #[error("--design {0}: the design is not solved yet; squama run --resume solves it")]
     NotDone(String),
     /// A column that does not exist.
     #[error("--where {column}: there is no such column in designs.csv, {suggestion}")]
@@ -150,6 +148,6 @@ mod tests {
         assert!("x=75.0".parse::<ColumnFilter>().expect("a condition").passes(&75.0.into()));
         assert!("base=2L".parse::<ColumnFilter>().expect("a condition").passes(&"2L".into()));
         let text = "=3".parse::<ColumnFilter>().expect_err("none").to_string();
-        assert_eq!(text, "\"=3\" is no condition, expected COLUMN=VALUE, e.g. slant_deg=75");
+        assert_eq!(text, "\"=3\" is not a condition, expected COLUMN=VALUE, e.g. slant_deg=75");
     }
 }

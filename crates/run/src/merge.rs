@@ -24,7 +24,7 @@ const ALIKE: &str = "shards of one sweep by one program";
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
     /// No folder of a shard was given.
-    #[error("there is nothing to merge, expected the folders of shards")]
+    #[error("there is nothing to merge; give the folders of shards")]
     Nothing,
     /// A journal cannot be used.
     #[error(transparent)]
@@ -33,7 +33,7 @@ pub enum MergeError {
     #[error(transparent)]
     Run(#[from] RunError),
     /// Two shards have different results for the same design.
-    #[error("{}: design {design} is not what it is in {}, expected the same result; solve it again in one of them with squama rerun", second.display(), first.display())]
+    #[error("{}: design {design} differs from that in {}; solve it again in one of them with squama rerun", second.display(), first.display())]
     Conflict {
         /// Number of the design.
         design: u64,

@@ -38,12 +38,12 @@ pub enum InvalidRerun {
     Definition(#[from] sweep::InvalidDefinition),
     /// A setting that would make another design of it.
     #[error(
-        "{0}: designs keep their places in the grid, expected a key that is no axis, e.g. solver.max_step=0.01"
+        "{0}: cannot be set for single designs, because they keep their numbers in the grid; set another key, e.g. solver.max_step=0.01"
     )]
     Axis(String),
     /// Settings that would give the tables other columns.
     #[error(
-        "imperfections are {before} in the run and {after} in the settings, expected the same: a run keeps its columns"
+        "imperfections are {before} in the run and {after} in the settings; they must be the same, because a run keeps its columns"
     )]
     Imperfection {
         /// Whether the run has them: on or off.

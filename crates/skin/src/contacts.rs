@@ -3,12 +3,12 @@
 mod audit;
 mod change;
 mod closed;
+mod mode;
 mod stiffness;
-
-use std::ops::{Deref, DerefMut};
 
 pub use change::ContactChange;
 pub use closed::Contact;
+pub(crate) use mode::SkinMode;
 
 use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
@@ -18,7 +18,6 @@ use geometry::Parallelogram;
 use solver::{Change, Residual, Tangent};
 
 use crate::arrangement::Arrangement;
-use crate::puncture::NeedleMode;
 
 /// The levels of a pair, each with a contact of its own.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
@@ -29,27 +28,6 @@ pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
 /// Value of the condition of a force that cannot act next: any number above zero, for it is neither violated nor solved
 /// for.
 const HOLDS: f64 = 1.0;
-
-/// The mode of a skin: the state of every contact, as which it is read, and that of a guided needle.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct SkinMode {
-    pub(crate) contacts: Vec<CornerContact>,
-    pub(crate) needle: NeedleMode,
-}
-
-impl Deref for SkinMode {
-    type Target = Vec<CornerContact>;
-
-    fn deref(&self) -> &Vec<CornerContact> {
-        &self.contacts
-    }
-}
-
-impl DerefMut for SkinMode {
-    fn deref_mut(&mut self) -> &mut Vec<CornerContact> {
-        &mut self.contacts
-    }
-}
 
 /// A state of a skin.
 pub(crate) type SkinState = solver::State<SkinMode>;
@@ -122,7 +100,7 @@ impl Contacts {
     /// The state of rest of all contacts.
     pub(crate) fn open(&self) -> SkinMode {
         let contacts = vec![CornerContact::Open; self.forces.len() / FORCES];
-        SkinMode { contacts, needle: NeedleMode::default() }
+        SkinMode { contacts, ..SkinMode::default() }
     }
 
     /// The left scale of the pair that a constraint belongs to.

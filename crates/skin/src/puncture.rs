@@ -34,7 +34,7 @@ use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
 use crate::contacts::SkinPoint;
-use crate::record::{ContactEvent, Iteration, PathFunction, Record};
+use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
 use crate::{Common, Design, Sample, Status};
 
 pub use fold::{Fold, GapStretch};
@@ -49,6 +49,9 @@ pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
 pub use tilts::TiltMeasures;
+
+/// Tilt below which a scale under a guided needle is pushed straight down, degrees: round-off of a symmetric row.
+const STRAIGHT_DEG: f64 = 1e-6;
 
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
@@ -110,8 +113,6 @@ pub struct Puncture {
     pub measures: PunctureMeasures,
     /// The measures at each of [`PunctureParameters::tilts_deg`]; `None` where the path did not get there.
     pub at_tilts: Vec<Option<TiltMeasures>>,
-    /// How a guided needle came through.
-    pub passage: Passage,
     /// Every equilibrium of the path, from rest.
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
@@ -212,6 +213,7 @@ impl Followed {
         let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, .. } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
+        measures.passage = passage;
         let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
@@ -226,7 +228,6 @@ impl Followed {
             status,
             measures,
             at_tilts,
-            passage,
             path,
             instability,
             events,
@@ -342,9 +343,14 @@ impl<'a> Problem<'a> {
         let path = growing.path;
         let passage = passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
+        // A scale that is pushed in its middle may go either way from some load on: there its path branches.
+        let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
             _ if !growing.has_room => Status::RowLimit,
             Status::Complete if is_untilted => Status::Untilted,
+            Status::Stopped(Stop::NoConvergence) if is_untilted && is_straight() => {
+                Status::Untilted
+            }
             status => ending::judged(status, &watch.record.path),
         };
         Ok(Followed { watch, passage, path, status })

@@ -211,6 +211,9 @@ impl<S: Skin> Linearised<'_, S> {
 
     /// The change of a contact in words.
     fn name(&self, before: &SkinState, after: &SkinState, change: Change) -> String {
+        if change.constraint >= self.system.contacts().forces().len() {
+            return "the needle moves otherwise".to_owned();
+        }
         let edge = |state: &SkinState| Contacts::corner_edge(&state.mode, change.constraint);
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
         let scale = self.system.number(Contacts::left_of(change.constraint));
@@ -220,6 +223,11 @@ impl<S: Skin> Linearised<'_, S> {
 }
 
 impl<S: Skin> MeasuredQuantity<S> {
+    /// The value at a place.
+    pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {
+        self.value_at(system, place).value
+    }
+
     /// The value at a place, and those of several that may be the extreme one beside it.
     fn value_at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> Contenders {
         let count = match self.extreme {

@@ -15,7 +15,7 @@ pub enum Status {
     LimitPoint,
     /// [`RowLength::Auto`](crate::puncture::RowLength::Auto) needs a longer row than it may take.
     RowLimit,
-    /// A guided needle is as deep as two scales are thick, and has tilted none critically: it pushes a scale straight down.
+    /// A guided needle pushes a scale straight down, up to where it may go either way or to two thicknesses, and tilts none critically.
     Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,

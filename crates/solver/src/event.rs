@@ -151,9 +151,12 @@ impl<S: System> Path<S> {
         mut beyond: Candidate<S::Mode>,
         mut constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        if from.event.as_ref().is_some_and(|event| event.changes(constraint)) {
-            // It has just changed sides, and the path leaves in the direction in which it stays
-            // valid: a step that ends otherwise was too long.
+        let changed = from.event.as_ref().is_some_and(|event| event.changes(constraint));
+        let rises = self.guards[constraint] <= TOGETHER && self.slopes[constraint] > 0.0;
+        if changed || rises {
+            // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the
+            // direction in which it stays valid: a step that ends otherwise was too long. To look for its zero would lead back
+            // to where the path is, and from there the way that it came.
             return Err(NewtonFailure::TooManyIterations);
         }
         // Each round finds an event before the last one, so as many rounds as constraints do.
@@ -196,14 +199,11 @@ impl<S: System> Path<S> {
         mut state: State<S::Mode>,
         constraint: usize,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
-        let direction = self.newton.locate(
-            &self.system,
-            &mut state,
-            &self.condition(from),
-            constraint,
-            &self.settings,
-        )?;
-        Ok(Candidate { state, direction: self.normalised(direction), event: None })
+        let condition = self.condition(from);
+        let direction =
+            self.newton.locate(&self.system, &mut state, &condition, constraint, &self.settings)?;
+        let is_positive = self.newton.is_positive(&condition, &direction);
+        Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
     /// The candidate as an event: one constraint changes sides, others may do so with it.
@@ -213,7 +213,7 @@ impl<S: System> Path<S> {
         constraint: usize,
         guards: &[f64],
     ) -> Candidate<S::Mode> {
-        let Candidate { state, direction, .. } = located;
+        let Candidate { state, direction, is_positive, .. } = located;
         let closing = |c: usize| {
             guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
@@ -222,7 +222,7 @@ impl<S: System> Path<S> {
             .chain(others)
             .map(|constraint| Change { constraint, activated: !state.active[constraint] })
             .collect();
-        Candidate { state, direction, event: Some(Event::Changed(changes)) }
+        Candidate { state, direction, event: Some(Event::Changed(changes)), is_positive }
     }
 
     /// Cuts a step short where a rate vanishes within it: that of the load, or that of a constraint whose unknown only grows.
@@ -298,8 +298,7 @@ impl<S: System> Path<S> {
         let (start, end) = (from.state.z[load].max(0.0), beyond.state.z[load]);
         let state = from.state.interpolated(&beyond.state, start / (start - end));
         // The load falls as the path goes on.
-        let mut candidate =
-            self.correct(state, &Condition { row: vec![(load, -1.0)], value: 0.0 })?;
+        let mut candidate = self.correct(state, &Condition::new(vec![(load, -1.0)], 0.0))?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }

@@ -206,6 +206,12 @@ impl BandLu {
         Ok(())
     }
 
+    /// Whether the determinant of what remains is negative.
+    pub(crate) fn is_negative(&self) -> bool {
+        let rows = self.pivots.iter().zip(&self.inverses).take(self.kept.len()).enumerate();
+        rows.fold(false, |negative, (k, (&row, inverse))| negative ^ (row != k) ^ (*inverse < 0.0))
+    }
+
     /// Solves in place: `x` holds the right-hand side, then the solution. Where an unknown was left out, the
     /// right-hand side does not count and the solution is zero.
     pub fn solve(&mut self, x: &mut [f64]) {
@@ -363,5 +369,30 @@ impl BandLu {
 fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
     for (x, y) in x.iter_mut().zip(y) {
         *x -= factor * y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BandLu, BandMatrix, Tangent};
+
+    #[test]
+    fn the_sign_of_a_determinant_counts_exchanges_and_pivots() {
+        for ([a, b, c, d], zero, is_negative) in [
+            ([2.0, 1.0, 1.0, 2.0], vec![], false),
+            ([1.0, 2.0, 2.0, 1.0], vec![], true),
+            ([0.0, 1.0, -1.0, 0.0], vec![], false),
+            ([-1.0, 0.0, 0.0, 1.0], vec![], true),
+            // What is left out does not count.
+            ([-1.0, 0.0, 0.0, 1.0], vec![0], false),
+        ] {
+            let mut matrix = BandMatrix::new(2, 1);
+            for (row, column, value) in [(0, 0, a), (0, 1, b), (1, 0, c), (1, 1, d)] {
+                matrix.add(row, column, value);
+            }
+            let mut lu = BandLu::new(2, 1);
+            lu.factorise_without(&matrix, &zero).unwrap();
+            assert_eq!(lu.is_negative(), is_negative, "{a} {b} {c} {d}");
+        }
     }
 }

@@ -9,20 +9,31 @@ use crate::tangent_solver::TangentSolver;
 pub(crate) const FLOOR: f64 = 1e-12;
 
 /// The condition `Σ c_k z_k = value` that picks a point of the path. Its unknowns lie within a
-/// half-bandwidth of the load, whose row it takes.
+/// half-bandwidth of the load, whose row it takes, unless another row stands there for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
     /// Indices and coefficients.
     pub row: Vec<(usize, f64)>,
     /// Right-hand side.
     pub value: f64,
+    /// The row that the tangent has where the condition is on unknowns that are farther from the load.
+    pub stand_in: Option<Vec<(usize, f64)>>,
 }
 
 impl Condition {
     /// The condition with this left-hand side that `z` satisfies.
     pub fn through(row: Vec<(usize, f64)>, z: &[f64]) -> Self {
-        let condition = Self { row, value: 0.0 };
+        let condition = Self::new(row, 0.0);
         Self { value: condition.of(z), ..condition }
+    }
+
+    /// The condition with this left-hand side and this value.
+    pub fn new(row: Vec<(usize, f64)>, value: f64) -> Self {
+        Self { row, value, stand_in: None }
+    }
+
+    fn row_in_tangent(&self) -> &[(usize, f64)] {
+        self.stand_in.as_ref().unwrap_or(&self.row)
     }
 
     /// The left-hand side at `z`.
@@ -85,8 +96,13 @@ impl Newton {
             let norm = self.evaluate(system, state, condition)?;
             self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
+            if condition.stand_in.is_some() {
+                let direction = self.direction(system, condition);
+                let left = condition.value - condition.of(&state.z);
+                add(&mut state.z, left, &direction);
+            }
             if norm <= settings.tolerance {
-                return Ok(self.direction(system));
+                return Ok(self.direction(system, condition));
             }
         }
         Err(NewtonFailure::TooManyIterations)
@@ -113,7 +129,7 @@ impl Newton {
             let norm = self.evaluate(system, state, &condition)?;
             let guard = guard(system, state, constraint);
             self.solver.solve(&mut self.step);
-            let direction = self.direction(system);
+            let direction = self.direction(system, &condition);
             let along = |step: &[f64]| guard_slope(system, state, constraint, step);
             let distance = -(guard + along(&self.step)) / along(&direction);
             if !distance.is_finite() {
@@ -139,13 +155,21 @@ impl Newton {
         condition: &Condition,
     ) -> Result<Vec<f64>, NewtonFailure> {
         let residual = &mut self.residual;
-        self.solver.factorise(system, state, &condition.row, residual)?;
-        let direction = self.direction(system);
+        self.solver.factorise(system, state, condition.row_in_tangent(), residual)?;
+        let direction = self.direction(system, condition);
         if direction.iter().all(|x| x.is_finite()) {
             Ok(direction)
         } else {
             Err(NewtonFailure::NotFinite)
         }
+    }
+
+    /// Whether the determinant of the last tangent is positive once the row of its condition is such that it grows along a
+    /// direction of the path: the orientation of the path, which is the same all along it.
+    pub(crate) fn is_positive(&self, condition: &Condition, direction: &[f64]) -> bool {
+        let row = condition.row_in_tangent().iter();
+        let growth: f64 = row.map(|&(index, coefficient)| coefficient * direction[index]).sum();
+        (growth > 0.0) != self.solver.is_negative()
     }
 
     /// Solves in place with the factors of the last tangent: `x` holds the right-hand side, then the solution.
@@ -180,7 +204,8 @@ impl Newton {
         condition: &Condition,
     ) -> Result<f64, NewtonFailure> {
         let residual = &mut self.residual;
-        let factorised = self.solver.factorise(system, state, &condition.row, residual);
+        let row = condition.row_in_tangent();
+        let factorised = self.solver.factorise(system, state, row, residual);
         let load = system.load();
         residual.value[load] = condition.of(&state.z) - condition.value;
         residual.size[load] = condition.row.iter().map(|(_, c)| c.abs()).sum();
@@ -196,15 +221,24 @@ impl Newton {
             }
             norm = norm.max(ratio);
         }
+        if condition.stand_in.is_some() {
+            self.step[load] = 0.0;
+        }
         self.history.push(norm);
         factorised?;
         Ok(norm)
     }
 
-    /// Solution for a unit right-hand side in the row of the condition.
-    fn direction<S: System>(&mut self, system: &S) -> Vec<f64> {
+    /// The direction along which the left-hand side of the condition grows by 1.
+    fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
         let mut direction = vec![0.0; system.size()];
         self.solver.solve_unit(system.load(), &mut direction);
+        if condition.stand_in.is_some() {
+            let growth = condition.of(&direction);
+            for x in &mut direction {
+                *x /= growth;
+            }
+        }
         direction
     }
 }

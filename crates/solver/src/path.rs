@@ -17,6 +17,18 @@ const DRIVES: f64 = 0.05;
 /// Newton's method has come to a part of the path further on, beyond a fold, or the step is too long.
 const STRAIGHT: f64 = 0.7;
 
+/// Cosine of the largest angle (37°) by which the path of all coordinates may turn within a step. Far from the load a row may
+/// buckle either way within a small part of a step, of which the controls show next to nothing.
+const STRAIGHT_IN_ALL: f64 = 0.8;
+
+/// Cosine of the largest angle (3°) between a chord and the mean of the directions at its ends. They agree on an arc up to the
+/// third order of its length; a chord that leads aside, to a path beside this one, has angles of one sign at both ends.
+const SYMMETRIC: f64 = 0.9986;
+
+/// The path is hidden from the controls where all coordinates together move this many times as fast: something gives way far from
+/// the load. The arc length in all of them measures it there.
+const HIDDEN: f64 = 100.0;
+
 /// Below this distance, in scales of the controls, the angle of a step is round-off.
 const SHORT: f64 = 1e-9;
 
@@ -50,6 +62,15 @@ pub struct Point<M = ()> {
 /// constraint stays valid. So no step straddles a kink, and a turning path (in the control parameter, in the load, or
 /// at an event) is followed round.
 ///
+/// A step must not lead to another branch of equilibria. Along a path, and across events, the determinant
+///
+/// ```text
+/// det [∂r/∂z; c]    over equations and unknowns that are active,    c·ż > 0                     (N7)
+/// ```
+///
+/// keeps its sign (Allgower & Georg 2003, section 2.1), so a step that ends with another one has gone astray, and no path comes
+/// back to where it began by the way that it went.
+///
 /// The iterator ends where the path does; [`Path::stop`] then tells why.
 #[derive(Clone, Debug)]
 pub struct Path<S: System> {
@@ -60,6 +81,10 @@ pub struct Path<S: System> {
     /// The guards (N5) at `point`, with its active set, and how fast they change as the path leaves.
     pub(crate) guards: Vec<f64>,
     pub(crate) slopes: Vec<f64>,
+    /// [`System::coordinates`].
+    coordinates: Vec<usize>,
+    /// The orientation ([`Newton::is_positive`]) with which the path leaves `point`.
+    pub(crate) is_positive: bool,
     step: f64,
     points: usize,
     stop: Option<Stop>,
@@ -70,6 +95,8 @@ pub(crate) struct Candidate<M> {
     pub(crate) state: State<M>,
     pub(crate) direction: Vec<f64>,
     pub(crate) event: Option<Event>,
+    /// The orientation with which the path arrives.
+    pub(crate) is_positive: bool,
 }
 
 impl<S: System> Path<S> {
@@ -80,6 +107,8 @@ impl<S: System> Path<S> {
             Point { state: start, arriving: nowhere.clone(), leaving: nowhere, event: None };
         let mut path = Self {
             newton: Newton::new(&system),
+            coordinates: system.coordinates(),
+            is_positive: true,
             system,
             settings,
             point: Arc::new(point.clone()),
@@ -108,11 +137,15 @@ impl<S: System> Path<S> {
     pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) -> S {
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
+        self.coordinates = system.coordinates();
         let left = std::mem::replace(&mut self.system, system);
         self.stop = None;
         let condition = self.condition(&point);
         match self.newton.solve(&self.system, &mut point.state, &condition, &self.settings) {
-            Ok(direction) => point.leaving = self.normalised(direction),
+            Ok(direction) => {
+                self.is_positive = self.newton.is_positive(&condition, &direction);
+                point.leaving = self.normalised(direction);
+            }
             Err(failure) => self.stop = Some(Stop::from(failure)),
         }
         self.newton.history = history;
@@ -184,9 +217,10 @@ impl<S: System> Path<S> {
 
     fn start(&mut self, mut point: Point<S::Mode>) {
         let control = self.control_parameter();
-        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 0.0 };
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         match self.newton.tangent(&self.system, &point.state, &condition) {
             Ok(direction) => {
+                self.is_positive = self.newton.is_positive(&condition, &direction);
                 point.leaving = self.normalised(direction);
                 point.arriving.clone_from(&point.leaving);
             }
@@ -212,27 +246,44 @@ impl<S: System> Path<S> {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
 
+    /// A direction of unit length in the controls; of less where they hide the path.
     pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
-        let controls = self.system.controls();
-        let square: f64 = controls.iter().map(|c| (direction[c.index] / c.scale).powi(2)).sum();
-        let factor = 1.0 / square.sqrt();
+        let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
+        let factor = 1.0 / self.in_controls(&direction).max(all.sqrt() / HIDDEN);
         for x in &mut direction {
             *x *= factor;
         }
         direction
     }
 
+    /// The length of a direction in the controls.
+    fn in_controls(&self, direction: &[f64]) -> f64 {
+        let controls = self.system.controls().iter();
+        controls.map(|c| (direction[c.index] / c.scale).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// Whether the controls hide a direction of the path.
+    fn is_hidden(&self, direction: &[f64]) -> bool {
+        self.in_controls(direction) < 1.0 - FLOOR.sqrt()
+    }
+
     /// The measure of distance from `point`, which increases along the path.
     pub(crate) fn condition(&self, point: &Point<S::Mode>) -> Condition {
         let control = self.control_parameter();
         let drive = self.progress(&point.leaving);
-        let row = if drive.abs() >= DRIVES {
+        let is_hidden = self.is_hidden(&point.leaving);
+        let row = if drive.abs() >= DRIVES && !is_hidden {
             vec![(control.index, drive.signum() / control.scale)]
         } else {
             let controls = self.system.controls();
             controls.iter().map(|c| (c.index, point.leaving[c.index] / c.scale.powi(2))).collect()
         };
-        Condition::through(row, &point.state.z)
+        if !is_hidden {
+            return Condition::through(row, &point.state.z);
+        }
+        let all = self.coordinates.iter();
+        let arc = all.map(|&index| (index, point.leaving[index] / HIDDEN.powi(2))).collect();
+        Condition { stand_in: Some(row), ..Condition::through(arc, &point.state.z) }
     }
 
     /// The equilibrium at a distance from a point, with the active set with which it is left.
@@ -267,7 +318,8 @@ impl<S: System> Path<S> {
         condition: &Condition,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let direction = self.newton.solve(&self.system, &mut state, condition, &self.settings)?;
-        Ok(Candidate { state, direction: self.normalised(direction), event: None })
+        let is_positive = self.newton.is_positive(condition, &direction);
+        Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
     /// Whether the way to the candidate, or the path there, makes a large angle with the direction
@@ -277,6 +329,9 @@ impl<S: System> Path<S> {
         from: &Point<S::Mode>,
         candidate: &Candidate<S::Mode>,
     ) -> bool {
+        if self.is_hidden(&from.leaving) || self.is_hidden(&candidate.direction) {
+            return self.bends(from, candidate);
+        }
         let mut products = [0.0; 3];
         for Control { index, scale } in self.system.controls() {
             let leaving = from.leaving[*index] / scale;
@@ -287,6 +342,29 @@ impl<S: System> Path<S> {
         }
         let [turn, along, chord] = [products[0], products[1], products[2].sqrt()];
         chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
+    }
+
+    /// Whether the candidate, the end of a step, is on another branch: the path has another orientation there, or gets there
+    /// by a bend. Before events are looked for a step may well end on a continuation of the path that turns round.
+    fn strays(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+        candidate.is_positive != self.is_positive || self.bends(from, candidate)
+    }
+
+    /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
+    /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
+    fn bends(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
+        let way = |index: usize| {
+            let chord = candidate.state.z[index] - from.state.z[index];
+            [from.leaving[index], candidate.direction[index], chord]
+        };
+        let product = |a: usize, b: usize| -> f64 {
+            self.coordinates.iter().map(|&index| way(index)[a] * way(index)[b]).sum()
+        };
+        let lengths = [0, 1, 2].map(|k| product(k, k).sqrt());
+        let cosine = |a: usize, b: usize| product(a, b) / (lengths[a] * lengths[b]);
+        let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
+        let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
+        lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 
     /// The next point of the path, or why there is none.
@@ -329,14 +407,17 @@ impl<S: System> Path<S> {
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
         let mut candidate = match self.predicted_event(&from, distance) {
-            Some(candidate) => candidate,
-            None => self.plain_step(&from, distance)?,
+            Some(candidate) if !self.strays(&from, &candidate) => candidate,
+            _ => self.plain_step(&from, distance)?,
         };
         candidate = self.up_to_turn(&from, candidate)?;
         if self.lets_go(&candidate) {
             candidate.event = Some(Event::Unloaded);
         } else if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
+        }
+        if self.strays(&from, &candidate) {
+            return Err(NewtonFailure::TooManyIterations);
         }
         Ok(candidate)
     }
@@ -363,13 +444,12 @@ impl<S: System> Path<S> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
         let (target, control) = (self.system.target(), self.control_parameter());
         let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
-        let row = vec![(control.index, 1.0 / control.scale)];
-        let condition = Condition { row, value: target };
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
         self.correct(state, &condition)
     }
 
     fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
-        let Candidate { mut state, direction: arriving, mut event } = candidate;
+        let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
             && changes.iter().any(|change| self.system.ends(change.constraint))
         {

@@ -137,6 +137,7 @@ impl<S: System> Path<S> {
             if slope < 0.0 {
                 direction = direction.into_iter().map(|x| -x).collect();
             }
+            self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
         }

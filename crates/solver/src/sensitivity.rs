@@ -82,7 +82,7 @@ impl<M: Clone> Linearisation<M> {
         place: AnchoredPoint<M>,
     ) -> Result<Self, NewtonFailure> {
         let section = section(system, &place.direction);
-        let condition = Condition { row: section.clone(), value: 0.0 };
+        let condition = Condition::new(section.clone(), 0.0);
         let mut newton = Newton::new(system);
         let direction = newton.tangent(system, &place.state, &condition)?;
         let near = near(system, &place);
@@ -198,7 +198,8 @@ impl<M: Clone> Linearisation<M> {
     pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
         let active = &self.place.state.active;
         let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
-        let loaded = (0..active.len()).filter(|&c| active[c]);
+        // How far something has slid since an event is counted from a place of the path, not of the parameter.
+        let loaded = (0..active.len()).filter(|c| active[*c] && !system.growing().contains(c));
         let candidates = loaded.chain(self.near.iter().copied()).filter(|&c| !held(c));
         let guards = candidates.map(|c| (c, guard(system, &moved.state, c)));
         let violated = guards.filter(|(_, guard)| *guard < -FLOOR);

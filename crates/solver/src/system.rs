@@ -71,7 +71,13 @@ pub trait System {
     /// half-bandwidth of the load.
     fn controls(&self) -> &[Control];
 
-    /// Indices of the constraints among the unknowns. An active set is a flag for each.
+    /// The unknowns of one unit in all of which the path is measured besides: how far it turns, and its arc length where
+    /// something gives way of which the controls show next to nothing. None unless the system knows better.
+    fn coordinates(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Indices of the constraints among the unknowns, in ascending order. An active set is a flag for each.
     fn constraints(&self) -> &[usize] {
         &[]
     }
@@ -87,6 +93,8 @@ pub trait System {
 
     /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
     /// [`System::conditions`] of its own.
+    ///
+    /// Across a change of mode the equations keep the sign of their determinant: a path that has come to another branch is known by it.
     fn residual(&self, state: &State<Self::Mode>, residual: &mut Residual);
 
     /// Adds `∂r/∂z` to a zero matrix, its constant part included. Rows and columns of inactive constraints may be left out.

@@ -88,6 +88,15 @@ impl TangentSolver {
         }
     }
 
+    /// Whether the determinant of the last tangent is negative.
+    pub(crate) fn is_negative(&self) -> bool {
+        match (&self.blocks, &self.band) {
+            (Some(blocks), _) if self.is_in_blocks => blocks.elimination.negative_blocks() % 2 == 1,
+            (_, Some(band)) => band.lu.is_negative(),
+            _ => false,
+        }
+    }
+
     /// Solves for a right-hand side of which the entry of the load alone is not zero: it is 1.
     pub(crate) fn solve_unit(&mut self, load: usize, x: &mut [f64]) {
         match &mut self.blocks {

@@ -9,13 +9,13 @@ use crate::header::FORMAT;
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// There are results already.
-    #[error("{}: holds results already, expected --resume to go on with them or --fresh to throw them away", folder.display())]
+    #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", folder.display())]
     Exists {
         /// The folder.
         folder: PathBuf,
     },
     /// There are the results of another command.
-    #[error("{}: holds the results of {what}, expected another folder with --out DIR", folder.display())]
+    #[error("{}: holds the results of {what}; choose another folder with --out DIR", folder.display())]
     Holds {
         /// The folder.
         folder: PathBuf,
@@ -23,7 +23,7 @@ pub enum JournalError {
         what: &'static str,
     },
     /// There are tables that no journal stands behind.
-    #[error("{}: holds {file} without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results", folder.display())]
+    #[error("{}: holds {file} without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results", folder.display())]
     NoJournal {
         /// The folder.
         folder: PathBuf,
@@ -37,13 +37,13 @@ pub enum JournalError {
         folder: PathBuf,
     },
     /// Another process writes it.
-    #[error("{}: another squama is writing there, expected one at a time", folder.display())]
+    #[error("{}: another squama is writing there; wait until it ends", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
     },
     /// Something else stands in the place of the journal.
-    #[error("{}: is no regular file, expected a journal that squama writes", path.display())]
+    #[error("{}: is not a regular file, expected a journal that squama writes", path.display())]
     NoFile {
         /// The path of the journal.
         path: PathBuf,
@@ -57,7 +57,7 @@ pub enum JournalError {
         design: String,
     },
     /// Lines at the end of the journal are missing.
-    #[error("{}: {lost}; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing", path.display())]
+    #[error("{}: {lost}; restore them from a copy of the journal, or solve them again with squama run --resume", path.display())]
     LinesLost {
         /// The path of the journal.
         path: PathBuf,
@@ -73,7 +73,7 @@ pub enum JournalError {
         reason: String,
     },
     /// A line before the last is not as it was written.
-    #[error("{}:{line}: damaged line ({problem}), expected it as it was written; remove line {line} to have what it holds solved again", path.display())]
+    #[error("{}:{line}: damaged line ({problem}); restore the line, or remove line {line} to have what it holds solved again", path.display())]
     Damaged {
         /// Path of the journal.
         path: PathBuf,
@@ -83,7 +83,7 @@ pub enum JournalError {
         problem: String,
     },
     /// The first line is not as it was written.
-    #[error("{}:1: not the first line of a journal ({problem}), expected it as it was written, or --fresh to throw all of it away", path.display())]
+    #[error("{}:1: not the first line of a journal ({problem}); restore it, or use --fresh to discard everything", path.display())]
     NoHeader {
         /// Path of the journal.
         path: PathBuf,

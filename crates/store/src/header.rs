@@ -70,7 +70,7 @@ impl JournalHeader {
         }
         let read: Result<BTreeMap<String, Self>, _> = serde_json::from_slice(object);
         let mut read = read.map_err(|error| refuse(one_line(&error.to_string())))?;
-        let header = read.remove(R::KEY).filter(|header| header.is_sound());
+        let header = read.remove(R::KEY).filter(Self::is_sound);
         header.ok_or_else(|| refuse("squama writes no such line there".to_owned()))
     }
 

@@ -18,7 +18,9 @@ pub struct Case {
     pub common: Common,
     /// The other parameters of the puncture.
     pub puncture: puncture::PunctureParameters,
-    /// The friction between needle and scale from which the critical tilts were found.
+    /// The critical tilts that are given, unless the friction of a free needle says them.
+    pub critical_tilt: Scalar,
+    /// The friction between needle and scale: of a free needle the critical tilts follow from it.
     pub needle_friction: Option<Scalar>,
     /// The other parameters of bending.
     pub flexure: flexure::FlexureParameters,
@@ -58,6 +60,9 @@ impl Default for Case {
             design: Design { gap: 0.1, length: 0.025, slant_deg: 0.0, base: Base::L, width: 1.0 },
             common: Common::default(),
             puncture: puncture::PunctureParameters::default(),
+            critical_tilt: Scalar::Number(
+                puncture::PunctureParameters::default().critical_tilt_deg,
+            ),
             needle_friction: None,
             flexure: flexure::FlexureParameters::default(),
             coupling: Coupling::Nearest,

@@ -18,7 +18,7 @@ pub(crate) struct Decimal {
 
 /// A text that is no decimal number, or one with more than 38 digits.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{found} is no decimal number of at most 38 digits")]
+#[error("{found} is not a decimal number of at most 38 digits")]
 pub(crate) struct NotDecimal {
     /// The text.
     pub found: String,

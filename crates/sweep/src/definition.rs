@@ -18,7 +18,7 @@ use crate::case::Case;
 use crate::deviation::Deviation;
 use crate::grid::Grid;
 use crate::parameter::Scalar;
-use crate::parameter::{PARAMETERS, Parameter};
+use crate::parameter::{PARAMETERS, Parameter, key};
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 use crate::variable::Variable;
 use invalid::{InvalidDefinition, reason};
@@ -122,6 +122,12 @@ impl Sweep {
         largest("gap_cv") > 0.0 || largest("slant_sd_deg") > 0.0
     }
 
+    /// Whether the needle of any design is guided.
+    pub fn is_guided(&self) -> bool {
+        let base = || self.grid.base().puncture.needle.is_guided();
+        self.grid.axis(key::NEEDLE).map_or_else(base, |_| true)
+    }
+
     /// Whether the designs have a value for the parameter of that name.
     pub fn gives(&self, key: &str) -> bool {
         let is_given = |parameter: &Parameter| parameter.is_given(self.grid.base());
@@ -134,7 +140,9 @@ impl Sweep {
         let shared = |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
                 && parameter.is_given(self.grid.base())
-                && !parameter.alternative().is_some_and(|other| self.gives_alone(other))
+                && !parameter
+                    .alternative_in(self.grid.base())
+                    .is_some_and(|other| self.gives_alone(other))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
     }

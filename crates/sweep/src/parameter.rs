@@ -125,6 +125,12 @@ pub enum WrongValue {
         /// The values that would be right.
         expected: String,
     },
+    /// A key that changes nothing.
+    #[error("has no effect: {reason}")]
+    NoEffect {
+        /// Why not.
+        reason: String,
+    },
     /// Not what this key takes.
     #[error("{found} is not accepted, expected {expected}")]
     NotAccepted {

@@ -39,7 +39,7 @@ pub struct Shard {
 
 /// A text that names no shard.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no shard, expected i/N with i from 1 to N, e.g. 3/8")]
+#[error("{0:?} is not a shard, expected i/N with i from 1 to N, e.g. 3/8")]
 pub struct NoShard(String);
 
 /// A subset larger than the grid.
@@ -203,7 +203,7 @@ mod tests {
     fn what_is_no_shard() {
         for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "1/3/5", "a/b"] {
             let message =
-                format!("{text:?} is no shard, expected i/N with i from 1 to N, e.g. 3/8");
+                format!("{text:?} is not a shard, expected i/N with i from 1 to N, e.g. 3/8");
             assert_eq!(text.parse::<Shard>().expect_err("none").to_string(), message);
         }
     }

@@ -34,11 +34,22 @@ pub struct Analysis<'a> {
     program: Program,
 }
 
+/// A design without deviations, with what its samples are looked at for.
+struct Nominal {
+    index: u64,
+    /// The case with the imperfection of its own, which the samples have too.
+    case: Case,
+    row: DesignRow,
+    measured: MeasuredColumns,
+    /// The places of the required columns among those that are measured.
+    required: Vec<usize>,
+}
+
 /// Everything that is known of a design with its deviations.
 #[derive(Clone, Debug)]
 pub struct DesignTolerance {
-    /// The design as it is drawn.
-    pub drawn: DesignRow,
+    /// The nominal design.
+    pub nominal: DesignRow,
     /// The spread of its measures.
     pub measures: Vec<MeasureTolerance>,
     /// The yield of every requirement, and of all together behind them.
@@ -56,7 +67,7 @@ pub struct MeasureTolerance {
     pub name: String,
     /// Its unit.
     pub unit: &'static str,
-    /// The value of the design as it is drawn.
+    /// The value of the nominal design.
     pub value: Option<f64>,
     /// The spread that the derivatives predict.
     pub linear: Option<LinearSpread>,
@@ -104,98 +115,115 @@ impl<'a> Analysis<'a> {
     /// # Errors
     /// If the work is to stop, a requirement is about no column, or the disk is at fault.
     pub fn design(&self, index: u64, store: &SampleStore) -> Result<DesignTolerance, NoAnalysis> {
+        let nominal = self.nominal(index)?;
+        let columns = self.columns(&nominal.measured);
+        let samples = self.samples(&nominal, &columns, store)?;
+        let measures = self.measures(&nominal, &samples);
+        let yields = self.yields(&nominal, &measures, &samples);
+        Ok(DesignTolerance { nominal: nominal.row, measures, yields, columns, samples })
+    }
+
+    /// Solves a design without deviations, and looks for the columns that are required.
+    fn nominal(&self, index: u64) -> Result<Nominal, NoAnalysis> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
-        let drawn = self.differentiating.solve(number, &straight).row;
-        let measured = MeasuredColumns::of(self.sweep, &drawn);
+        let row = self.differentiating.solve(number, &straight).row;
+        let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
-        let place = |r: &Requirement| measured.required(&r.column, &drawn, asked);
-        let required = self.requirements.iter().map(place).collect::<Result<Vec<_>, _>>()?;
-        let deviations = self.sweep.deviations();
-        let keys = deviations.iter().map(|d| format!("{}_deviation", d.key()));
-        let names = measured.iter().map(|column| column.name.to_string());
-        let columns: Vec<String> = keys.chain(names).collect();
-        let solve = |sample: u64| {
-            let solved = self.solved(index, &case, &measured, sample);
-            solved.unwrap_or_else(|| vec![None; columns.len()])
-        };
-        let label = (&*number.to_string(), header(self.program, &self.sweep.only(index)));
-        let samples = store.samples(label, &columns, self.samples, self.stop, solve)?;
-        let of = |column: usize| -> Vec<Option<f64>> {
-            let place = deviations.len() + column;
-            samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
-        };
-        let measures = self.measures(&case, &drawn, &measured, &required, &of);
-        let linear = |&column: &usize| {
-            let name = measured.iter().nth(column)?.name.as_ref();
-            let measure = measures.iter().find(|measure| measure.name == name)?;
-            Some((measure.value?, measure.linear.as_ref()?.spread))
-        };
-        let predicted: Vec<_> = required.iter().map(linear).collect();
-        let values: Vec<_> = required.iter().map(|&column| of(column)).collect();
-        let yields = yields(self.requirements, &values, &predicted);
-        Ok(DesignTolerance { drawn, measures, yields, columns, samples })
+        let place = |r: &Requirement| measured.required(&r.column, &row, asked);
+        let required = self.requirements.iter().map(place).collect::<Result<_, _>>()?;
+        Ok(Nominal { index, case, row, measured, required })
     }
 
-    /// The spread of every measure that has derivatives or is required.
-    fn measures(
+    /// The names of the values of a sample.
+    fn columns(&self, measured: &MeasuredColumns) -> Vec<String> {
+        let deviations = self.sweep.deviations().iter();
+        let keys = deviations.map(|deviation| format!("{}_deviation", deviation.key()));
+        keys.chain(measured.iter().map(|column| column.name.to_string())).collect()
+    }
+
+    /// The samples of a design: those that are kept, and behind them those that are solved now.
+    fn samples(
         &self,
-        case: &Case,
-        drawn: &DesignRow,
-        measured: &MeasuredColumns,
-        required: &[usize],
-        samples: &dyn Fn(usize) -> Vec<Option<f64>>,
-    ) -> Vec<MeasureTolerance> {
-        let mut scattered = DesignRow { case: *case, ..drawn.clone() };
-        draw::scatter(&mut scattered.case, self.sweep.deviations());
-        let scatters = !scattered.case.imperfection.is_none();
-        let single = if scatters { self.plain.scatter(case) } else { Vec::new() };
-        let deviations = self.sweep.deviations();
-        let gradients = Gradients { design: &scattered, deviations, single: &single };
-        let values = measured.values(drawn);
-        let measure = |(k, column): (usize, &results::Column<DesignRow>)| {
-            let name = column.name.as_ref();
-            let has_derivatives = has_derivatives(name, drawn);
-            let is_listed = required.contains(&k) || has_derivatives;
-            is_listed.then(|| {
-                let all = samples(k);
-                let with_value: Vec<f64> = all.iter().copied().flatten().collect();
-                MeasureTolerance {
-                    name: name.to_owned(),
-                    unit: column.unit,
-                    value: values[k],
-                    linear: values[k]
-                        .filter(|_| has_derivatives)
-                        .and_then(|_| gradients.spread(column)),
-                    sampled: Sampled::of(&with_value),
-                    failed: all.len() - with_value.len(),
-                }
-            })
-        };
-        measured.iter().enumerate().filter_map(measure).collect()
+        nominal: &Nominal,
+        columns: &[String],
+        store: &SampleStore,
+    ) -> Result<Vec<SolvedSample>, NoAnalysis> {
+        // A sample for which no deviations are found is one that fails, with no values.
+        let solve =
+            |sample: u64| self.sample(nominal, sample).unwrap_or_else(|| vec![None; columns.len()]);
+        let number = nominal.row.number.to_string();
+        let header = header(self.program, &self.sweep.only(nominal.index));
+        store.samples((&number, header), columns, self.samples, self.stop, solve)
     }
 
     /// The deviations and values of a sample; `None` if there is no such skin.
-    fn solved(
-        &self,
-        index: u64,
-        case: &Case,
-        measured: &MeasuredColumns,
-        sample: u64,
-    ) -> Option<Vec<Option<f64>>> {
-        let number = self.sweep.grid().number(index);
-        let skin = self.sampler.solve(number, case, sample)?;
+    fn sample(&self, nominal: &Nominal, sample: u64) -> Option<Vec<Option<f64>>> {
+        let skin = self.sampler.solve(nominal.row.number, &nominal.case, sample)?;
         let mut values = skin.deviations;
-        values.extend(measured.values(&skin.row));
+        values.extend(nominal.measured.values(&skin.row));
         Some(values)
+    }
+
+    /// The values of a column in all samples; deviations stand before the columns.
+    fn values(&self, column: usize, samples: &[SolvedSample]) -> Vec<Option<f64>> {
+        let place = self.sweep.deviations().len() + column;
+        samples.iter().map(|sample| sample.values.get(place).copied().flatten()).collect()
+    }
+
+    /// The spread of every measure that has derivatives or is required.
+    fn measures(&self, nominal: &Nominal, samples: &[SolvedSample]) -> Vec<MeasureTolerance> {
+        let deviations = self.sweep.deviations();
+        let mut scattered = DesignRow { case: nominal.case, ..nominal.row.clone() };
+        draw::scatter(&mut scattered.case, deviations);
+        // Derivatives with respect to single scales cost a solve for each kind of scale.
+        let scatters = !scattered.case.imperfection.is_none();
+        let single = if scatters { self.plain.scatter(&nominal.case) } else { Vec::new() };
+        let gradients = Gradients { design: &scattered, deviations, single: &single };
+        let mut measures = Vec::new();
+        for (place, column) in nominal.measured.iter().enumerate() {
+            let has_derivatives = has_derivatives(&column.name, &nominal.row);
+            if !has_derivatives && !nominal.required.contains(&place) {
+                continue;
+            }
+            let value = column.cell(&nominal.row).number();
+            let is_predicted = has_derivatives && value.is_some();
+            let values = self.values(place, samples);
+            let known: Vec<f64> = values.iter().copied().flatten().collect();
+            measures.push(MeasureTolerance {
+                name: column.name.to_string(),
+                unit: column.unit,
+                value,
+                linear: is_predicted.then(|| gradients.spread(column)).flatten(),
+                sampled: Sampled::of(&known),
+                failed: values.len() - known.len(),
+            });
+        }
+        measures
+    }
+
+    /// The yield of every requirement, and of all together.
+    fn yields(
+        &self,
+        nominal: &Nominal,
+        measures: &[MeasureTolerance],
+        samples: &[SolvedSample],
+    ) -> Vec<RequirementYield> {
+        let predicted = |requirement: &Requirement| {
+            let measure = measures.iter().find(|measure| measure.name == requirement.column)?;
+            Some((measure.value?, measure.linear.as_ref()?.spread))
+        };
+        let predicted: Vec<_> = self.requirements.iter().map(predicted).collect();
+        let values = nominal.required.iter().map(|&column| self.values(column, samples));
+        yields(self.requirements, &values.collect::<Vec<_>>(), &predicted)
     }
 }
 
 /// Whether a column is about a measure with derivatives, or about the mass, which parameters alone make.
-fn has_derivatives(name: &str, drawn: &DesignRow) -> bool {
+fn has_derivatives(name: &str, nominal: &DesignRow) -> bool {
     let measure = measure_name(name);
-    let mut derivatives = drawn.result.sensitivity.iter();
+    let mut derivatives = nominal.result.sensitivity.iter();
     measure == AREAL_MASS || derivatives.any(|d| d.measure == measure)
 }
 

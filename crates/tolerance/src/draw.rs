@@ -26,6 +26,7 @@ pub(crate) fn sample(
             continue;
         };
         let mut random = random(case, number, deviation.parameter().key);
+        // A deviation that leaves the bounds is drawn again, which cuts the distribution off there.
         let possible = |_| {
             let by = draw(batch, &mut random);
             Some((deviation.made(&made, by)?, by))
@@ -43,6 +44,7 @@ pub(crate) fn scatter(case: &mut Case, deviations: &[Deviation]) {
     for deviation in deviations {
         let Some(sd) = deviation.scale_sd(case) else { continue };
         match deviation.parameter().key {
+            // Relative to the gap of this sample, so that the scatter in mm does not depend on the batch.
             "gap_over_t" => case.imperfection.gap_cv = sd / case.design.gap,
             _ => case.imperfection.slant_sd_deg = sd,
         }

@@ -61,6 +61,7 @@ impl GlobalAnalysis<'_> {
     pub fn solve(&self, store: &SampleStore) -> Result<GlobalSensitivity, NoAnalysis> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
+        // Tells which columns hold text; its values are not used.
         let middle = evaluator.solve(number, &case).row;
         let measured = MeasuredColumns::of(self.sweep, &middle);
         let names: Vec<String> = measured.iter().map(|column| column.name.to_string()).collect();

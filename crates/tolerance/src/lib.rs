@@ -1,9 +1,9 @@
-//! Tolerances: what comes out when what is made differs from what is drawn.
+//! The effect of manufacturing tolerances: the spread of every measure, and the yield.
 //!
-//! A [`Deviation`](sweep::Deviation) is common to all scales of a batch or differs from scale to scale. The spread of a measure is
-//! predicted from its derivatives, the sum of the parts of batch deviations `s` and of single scales `i` (T1), and solved for with
-//! random samples; both stand side by side, with the difference. Random numbers depend on the seed, the number of the sample and the
-//! key of the parameter alone.
+//! All scales of a batch share a [`Deviation`](sweep::Deviation), or each scale has its own. The derivatives of a measure predict its
+//! spread: the variances that batch deviations `s` and single scales `i` cause add up (T1). Solving random samples gives the spread
+//! too, and the tables show both and their discrepancy. The random numbers of a sample depend on nothing but the seed, the number of
+//! the sample and the key of the parameter.
 //!
 //! ```text
 //! σ² = Σ_s σ_s² + Σ_i σ_i²
@@ -17,17 +17,17 @@
 //!
 //! | Type | Role |
 //! |---|---|
-//! | [`Analysis`], [`DesignTolerance`] | a design with its deviations, and everything that is known of it |
+//! | [`Analysis`], [`DesignTolerance`] | the tolerances of a design |
 //! | [`MeasureTolerance`], [`LinearSpread`], [`Sampled`] | the spread of a measure, predicted and solved |
 //! | [`SourceShare`], [`DeviationLevel`] | the part of a source in it; whether all scales of a batch share the deviation |
 //! | [`RequirementYield`], [`Proportion`] | the share of samples that meet a requirement, with its interval |
 //! | [`SampledQuantile`] | a quantile over samples, with its interval |
-//! | [`Sampler`], [`MadeSkin`] | solves skins that are made of designs |
-//! | [`SolvedSample`], [`SampleStore`] | what was solved, kept so that nothing is solved twice |
-//! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | the parts that variables have in the variance over a box |
+//! | [`Sampler`], [`Sample`] | draws and solves samples of designs |
+//! | [`SolvedSample`], [`SampleStore`] | the solved samples, kept on disk so that none is solved twice |
+//! | [`GlobalAnalysis`], [`GlobalSensitivity`], [`MeasureIndices`] | global sensitivity: the share of every variable in the variance |
 //! | [`sobol_indices`], [`Evaluation`], [`SobolIndices`], [`IndexEstimate`] | the estimators, for any function |
 //! | [`TOLERANCE_COLUMNS`], [`SOURCE_COLUMNS`], [`YIELD_COLUMNS`], [`INDEX_COLUMNS`] | the tables |
-//! | [`NoAnalysis`] | why there is no analysis |
+//! | [`NoAnalysis`] | why an analysis fails |
 //!
 //! ```
 //! use std::sync::atomic::AtomicBool;
@@ -75,7 +75,7 @@ pub use no_analysis::NoAnalysis;
 pub use proportion::Proportion;
 pub use quantile::SampledQuantile;
 pub use sampled::Sampled;
-pub use sampler::{MadeSkin, Sampler};
+pub use sampler::{Sample, Sampler};
 pub use sobol::{Evaluation, IndexEstimate, SobolIndices, sobol_indices};
 pub use store::{SampleStore, SolvedSample};
 pub use tables::{

@@ -44,7 +44,7 @@ pub struct LinearSpread {
 
 /// A design with its derivatives and deviations.
 pub(crate) struct Gradients<'a> {
-    /// The design as it is drawn, with its scatter from scale to scale and the derivatives with respect to its parameters.
+    /// The nominal design, with its scatter from scale to scale and the derivatives with respect to its parameters.
     pub(crate) design: &'a DesignRow,
     pub(crate) deviations: &'a [Deviation],
     /// Derivatives with respect to the gaps and slants of single scales.
@@ -76,6 +76,7 @@ impl Gradients<'_> {
         batch: BatchDeviation,
     ) -> Option<DeviationSlopes> {
         let case = &self.design.case;
+        // Derivatives are extrapolated, so the step needs to be small against the deviation and large against round-off only.
         let step = STEP * batch.standard_deviation();
         let value =
             |to: &Case| column.cell(&self.design.extrapolated(to, SlopeSide::Ahead)).number();
@@ -100,6 +101,7 @@ impl Gradients<'_> {
         let Some(known) = derivatives.find(|d| d.measure == measure) else { return Some(0.0) };
         let at = |value: f64| column.cell(&self.design.with_value(measure, value)?).number();
         let step = STEP * known.value.abs().max(f64::MIN_POSITIVE);
+        // A column in physical units follows from the measure; a difference gives its slope without a formula for each.
         let factor = (at(known.value + step)? - at(known.value)?) / step;
         let single = self.single.iter();
         let of_measure = single.filter(|d| d.measure == measure && d.parameter == key);

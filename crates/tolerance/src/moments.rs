@@ -20,6 +20,7 @@ impl DeviationSlopes {
             }
             BatchDeviation::Uniform(most) => (most * difference / 4.0, most * most * squares / 6.0),
         };
+        // Round-off may leave the variance of a constant just below zero.
         (mean_square - mean * mean).max(0.0)
     }
 }

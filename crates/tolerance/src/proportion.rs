@@ -31,6 +31,7 @@ impl Proportion {
     /// ```
     pub fn interval(self) -> [f64; 2] {
         let (met, missed) = (self.met as f64, (self.of - self.met) as f64);
+        // Where no sample meets, or all do, the beta distribution does not exist and the interval ends at 0 or 1.
         let low = quantile(met, missed + 1.0, MISS).unwrap_or(0.0);
         let high = quantile(met + 1.0, missed, 1.0 - MISS).unwrap_or(1.0);
         [low, high]

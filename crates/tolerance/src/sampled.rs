@@ -31,6 +31,7 @@ impl Sampled {
         let variance = moment(2) * n / (n - 1.0);
         let of_variance = (moment(4) - variance.powi(2) * (n - 3.0) / (n - 1.0)).max(0.0) / n;
         let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+        // A measure that no deviation touches differs by the round-off of its paths alone.
         let is_round_off = variance.sqrt() <= ROUND_OFF * size;
         let spread = if is_round_off { 0.0 } else { variance.sqrt() };
         let spread_error = if spread > 0.0 { of_variance.sqrt() / (2.0 * spread) } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Skins that are made of designs, solved one by one.
+//! Samples of designs, solved one by one.
 
 use results::DesignRow;
 use run::Evaluator;
@@ -6,39 +6,37 @@ use sweep::{Case, DesignNumber, Deviation, Measure};
 
 use crate::draw;
 
-/// Solves skins that are made of designs with their deviations. Skins of one number have the same random numbers, whatever the
-/// design.
+/// Draws and solves samples of designs. Samples of the same number have the same random numbers in every design.
 #[derive(Debug)]
 pub struct Sampler {
     evaluator: Evaluator,
     deviations: Vec<Deviation>,
 }
 
-/// A skin that is made: the row of its values, and its deviations.
+/// A solved sample: the row of its values, and its deviations.
 #[derive(Clone, Debug)]
-pub struct MadeSkin {
-    /// The skin, its case with all that deviates.
+pub struct Sample {
+    /// The values of the sample; its case has the deviations.
     pub row: DesignRow,
-    /// The deviation of each source that all scales share; `None` of the others.
+    /// The batch deviation of each source; `None` for a source without one.
     pub deviations: Vec<Option<f64>>,
 }
 
 impl Sampler {
-    /// Solves `measures` of skins with these deviations.
+    /// Creates a sampler that solves `measures` of samples with these deviations.
     pub fn new(measures: &[Measure], deviations: &[Deviation]) -> Self {
         Self { evaluator: Evaluator::new(measures), deviations: deviations.to_vec() }
     }
 
-    /// The skin of that number, from 1, that is made of the design of `case`; `None` if no deviations are found with which
-    /// there is one.
-    pub fn solve(&self, number: DesignNumber, case: &Case, skin: u64) -> Option<MadeSkin> {
-        let (made, deviations) = draw::sample(case, &self.deviations, skin)?;
-        Some(MadeSkin { row: self.evaluator.solve_sample(number, &made, skin), deviations })
+    /// Solves a sample, counted from 1, of the design of `case`; `None` if no drawn deviations are within the bounds of the parameters.
+    pub fn solve(&self, number: DesignNumber, case: &Case, sample: u64) -> Option<Sample> {
+        let (made, deviations) = draw::sample(case, &self.deviations, sample)?;
+        Some(Sample { row: self.evaluator.solve_sample(number, &made, sample), deviations })
     }
 
-    /// The case of the skin of that number but for its scatter from scale to scale; `None` if there is none.
-    pub fn even_case(&self, case: &Case, skin: u64) -> Option<Case> {
-        let (made, _) = draw::sample(case, &self.deviations, skin)?;
+    /// The case of a sample without its scatter from scale to scale; `None` if there is no such sample.
+    pub fn even_case(&self, case: &Case, sample: u64) -> Option<Case> {
+        let (made, _) = draw::sample(case, &self.deviations, sample)?;
         Some(Case { imperfection: case.imperfection, ..made })
     }
 }

@@ -53,6 +53,7 @@ impl IndexEstimate {
 pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let n = evaluations.len() as f64;
     let mean = evaluations.iter().map(|e| e.first + e.second).sum::<f64>() / (2.0 * n);
+    // A mean that is large against the spread would drown the indices in errors.
     let centred = |value: f64| value - mean;
     let squares: Vec<f64> = evaluations
         .iter()
@@ -65,6 +66,7 @@ pub fn sobol_indices(evaluations: &[Evaluation]) -> Option<Vec<SobolIndices>> {
     let ratio = |term: &dyn Fn(&Evaluation) -> f64| {
         let terms: Vec<f64> = evaluations.iter().map(term).collect();
         let value = terms.iter().sum::<f64>() / (n * variance);
+        // Numerator and variance come from the same samples, so each sample moves the ratio by both.
         let influences =
             terms.iter().zip(&squares).map(|(u, v)| ((u - value * v) / variance).powi(2));
         IndexEstimate { value, error: (influences.sum::<f64>() / (n * (n - 1.0))).sqrt() }

@@ -56,7 +56,7 @@ pub static TOLERANCE_COLUMNS: &[Column<DesignMeasureTolerance>] = &[
     Column::new("design", "-", DESIGN, |r| r.design.to_string().into()),
     Column::new("measure", "-", MEASURE, |r| r.measure.name.clone().into()),
     Column::new("unit", "-", "unit of the measure", |r| r.measure.unit.into()),
-    Column::new("value", SAME, "value of the design as it is drawn", |r| r.measure.value.into()),
+    Column::new("value", SAME, "value of the nominal design", |r| r.measure.value.into()),
     Column::new(
         "linear_spread",
         SAME,

@@ -19,11 +19,11 @@ pub struct RequirementYield {
 }
 
 /// The yields of the `requirements`, each with its values in all samples, and that of all together behind them. A requirement
-/// comes with the value as it is drawn and its linear spread, if there are such.
+/// comes with its nominal value and its linear spread, if it has them.
 pub(crate) fn yields(
     requirements: &[Requirement],
     values: &[Vec<Option<f64>>],
-    drawn: &[Option<(f64, f64)>],
+    nominal: &[Option<(f64, f64)>],
 ) -> Vec<RequirementYield> {
     let meets =
         |k: usize, n: usize| values[k][n].is_some_and(|value| requirements[k].is_met(value));
@@ -36,7 +36,7 @@ pub(crate) fn yields(
         requirement: Some(requirements[k].clone()),
         proportion: of(&|n| meets(k, n)),
         failed: values[k].iter().filter(|value| value.is_none()).count(),
-        linear: drawn[k].and_then(|(value, spread)| predicted(&requirements[k], value, spread)),
+        linear: nominal[k].and_then(|(value, spread)| predicted(&requirements[k], value, spread)),
     };
     let every = 0..requirements.len();
     let together = RequirementYield {
@@ -54,6 +54,7 @@ fn predicted(requirement: &Requirement, value: f64, spread: f64) -> Option<f64> 
     match requirement.relation {
         Relation::AtLeast | Relation::Above => Some(normal.sf(requirement.limit)),
         Relation::AtMost | Relation::Below => Some(normal.cdf(requirement.limit)),
+        // A value with a spread meets an equality with probability 0, which tells nothing.
         Relation::Equal => None,
     }
 }

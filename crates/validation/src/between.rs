@@ -1,6 +1,5 @@
 //! What a search between the points of the grid finds that the 720 designs do not have.
 
-use std::fmt::Write as _;
 use std::sync::atomic::AtomicBool;
 use std::thread::available_parallelism;
 
@@ -11,6 +10,7 @@ use sweep::number;
 
 use crate::ValidationError;
 use crate::claims::{digits, named};
+use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
 /// The box of the grid, and what the searches in it share. No design whose surface has folded counts.
@@ -79,24 +79,14 @@ impl BetweenPoints {
         Ok(Self { fittest: fittest.collect::<Result<_, _>>()?, front: FrontOverGrid::of(study)? })
     }
 
-    /// Returns the section of the page in Markdown.
-    pub(crate) fn section(&self) -> String {
-        let mut text = String::from(
-            "## Between the grid points\n\n\
-             The fittest design (Eq. 7) of the 720 whose surface does not fold and that cover, and what `squama optimise` finds in the same box of gap, aspect ratio \
-             and slant. Criteria are rescaled between the worst and the best of those designs, so more than 1 is better than any of them. Designs are `(d/t, L/t, slant)`.\n\n\
-             | Weights | Best of the grid | Fitness | Found between its points | Fitness | Gain |\n|---|---|--:|---|--:|--:|\n",
-        );
-        for row in &self.fittest {
-            let _ = writeln!(text, "{}", row.row());
-        }
+    /// Returns the parts of the page in Markdown, by their names.
+    pub(crate) fn parts(&self) -> [(&'static str, String); 2] {
         let FrontOverGrid { designs, grid, grid_front, undominated } = self.front;
-        let _ = writeln!(
-            text,
-            "\nThe front of critical force and coverage with a compliance of at least {LEAST_COMPLIANCE} has {designs} designs. Of the {grid} designs of the grid that \
-             do not fold and bend so well, of which {grid_front} are beaten by no other of them, {undominated} are neither equalled nor beaten by one of it."
+        let front = format!(
+            "The Pareto front of critical force and coverage, with a compliance of at least {LEAST_COMPLIANCE}, has {designs} designs. {grid} designs of the grid \
+             do not fold and bend that well; {grid_front} of them are on their own Pareto front, and the front of the search neither equals nor beats {undominated} of them."
         );
-        text
+        [("between", lines(&self.fittest, FittestDesign::row)), ("front", front)]
     }
 }
 
@@ -150,6 +140,7 @@ fn pair_of(best: &BestDesign) -> Option<[f64; 2]> {
 
 /// Whether one is at least as good as the other in both, but for round-off.
 fn at_least(one: &[f64; 2], other: &[f64; 2]) -> bool {
+    // Equal designs of the grid and of a search differ by the round-off of their paths.
     one.iter().zip(other).all(|(a, b)| *a >= b * (1.0 - 1e-9))
 }
 

@@ -6,7 +6,7 @@ mod domino;
 mod evidence;
 mod flexure;
 mod gather;
-mod optimum;
+mod measurements;
 mod puncture;
 mod statement;
 mod statistics;
@@ -29,6 +29,9 @@ use crate::study::{MeasuredDesign, Study};
 /// The claims and their places in the paper, as a table.
 const CLAIMS: &str = include_str!("../claims.csv");
 
+/// The statements of the claims, what is measured of them, and their limits, as a table.
+const STATEMENTS: &str = include_str!("../statements.csv");
+
 /// A checkable claim of Shafiei et al. (2021).
 #[derive(Clone, Debug, Deserialize)]
 pub struct Claim {
@@ -41,6 +44,8 @@ pub struct Claim {
     pub about: String,
     /// The statement of the paper.
     pub claim: String,
+    /// The reason for what comes out, where it is known.
+    pub reason: String,
 }
 
 /// A claim with its statements, each checked against the two studies.
@@ -52,96 +57,19 @@ pub struct CheckedClaim {
     pub statements: Vec<CheckedStatement>,
     /// The verdicts on the claim, with a base of `L`, and of `2L`.
     pub verdicts: [Verdict; 2],
-    /// The reason for what comes out, where it is known.
-    pub reason: &'static str,
 }
 
 /// A single statement of a claim, checked against the two studies.
 #[derive(Clone, Debug)]
 pub struct CheckedStatement {
     /// The statement in words; empty if the claim says just that.
-    pub says: &'static str,
+    pub says: String,
     /// The measured quantity.
-    pub measured: &'static str,
+    pub measured: String,
     /// The limits that it must keep to be reproduced, and to be reproduced in part.
     pub limits: String,
     /// The findings with a base of `L`, and of `2L`.
     pub found: [Finding; 2],
-}
-
-/// The statements of each claim, and the reason for what comes out, where it is known.
-const STATEMENTS: [(&str, &[Statement], &str); 30] = [
-    ("C01", &coverage::UNSLANTED, "by the definition of coverage"),
-    ("C02", &coverage::BEST, "decides for the base L: of a base 2L the steepest slant covers best"),
-    ("C03", &puncture::FIRST_CONTACT_UNSLANTED, "decides for the base L"),
-    ("C04", &puncture::FIRST_CONTACT_AT_45, "between the two bases, nearer to L"),
-    ("C05", &puncture::STEEP_SCALES_TOUCH_FIRST, "the lever arm of the load grows with the slant"),
-    (
-        "C06",
-        &puncture::INITIAL_STIFFNESS_BY_SLANT,
-        "the lever arm of the load grows with the slant",
-    ),
-    ("C07", &puncture::STIFFNESS_BY_SLANT, "more scales share the load"),
-    ("C08", &puncture::UNSLANTED_CONTACT, "the corner slides down the neighbour's side"),
-    (
-        "C09",
-        &puncture::BY_LENGTH,
-        "to bring its corner as deep as a long one does, a short scale turns further, and the edge of its base goes deeper",
-    ),
-    (
-        "C10",
-        &puncture::BY_GAP,
-        "neighbours couple through the substrate, so the gap cannot be without effect; a row that touches late shows only the soft beginning of contact",
-    ),
-    ("C11", &critical_force::BY_GAP, ""),
-    ("C12", &critical_force::LARGEST_IN_FIGURES, ""),
-    (
-        "C13",
-        &critical_force::LARGEST_VALUE,
-        "grows with the width: b = 3.15 t gives 64 with the base L, see docs/open-questions.md",
-    ),
-    ("C14", &critical_force::FORCE_AND_STIFFNESS, "the paper does not say which stiffness"),
-    ("C15", &critical_force::LARGEST_STIFFNESS_IN_FIGURES, "as C14"),
-    (
-        "C16",
-        &critical_force::STRONGEST_PARAMETER,
-        "with the two smallest lengths, which the figure leaves out, the length matters most",
-    ),
-    ("C17", &domino::UNSLANTED, "the paper does not say which design; this is that of Fig. 6a"),
-    ("C18", &domino::DOMINO, "as C17"),
-    ("C19", &flexure::AXIAL_ENERGY, "the membrane is pulled against the contacts"),
-    (
-        "C20",
-        &flexure::SOFTENING,
-        "contacts slide, and their lever arm grows; far beyond contact without slant, too",
-    ),
-    (
-        "C21",
-        &flexure::LOSS_OF_COMPLIANCE,
-        "contact is nearly rigid, so the thin membrane alone decides; the reduction grows with the slant and as the gap shrinks",
-    ),
-    (
-        "C22",
-        &flexure::COMPLIANT_AT_SMALL_SLANTS,
-        "which designs touch depends on the gaps of the strip: with 41 to 44 in every design as printed, see docs/open-questions.md",
-    ),
-    ("C23", &flexure::COMPLIANT_AT_LARGE_SLANTS, "as C22"),
-    ("C24", &flexure::BY_LENGTH, "before contact the compliance is d/(2a + d)"),
-    ("C25", &optimum::LEAST_PENETRATION, "a scale that touches no neighbour tilts before it sinks"),
-    ("C26", &flexure::MOST_COMPLIANT, "without contact the slant is without effect"),
-    ("C27", &critical_force::LARGEST_OF_ALL, ""),
-    (
-        "C28",
-        &optimum::BALANCED,
-        "no setting that was tried gives the printed optimum, see docs/open-questions.md",
-    ),
-    ("C29", &optimum::SHARE_OF_PRINTED, "as C28"),
-    ("C30", &puncture::TWO_BLOCKS, ""),
-];
-
-/// Returns the numbers of the claims.
-pub(crate) fn ids() -> impl Iterator<Item = &'static str> {
-    STATEMENTS.iter().map(|(id, ..)| *id)
 }
 
 /// Returns the claims as the paper has them.
@@ -152,18 +80,34 @@ pub fn claims() -> Result<Vec<Claim>, csv::Error> {
     csv::Reader::from_reader(CLAIMS.as_bytes()).deserialize().collect()
 }
 
-/// Returns the claims that a study reproduces, and those that it reproduces in part.
-pub(crate) fn score(study: &Study) -> [Vec<&'static str>; 2] {
-    let evidence = gather::gather(study);
-    let graded = STATEMENTS.map(|(id, statements, _)| (id, verdict(statements, &evidence)));
-    [Verdict::Reproduced, Verdict::InPart].map(|wanted| {
-        graded.iter().filter(|(_, verdict)| *verdict == wanted).map(|(id, _)| *id).collect()
-    })
+/// Returns the claims with their statements.
+fn statements() -> Result<Vec<(Claim, Vec<Statement>)>, ValidationError> {
+    let mut table = csv::Reader::from_reader(STATEMENTS.as_bytes());
+    let all: Vec<Statement> = table.deserialize().collect::<Result<_, _>>()?;
+    // C18a and C18b belong to C18: numbers have two digits, so no number begins another.
+    let of = |claim: &Claim| all.iter().filter(|s| s.id.starts_with(&claim.id)).cloned().collect();
+    let with = |claim: Claim| {
+        let statements = of(&claim);
+        (claim, statements)
+    };
+    Ok(claims()?.into_iter().map(with).collect())
 }
 
-fn verdict(statements: &[Statement], evidence: &Evidence) -> Verdict {
-    let verdicts: Vec<_> = statements.iter().map(|s| s.find(evidence).verdict).collect();
-    Verdict::of_all(&verdicts)
+/// Returns the numbers of the claims with the verdicts on a study.
+///
+/// # Errors
+/// If the tables of claims cannot be read.
+pub(crate) fn score(study: &Study) -> Result<Vec<(String, Verdict)>, ValidationError> {
+    let evidence = gather::gather(study);
+    let verdicts = statements()?
+        .into_iter()
+        .map(|(claim, statements)| Ok((claim.id, verdict(&statements, &evidence)?)));
+    verdicts.collect()
+}
+
+fn verdict(statements: &[Statement], evidence: &Evidence) -> Result<Verdict, ValidationError> {
+    let verdicts = statements.iter().map(|s| Ok(s.find(evidence)?.verdict));
+    Ok(Verdict::of_all(&verdicts.collect::<Result<Vec<_>, ValidationError>>()?))
 }
 
 /// Checks every claim against two studies: with the base `L`, and with `2L`.
@@ -172,22 +116,23 @@ pub(crate) fn check(studies: [&Study; 2]) -> Result<Vec<CheckedClaim>, Validatio
 }
 
 fn judge(evidence: &[Evidence; 2]) -> Result<Vec<CheckedClaim>, ValidationError> {
-    claims()?.into_iter().map(|claim| judge_claim(claim, evidence)).collect()
+    let claims = statements()?.into_iter();
+    claims.map(|(claim, statements)| judge_claim(claim, statements, evidence)).collect()
 }
 
-fn judge_claim(claim: Claim, evidence: &[Evidence; 2]) -> Result<CheckedClaim, ValidationError> {
-    let known = STATEMENTS.iter().find(|(id, ..)| *id == claim.id);
-    let (_, statements, reason) =
-        known.ok_or_else(|| ValidationError::UncheckedClaim(claim.id.clone()))?;
-    let verdicts = [0, 1].map(|base| verdict(statements, &evidence[base]));
-    let checked = |statement: &Statement| CheckedStatement {
-        says: statement.says,
-        measured: statement.measured,
-        limits: statement.limits(),
-        found: [0, 1].map(|base| statement.find(&evidence[base])),
+fn judge_claim(
+    claim: Claim,
+    statements: Vec<Statement>,
+    [paper, as_written]: &[Evidence; 2],
+) -> Result<CheckedClaim, ValidationError> {
+    let verdicts = [verdict(&statements, paper)?, verdict(&statements, as_written)?];
+    let checked = |statement: Statement| {
+        let found = [statement.find(paper)?, statement.find(as_written)?];
+        let Statement { says, measured, limits, .. } = statement;
+        Ok(CheckedStatement { says, measured, limits, found })
     };
-    let statements = statements.iter().map(checked).collect();
-    Ok(CheckedClaim { claim, statements, verdicts, reason })
+    let statements = statements.into_iter().map(checked).collect::<Result<_, ValidationError>>()?;
+    Ok(CheckedClaim { claim, statements, verdicts })
 }
 
 /// Writes a number with four significant digits.
@@ -200,16 +145,6 @@ pub(crate) fn digits(number: f64) -> String {
     } else {
         let decimals = (3.0 - size.log10().floor()).max(0.0) as usize;
         format!("{number:.decimals$}")
-    }
-}
-
-/// Writes the same without the zeros at its end.
-fn brief(number: f64) -> String {
-    let digits = digits(number);
-    if digits.contains('.') && !digits.contains('e') {
-        digits.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        digits
     }
 }
 

@@ -1,9 +1,8 @@
 //! The verdicts on the most compliant designs, for strips with the same number of gaps in every design.
 
-use std::fmt::Write as _;
-
 use sweep::Sweep;
 
+use crate::page::marked;
 use crate::study::Study;
 use crate::{ValidationError, claims};
 
@@ -20,7 +19,7 @@ pub struct GapCount {
     /// The setting, as `key = value`.
     pub setting: String,
     /// Whether each claim is reproduced, or in part.
-    pub verdicts: [&'static str; CLAIMS.len()],
+    pub verdicts: [String; CLAIMS.len()],
 }
 
 impl GapCount {
@@ -31,31 +30,16 @@ impl GapCount {
     pub fn all() -> Result<Vec<Self>, ValidationError> {
         let study = Study::run(Sweep::parse(STRIPS, "gaps", &[])?)?;
         let count = |(setting, study): (String, Study)| {
-            let [reproduced, in_part] = claims::score(&study);
-            let verdicts =
-                CLAIMS.map(|id| match (reproduced.contains(&id), in_part.contains(&id)) {
-                    (true, _) => "**reproduced**",
-                    (_, true) => "in part",
-                    _ => "not reproduced",
-                });
-            Self { setting, verdicts }
+            let score = claims::score(&study)?;
+            let verdict = |id: &str| score.iter().find(|(known, _)| known == id).map(|(_, v)| *v);
+            let verdicts = CLAIMS.map(|id| verdict(id).map_or_else(String::new, marked));
+            Ok(Self { setting, verdicts })
         };
-        Ok(study.settings().into_iter().map(count).collect())
+        study.settings().into_iter().map(count).collect()
     }
 
-    /// The section of the page, in Markdown.
-    pub(crate) fn section(counts: &[Self]) -> String {
-        let mut text = format!(
-            "## Strips with the same number of gaps\n\n\
-             The paper gives its strip a length of 100 t, on which the most compliant designs are not those that it prints. With the same \
-             number of gaps in every design instead (`flexure.gaps`), 41 to 44 of them, the designs of the claims come out, with either base. \
-             It contradicts the printed length, and no length does it (open-questions.md); the default stays 100 t.\n\n\
-             | Strip | {} |\n|---|---|---|---|\n",
-            CLAIMS.join(" | ")
-        );
-        for Self { setting, verdicts } in counts {
-            let _ = writeln!(text, "| {setting} | {} |", verdicts.join(" | "));
-        }
-        text
+    /// Returns the row of the table in Markdown.
+    pub(crate) fn row(&self) -> String {
+        format!("| {} | {} |", self.setting, self.verdicts.join(" | "))
     }
 }

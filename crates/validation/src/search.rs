@@ -6,17 +6,15 @@ use rayon::prelude::*;
 use sweep::Sweep;
 
 use crate::study::Study;
-use crate::{Headlines, PartProgress, ValidationError, claims};
+use crate::{Headlines, PartProgress, ValidationError, Verdict, claims};
 
 /// A setting with the claims that it reproduces.
 #[derive(Clone, Debug)]
 pub struct ScoredSetting {
     /// The setting, as `key = value`.
     pub setting: String,
-    /// The claims that are reproduced.
-    pub reproduced: Vec<&'static str>,
-    /// The claims that are reproduced in part.
-    pub in_part: Vec<&'static str>,
+    /// The verdict on every claim.
+    pub verdicts: Vec<(String, Verdict)>,
     /// The main results.
     pub headlines: Headlines,
 }
@@ -26,6 +24,13 @@ pub struct ScoredSetting {
 pub struct SettingSearch {
     /// Every setting, the one that reproduces most first.
     pub settings: Vec<ScoredSetting>,
+}
+
+impl ScoredSetting {
+    /// Returns the claims with a verdict.
+    fn with(&self, wanted: Verdict) -> impl Iterator<Item = &str> {
+        self.verdicts.iter().filter(move |(_, found)| *found == wanted).map(|(id, _)| id.as_str())
+    }
 }
 
 impl SettingSearch {
@@ -38,17 +43,20 @@ impl SettingSearch {
         mut progress: impl FnMut(PartProgress<'_>),
     ) -> Result<Self, ValidationError> {
         let score = |(setting, study): (String, Study)| {
-            let [reproduced, in_part] = claims::score(&study);
-            ScoredSetting { setting, reproduced, in_part, headlines: Headlines::of(&study) }
+            let verdicts = claims::score(&study)?;
+            Ok(ScoredSetting { setting, verdicts, headlines: Headlines::of(&study) })
         };
         let mut settings = Vec::new();
         for (done, sweep) in sweeps.iter().enumerate() {
             progress(PartProgress { done, parts: sweeps.len(), part: sweep.name() });
             let study = Study::run(sweep.clone())?;
-            settings.par_extend(study.settings().into_par_iter().map(score));
+            let scored = study.settings().into_par_iter().map(score);
+            settings.extend(scored.collect::<Result<Vec<_>, ValidationError>>()?);
         }
         // Stable: of equal ones the first in the sweep comes first.
-        settings.sort_by_key(|s| std::cmp::Reverse((s.reproduced.len(), s.in_part.len())));
+        settings.sort_by_key(|s| {
+            std::cmp::Reverse([Verdict::Reproduced, Verdict::InPart].map(|v| s.with(v).count()))
+        });
         Ok(Self { settings })
     }
 
@@ -58,16 +66,14 @@ impl SettingSearch {
             "| Setting | Reproduced | In part | F_c* at (0.1, 0.1, 75°) | Balanced optimum | Not reproduced |\n\
              |---|--:|--:|--:|---|---|\n",
         );
-        let all: Vec<_> = claims::ids().collect();
         for scored in &self.settings {
-            let ScoredSetting { setting, reproduced, in_part, headlines } = scored;
-            let found = |id: &&&str| !reproduced.contains(*id) && !in_part.contains(*id);
-            let missing: Vec<_> = all.iter().filter(found).copied().collect();
+            let ScoredSetting { setting, headlines, .. } = scored;
+            let [reproduced, in_part] =
+                [Verdict::Reproduced, Verdict::InPart].map(|verdict| scored.with(verdict).count());
+            let missing: Vec<_> = scored.with(Verdict::NotReproduced).collect();
             let _ = writeln!(
                 text,
-                "| {setting} | {} | {} | {} | {} | {} |",
-                reproduced.len(),
-                in_part.len(),
+                "| {setting} | {reproduced} | {in_part} | {} | {} | {} |",
                 headlines.force,
                 headlines.balanced,
                 missing.join(" ")

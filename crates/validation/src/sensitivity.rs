@@ -127,6 +127,7 @@ pub(crate) fn sensitivity(
     let (mut all, mut couplings) = (Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
+        // The default setting is a part of the sweeps of the paper, and need not be solved again.
         let part = known.iter().find_map(|study| study.part(&definition));
         let study = part.map_or_else(|| Study::run(definition), Ok)?;
         all.push(Sensitivity { sweep, setting: label, headlines: Headlines::of(&study) });

@@ -1,11 +1,10 @@
 //! Where the model holds: folds of the surface, and what a substrate that cannot fold makes of the claims.
 
-use std::fmt::Write as _;
-
 use sweep::Sweep;
 
 use crate::ValidationError;
 use crate::claims::{CheckedClaim, DesignValue, Finding, digits, named};
+use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
 
 /// The sweeps of the claims, on a substrate that cannot fold.
@@ -54,39 +53,26 @@ impl Soundness {
         }
     }
 
-    /// Returns the section of the page in Markdown.
-    pub(crate) fn section(&self) -> String {
-        let mut text = format!(
-            "## Where the model holds\n\n\
-             Nothing keeps two bases from passing each other on linear springs: the surface of the substrate folds over (V2 of `docs/theory.md`), \
-             and beyond that the numbers are right for the equations but are not armour. With `substrate.law = \"neo-hookean\"` \
-             (`sweeps/paper-neo-hookean.toml`) the surface between two bases stiffens as rubber does, and cannot fold. The 720 designs with either:\n\n\
-             {HEAD}"
-        );
-        for row in &self.rows {
-            let _ = writeln!(text, "| {} |", row.join(" | "));
-        }
-        let _ = write!(text, "\nThe claims that rest on these designs, law by law:\n\n{HEAD}");
-        for claim in &self.claims {
-            let _ = writeln!(text, "| {} |", claim.join(" | "));
-        }
+    /// Returns the parts of the page in Markdown, by their names.
+    pub(crate) fn parts(&self) -> [(&'static str, String); 3] {
+        let row = |row: &[String; 5]| format!("| {} |", row.join(" | "));
         let turned = match self.turned.as_slice() {
             [] => "No other claim has another verdict.".to_owned(),
             turned => format!("Other claims with another verdict: {}.", turned.join(", ")),
         };
-        let _ = writeln!(text, "\n{turned}");
-        text
+        [
+            ("folds", lines(&self.rows, row)),
+            ("claims on folds", lines(&self.claims, row)),
+            ("other claims", turned),
+        ]
     }
 }
-
-/// The head of both tables.
-const HEAD: &str = "| | Base L, linear | Base L, neo-Hookean | Base 2L, linear | Base 2L, neo-Hookean |\n|---|---|---|---|---|\n";
 
 /// Returns the rows of the statements of a claim, checked on a linear substrate and on the `other` one.
 fn statements(claim: &CheckedClaim, other: &CheckedClaim) -> Vec<[String; 5]> {
     let cell = |finding: &Finding| format!("{}: {}", finding.verdict, finding.ours);
     let row = |(ours, theirs): (&crate::CheckedStatement, &crate::CheckedStatement)| {
-        let says = if ours.says.is_empty() { claim.claim.claim.as_str() } else { ours.says };
+        let says = if ours.says.is_empty() { &claim.claim.claim } else { &ours.says };
         let [paper, as_written] = &ours.found;
         let [other_paper, other_as_written] = &theirs.found;
         [

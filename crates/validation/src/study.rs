@@ -56,11 +56,13 @@ impl Study {
     /// If the temporary folder cannot be written.
     pub(crate) fn run(sweep: Sweep) -> Result<Self, ValidationError> {
         let folder = tempfile::tempdir()?;
+        // The folder is temporary: no later run has to know this one.
         let program = Program { version: env!("CARGO_PKG_VERSION"), revision: "" };
         let options = Options {
             threads: available_parallelism().map_or(1, usize::from),
             format: None,
             fail_fast: false,
+            // Nobody reads the tables before the end.
             tables_every: Duration::MAX,
             stop: &AtomicBool::new(false),
             work: &WorkMeter::default(),

@@ -22,7 +22,7 @@ pub fn agrees(audit: &Audit) -> bool {
 pub fn report(audit: &Audit) -> String {
     let designs = counted(audit.designs, "design");
     let mut text =
-        format!("audit: {designs} solved again by another way, largest relative differences\n");
+        format!("audit: {designs} solved again by a second method; largest relative differences\n");
     let rows: Vec<_> = audit.differences.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));
     let texts =

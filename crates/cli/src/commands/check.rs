@@ -4,15 +4,31 @@ use std::path::Path;
 use std::thread::available_parallelism;
 use std::time::Duration;
 
+use clap::Args;
 use run::Estimate;
 use serde_json::{Map, Value, json};
 use sweep::{Axis, Measure, Sweep};
 
 use super::DONE;
-use super::source::{folder_of, read};
-use crate::args;
+use super::source::{Definition, folder_of, read};
 use crate::json;
 use crate::print::{aligned, counted, digits, print, time};
+
+/// Arguments of `squama check`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama check sweeps/paper.toml
+  squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'
+  squama check sweeps/paper.toml --json")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Designs from which on a sweep is large: a few are solved to tell what all take.
 const LARGE: u64 = 10_000;
@@ -21,7 +37,7 @@ const LARGE: u64 = 10_000;
 const LISTED: u64 = 12;
 
 /// Says what would run.
-pub fn check(arguments: &args::CheckArguments) -> anyhow::Result<u8> {
+pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     if arguments.json {
         json::print(&as_json(&sweep))?;
@@ -95,6 +111,7 @@ fn row(what: &str, value: &str) -> [String; 2] {
 
 /// Time and room of a large sweep.
 fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
+    // A few designs are solved for the estimate, which takes longer than a small sweep does.
     if sweep.grid().len() < LARGE {
         return Vec::new();
     }
@@ -108,7 +125,7 @@ fn estimate(sweep: &Sweep) -> Vec<[String; 2]> {
     let judged = counted(estimate.solved, "design");
     let threads = counted(threads as u64, "thread");
     vec![
-        row("time", &format!("{duration} on {threads}, judged by {judged}")),
+        row("time", &format!("{duration} on {threads}, estimated from {judged}")),
         row("size", &format!("about {} of journal and tables", bytes(estimate.bytes))),
     ]
 }

@@ -4,20 +4,55 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
+use clap::Args;
 use ranking::{ColumnDifference, Comparison, Extreme};
 use results::Results;
 use sweep::number;
 
-use super::source::verified_folder;
+use super::source::{Partial, verified_folder};
 use super::{DIFFERENT, DONE};
-use crate::args;
 use crate::print::{aligned, counted, digits, print, shortfall};
+
+/// Arguments of `squama compare`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama compare results/paper results/paper-as-written
+  squama compare results/reference/paper results/paper --tolerance 1e-9 --exit-code
+
+Designs are matched by their parameters, not by their numbers. --out writes compare.csv (column by
+column) and differences.csv (cell by cell).
+Exit code: 0 done, 1 the runs differ (with --exit-code), 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub first: PathBuf,
+
+    /// Results folder of another run, or its definition
+    #[arg(value_name = "OTHER")]
+    pub second: PathBuf,
+
+    /// Largest relative difference of two numbers that count as equal; 0 compares every bit
+    #[arg(long, value_name = "T", allow_hyphen_values = true, default_value = "1e-12")]
+    pub tolerance: String,
+
+    /// Exit with code 1 if the runs differ
+    #[arg(long)]
+    pub exit_code: bool,
+
+    /// Write tables of the differences to this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
 
 /// Designs that are listed before the list is cut short.
 const LISTED: usize = 8;
 
 /// Says where two runs differ.
-pub fn compare(arguments: &args::CompareArguments) -> anyhow::Result<u8> {
+pub fn compare(arguments: &Arguments) -> anyhow::Result<u8> {
     let tolerance = tolerance(&arguments.tolerance)?;
     let completeness = arguments.partial.completeness();
     let results =
@@ -73,7 +108,7 @@ fn unmatched(designs: &[&str], folder: &str) -> String {
     if designs.len() > LISTED {
         listed.push_str(" …");
     }
-    format!("  {} in {folder} alone: {listed}\n", counted(designs.len() as u64, "design"))
+    format!("  {} only in {folder}: {listed}\n", counted(designs.len() as u64, "design"))
 }
 
 fn columns(comparison: &Comparison<'_>) -> String {
@@ -105,7 +140,7 @@ const HEADER: [&str; 9] = [
     "column",
     "compared",
     "differ",
-    "one alone",
+    "in one only",
     "largest relative",
     "at design",
     "first",

@@ -1,8 +1,7 @@
 //! A record of each thing that a command makes from the tables of a folder, kept there so that `squama status` can tell when it is out of date.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use anyhow::Context as _;
 use results::{Derivation, OutputError, RunFolder, VerifiedFolder, sha256, shell_word};

@@ -1,6 +1,9 @@
 //! `squama design`.
 
+use std::path::PathBuf;
+
 use anyhow::ensure;
+use clap::Args;
 use results::columns::design_columns;
 use results::{
     Cell, Claim, Column, DesignRow, Maker, ParameterDerivative, RunFolder, SolvedDesign,
@@ -10,15 +13,50 @@ use run::Evaluator;
 use serde_json::{Map, Value, json};
 use sweep::PARAMETERS;
 
-use super::selection::{SelectedDesign, select};
-use super::source::folder_within;
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
-use crate::args;
 use crate::json;
 use crate::print::{aligned, print, rounded};
 
+/// Arguments of `squama design`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama design sweeps/paper.toml --design 0417
+  squama design sweeps/paper.toml --gap 0.1 --length 1 --slant 75
+  squama design sweeps/paper.toml --gap 0.15 --length 1 --slant 40 --set scale.width_over_t=2
+  squama design results/paper --design 0417 --json
+  squama design results/paper --design 0417 --sensitivity
+
+Solves the design exactly as the sweep does. A design given by its lengths need not be on the
+grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
+Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
+steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
+--sensitivity also writes sensitivity.csv, and prints how one per cent of a parameter changes the measures.
+Exit code: 0 done, 1 the design failed, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    /// Differentiate every measure with respect to every continuous parameter
+    #[arg(long)]
+    pub sensitivity: bool,
+
+    /// Folder for the files [default: designs/NUMBER in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
 /// Solves one design, prints its measures and writes them down with its path.
-pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
+pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     let mut design = choose(arguments)?;
     if arguments.sensitivity {
         design.sweep = design.sweep.with_sensitivity();
@@ -41,11 +79,11 @@ pub fn design(arguments: &args::DesignArguments) -> anyhow::Result<u8> {
 }
 
 /// The one design that is asked for.
-fn choose(arguments: &args::DesignArguments) -> anyhow::Result<SelectedDesign> {
+fn choose(arguments: &Arguments) -> anyhow::Result<SelectedDesign> {
     let mut designs = select(&arguments.definition, &arguments.selection)?;
     ensure!(
         designs.len() == 1,
-        "{}: {} designs are asked for, expected one: {}",
+        "{}: {} designs are selected, expected one: {}",
         arguments.definition.path.display(),
         designs.len(),
         advice(&designs)
@@ -82,7 +120,7 @@ impl SolvedChoice {
         Self { design, solved, columns }
     }
 
-    fn folder(&self, arguments: &args::DesignArguments) -> std::path::PathBuf {
+    fn folder(&self, arguments: &Arguments) -> std::path::PathBuf {
         let designs = || folder_within(&arguments.definition, &self.design.sweep, "designs");
         arguments.out.clone().unwrap_or_else(|| designs().join(self.design.label()))
     }
@@ -106,7 +144,7 @@ impl SolvedChoice {
         match self.design.number {
             Some(number) => format!("{name}: design {number} of {}", self.design.count),
             None => {
-                format!("{name}: a design beside the grid, {}", self.design.values(" = ", ", "))
+                format!("{name}: a design off the grid, {}", self.design.values(" = ", ", "))
             }
         }
     }
@@ -150,21 +188,36 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// The elasticities of the measures: a line for each measure and parameter, kinks by their names.
+/// Parameters that are listed for each measure, those that move it most.
+const LISTED: usize = 3;
+
+/// The largest elasticities of each measure, and the kinks, which have none; the table has all.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
         return String::new();
     }
-    let line = |derivative: &ParameterDerivative| {
-        let change = match (&derivative.kink, derivative.elasticity()) {
-            (Some(kink), _) => format!("kink: {kink}"),
-            (None, Some(elasticity)) => format!("{elasticity:+.3} %"),
-            (None, None) => "none".to_owned(),
-        };
-        [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
+    let size = |d: &ParameterDerivative| match d.kink {
+        Some(_) => f64::INFINITY,
+        None => d.elasticity().map_or(0.0, f64::abs),
     };
-    let lines: Vec<_> = derivatives.iter().map(line).collect();
-    format!("\nChange for one per cent of a parameter\n{}", aligned(&lines))
+    let mut lines = Vec::new();
+    for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
+        let mut known: Vec<_> =
+            of_measure.iter().filter(|d| d.kink.is_some() || d.elasticity().is_some()).collect();
+        // A kink counts as infinite: it changes more than any slope.
+        known.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));
+    }
+    let title = "Change for one per cent of a parameter, the three largest of each measure";
+    format!("\n{title} (sensitivity.csv has all)\n{}", aligned(&lines))
+}
+
+fn sensitivity_line(derivative: &ParameterDerivative) -> [String; 3] {
+    let change = match (&derivative.kink, derivative.elasticity()) {
+        (Some(kink), _) => format!("kink: {kink}"),
+        (None, elasticity) => format!("{:+.3} %", elasticity.unwrap_or_default()),
+    };
+    [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
 }
 
 fn unit(unit: &str) -> String {

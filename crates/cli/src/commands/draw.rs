@@ -1,19 +1,57 @@
 //! `squama draw`.
 
-use std::path::Path;
-
 use anyhow::{Context as _, bail, ensure};
+use clap::Args;
 use report::drawings;
 use skin::{flexure, puncture};
 use substrate::RowStiffness;
 use sweep::Case;
 
 use super::DONE;
-use super::figure_file::{Written, check_dpi, joined, write_html, write_svg};
-use super::selection::{SelectedDesign, select};
-use super::source::folder_within;
-use crate::args;
-use crate::print::print;
+use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, folder_within};
+
+/// Arguments of `squama draw`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama draw sweeps/paper.toml --design 0417
+  squama draw sweeps/paper.toml --design 0417 --at 0.1,0.4,0.7 --png
+  squama draw sweeps/paper.toml --design 0417,0418 --flexure
+  squama draw sweeps/paper.toml --design 0067,0070,0072 --force 0.1
+  squama draw sweeps/paper.toml --design 0417 --animate
+  squama draw results/paper --gap 0.1 --length 1 --slant 15..60
+
+Draws the row at rest and at the critical tilt, or at the displacements u/t of --at. Contacts are red,
+arrows are forces between scales, bars are reactions of the substrate. With --flexure, draws the strip
+with its ends rotated by the angles of --at, in degrees.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Displacements u/t of the punctured point, or rotations of the ends in degrees
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true)]
+    pub at: Vec<f64>,
+
+    /// Puncture forces F* instead of displacements
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["at", "flexure", "animate"])]
+    pub force: Vec<f64>,
+
+    /// Draw the strip in bending instead of the puncture
+    #[arg(long)]
+    pub flexure: bool,
+
+    /// Write one page that plays the path as an animation
+    #[arg(long)]
+    pub animate: bool,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+}
 
 /// Frames of an animation.
 const FRAMES: u32 = 60;
@@ -22,28 +60,26 @@ const FRAMES: u32 = 60;
 const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 
 /// Draws designs.
-pub fn draw(arguments: &args::DrawArguments) -> anyhow::Result<u8> {
+pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_places(arguments)?;
     check_dpi(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
-    let folder = arguments.output.out.clone().unwrap_or_else(folder);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, folder)?;
     for design in &designs {
-        let drawing = Drawing { design, case: design.case(), arguments, folder: &folder };
+        let drawing = Drawing { design, case: design.case(), arguments };
         if arguments.flexure {
             drawing.flexure(&mut files)?;
         } else {
             drawing.puncture(&mut files)?;
         }
     }
-    print(&files.report(&folder))?;
+    files.print()?;
     Ok(DONE)
 }
 
 /// Refuses places that no path of puncture goes through.
-fn check_places(arguments: &args::DrawArguments) -> anyhow::Result<()> {
+fn check_places(arguments: &Arguments) -> anyhow::Result<()> {
     let displacements = if arguments.flexure { &[] } else { arguments.at.as_slice() };
     check_place("--at", "a displacement u/t", displacements)?;
     check_place("--force", "a force F*", &arguments.force)
@@ -64,8 +100,7 @@ pub fn check_place(option: &str, quantity: &str, values: &[f64]) -> anyhow::Resu
 struct Drawing<'a> {
     design: &'a SelectedDesign,
     case: Case,
-    arguments: &'a args::DrawArguments,
-    folder: &'a Path,
+    arguments: &'a Arguments,
 }
 
 impl Drawing<'_> {
@@ -73,7 +108,7 @@ impl Drawing<'_> {
         format!("design-{}-{what}", self.design.label())
     }
 
-    fn puncture(&self, files: &mut Written) -> anyhow::Result<()> {
+    fn puncture(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let case = &self.case;
         let critical = case.puncture.critical_tilt_deg;
         let at: Vec<_> = match self.arguments.at.as_slice() {
@@ -93,7 +128,7 @@ impl Drawing<'_> {
         };
         if self.arguments.animate {
             let file = self.file("puncture-animation");
-            return write_html(self.folder, &file, &drawing.animation()?, files);
+            return files.html(&file, &drawing.animation()?);
         }
         let place = if self.arguments.force.is_empty() {
             places(&self.arguments.at, "u", "critical-tilt")
@@ -101,12 +136,13 @@ impl Drawing<'_> {
             places(&self.arguments.force, "force", "")
         };
         let file = self.file(&format!("puncture-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
+        files.svg(&file, &drawing.svg()?)
     }
 
     /// Displacements at equal steps, up to the critical tilt.
     fn frames(&self) -> anyhow::Result<Vec<puncture::At>> {
         let critical = puncture::At::Tilt(self.case.puncture.critical_tilt_deg);
+        // Solved twice, because only the end of the path tells how far apart the frames are.
         let end = self.puncture_states(&[critical])?;
         let last = end.first().map_or(0.0, |state| state.displacement);
         let frame = |k| puncture::At::Displacement(last * f64::from(k) / f64::from(FRAMES));
@@ -125,7 +161,7 @@ impl Drawing<'_> {
         at.iter().zip(solved.at).map(reached).collect()
     }
 
-    fn flexure(&self, files: &mut Written) -> anyhow::Result<()> {
+    fn flexure(&self, files: &mut FigureFiles<'_>) -> anyhow::Result<()> {
         let parameters = self.case.flexure;
         let last = parameters.max_end_rotation_deg;
         let at = self.rotations_deg(last);
@@ -147,7 +183,7 @@ impl Drawing<'_> {
         };
         if self.arguments.animate {
             let file = self.file("flexure-animation");
-            return write_html(self.folder, &file, &drawing.animation()?, files);
+            return files.html(&file, &drawing.animation()?);
         }
         let place = places(
             &self.arguments.at,
@@ -155,7 +191,7 @@ impl Drawing<'_> {
             if last > 0.0 { "0-to-180-deg" } else { "0-to-minus-180-deg" },
         );
         let file = self.file(&format!("flexure-at-{place}"));
-        write_svg(self.folder, &file, &drawing.svg()?, &self.arguments.output, files)
+        files.svg(&file, &drawing.svg()?)
     }
 
     /// The end rotations to draw a strip at that is bent by `last`, degrees.
@@ -166,6 +202,7 @@ impl Drawing<'_> {
             }
             [] => {
                 let reached = ROTATIONS_DEG.into_iter().filter(|&size| size <= last.abs());
+                // Adding zero turns −0 into 0, which the name of the file would show.
                 reached.map(|size| size * last.signum() + 0.0).collect()
             }
             at => at.to_vec(),
@@ -176,7 +213,7 @@ impl Drawing<'_> {
 /// The substrate under a row.
 pub fn substrate(case: &Case) -> anyhow::Result<RowStiffness> {
     let footprint = case.footprint();
-    let footprint = footprint.context("lengths too far apart, expected comparable ones")?;
+    let footprint = footprint.context("the lengths differ too much for the boundary elements")?;
     Ok(RowStiffness::of(&footprint, case.coupling)?)
 }
 

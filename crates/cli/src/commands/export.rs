@@ -1,14 +1,37 @@
 //! `squama export`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::source::{require_folder_of, verified_folder};
+use clap::Args;
+
+use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, derived};
-use crate::args;
 use crate::print::{aligned, counted, print, shortfall};
 
+/// Arguments of `squama export`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama export results/paper --xlsx paper.xlsx
+
+The workbook has a sheet for each table of the folder, and one that explains the columns. The same
+tables always give the same bytes. A sheet holds at most 1,048,575 rows.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Workbook to write
+    #[arg(long, value_name = "FILE")]
+    pub xlsx: PathBuf,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
 /// Writes the tables of a run as one workbook.
-pub fn export(arguments: &args::ExportArguments) -> anyhow::Result<u8> {
+pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;

@@ -1,32 +1,89 @@
 //! Files of drawings and figures.
 
 use std::borrow::Cow;
-use std::io::Write as _;
+use std::io::{self, Write as _};
 use std::ops::RangeInclusive;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
-use results::AtomicFile;
+use clap::Args;
+use report::untitled;
+use results::{AtomicFile, VerifiedFolder};
 
-use crate::args::FigureOutput;
+use super::derived;
+use crate::print::print;
+
+/// Where figures go, and as what.
+#[derive(Debug, Args)]
+pub struct FigureOutput {
+    /// Also write each figure as a PNG image, if squama is built with --features png
+    #[arg(long)]
+    pub png: bool,
+
+    /// Resolution of images in dots per inch; 96 gives the size of the figure in pixels
+    #[arg(long, value_name = "DPI", default_value = "192", allow_hyphen_values = true)]
+    pub dpi: f64,
+
+    /// Omit the titles, for captions of your own
+    #[arg(long)]
+    pub no_title: bool,
+
+    /// Folder for the figures [default: a folder in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
 
 /// Dots per inch that an image may have.
 const DPI: RangeInclusive<f64> = 24.0..=2400.0;
 
-/// Names of the files that were written.
-#[derive(Debug, Default)]
-pub struct Written(Vec<String>);
+/// Figures on their way into a folder.
+pub struct FigureFiles<'a> {
+    folder: PathBuf,
+    output: &'a FigureOutput,
+    names: Vec<String>,
+}
 
-impl Written {
-    /// The names of the files.
-    pub fn names(&self) -> &[String] {
-        &self.0
+impl<'a> FigureFiles<'a> {
+    /// Makes the folder: that of `output`, or the default.
+    pub fn new(
+        output: &'a FigureOutput,
+        default: impl FnOnce() -> PathBuf,
+    ) -> anyhow::Result<Self> {
+        let folder = output.out.clone().unwrap_or_else(default);
+        results::make_folder(&folder)?;
+        Ok(Self { folder, output, names: Vec::new() })
     }
 
-    /// A line for each file that was written, for people.
-    pub fn report(&self, folder: &Path) -> String {
-        let line = |file: &String| format!("{}\n", folder.join(file).display());
-        self.0.iter().map(line).collect()
+    /// Writes a drawing, with its image if there is to be one.
+    pub fn svg(&mut self, name: &str, svg: &str) -> anyhow::Result<()> {
+        let output = self.output;
+        let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
+        // An image that cannot be made leaves no drawing without it.
+        let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
+        self.write(format!("{name}.svg"), svg.as_bytes())?;
+        image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
+    }
+
+    /// Writes a page.
+    pub fn html(&mut self, name: &str, page: &str) -> anyhow::Result<()> {
+        self.write(format!("{name}.html"), page.as_bytes())
+    }
+
+    fn write(&mut self, name: String, bytes: &[u8]) -> anyhow::Result<()> {
+        write(&self.folder, &name, bytes)?;
+        self.names.push(name);
+        Ok(())
+    }
+
+    /// Notes in a folder of results that the figures are made from its tables.
+    pub fn note(&self, results: &VerifiedFolder) -> anyhow::Result<()> {
+        derived::note(results, "figures", &self.folder, &self.names)
+    }
+
+    /// Prints a line for each file.
+    pub fn print(&self) -> io::Result<()> {
+        let line = |name: &String| format!("{}\n", self.folder.join(name).display());
+        print(&self.names.iter().map(line).collect::<String>())
     }
 }
 
@@ -59,23 +116,6 @@ pub fn check_dpi(output: &FigureOutput) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Writes a drawing as `output` asks for, with its image if there is to be one.
-pub fn write_svg(
-    folder: &Path,
-    name: &str,
-    svg: &str,
-    output: &FigureOutput,
-    files: &mut Written,
-) -> anyhow::Result<()> {
-    let svg = if output.no_title { Cow::Owned(report::untitled(svg)) } else { Cow::Borrowed(svg) };
-    let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
-    write(folder, format!("{name}.svg"), svg.as_bytes(), files)?;
-    match image {
-        Some(image) => write(folder, format!("{name}.png"), &image, files),
-        None => Ok(()),
-    }
-}
-
 #[cfg(feature = "png")]
 fn image(svg: &str, dpi: f64) -> anyhow::Result<Vec<u8>> {
     Ok(report::png(svg, dpi)?)
@@ -84,27 +124,17 @@ fn image(svg: &str, dpi: f64) -> anyhow::Result<Vec<u8>> {
 #[cfg(not(feature = "png"))]
 fn image(_: &str, _: f64) -> anyhow::Result<Vec<u8>> {
     anyhow::bail!(
-        "--png: this squama was built without images, expected one that is built with them: \
+        "--png: this squama was built without images; build it with them: \
          cargo run --release --features png -- followed by the same arguments"
     )
 }
 
-/// Writes a page.
-pub fn write_html(
-    folder: &Path,
-    name: &str,
-    page: &str,
-    files: &mut Written,
-) -> anyhow::Result<()> {
-    write(folder, format!("{name}.html"), page.as_bytes(), files)
-}
-
-fn write(folder: &Path, name: String, bytes: &[u8], files: &mut Written) -> anyhow::Result<()> {
-    let mut file = AtomicFile::create(folder, &name)?;
+/// Writes a file, whole or not at all.
+pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+    let mut file = AtomicFile::create(folder, name)?;
     let written = file.write_all(bytes);
     written.with_context(|| format!("{}: cannot be written", file.path().display()))?;
     file.finish()?;
-    files.0.push(name);
     Ok(())
 }
 

@@ -1,17 +1,32 @@
 //! `squama man`.
 
-use clap::{Command, CommandFactory as _};
+use std::path::PathBuf;
+
+use clap::{Args, Command, CommandFactory as _};
 use clap_mangen::Man;
 
-use super::DONE;
-use crate::args::{Arguments, ManArguments};
+use super::{Arguments as Squama, DONE};
 use crate::print::{counted, print};
 
+/// Arguments of `squama man`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama man ~/.local/share/man/man1
+
+Writes squama.1 and a page for each command, e.g. squama-run.1.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Folder for the pages
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
 /// Writes a manual page for each command.
-pub fn man(arguments: &ManArguments) -> anyhow::Result<u8> {
+pub fn man(arguments: &Arguments) -> anyhow::Result<u8> {
     let folder = &arguments.folder;
     results::make_folder(folder)?;
-    let mut squama = Arguments::command().disable_help_subcommand(true);
+    let mut squama = Squama::command().disable_help_subcommand(true);
     squama.build();
     let pages = pages(&squama, "squama");
     for (name, command) in &pages {

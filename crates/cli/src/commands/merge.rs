@@ -1,17 +1,47 @@
 //! `squama merge`.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+use clap::Args;
 
 use super::run::{conclude, summary};
+use super::work::Format;
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::print::{counted, print};
+
+/// Arguments of `squama merge`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama merge results/paper/shards/* --out results/paper
+
+Combines the results of shards; the tables are the same as those of a run without shards. Designs that
+are already in --out stay there, so merging again adds the new ones. Merging a folder into itself
+(squama merge DIR --out DIR) writes its tables again from its journal.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Folders of the shards
+    #[arg(value_name = "DIR", required = true)]
+    pub folders: Vec<PathBuf>,
+
+    /// Results folder of the combined sweep
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+
+    /// Print no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+
+    #[command(flatten)]
+    pub format: Format,
+}
 
 /// Runs of missing designs that are named before the list is cut short.
 const NAMED: usize = 20;
 
 /// Puts the shards of a sweep together.
-pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
+pub fn merge(arguments: &Arguments) -> anyhow::Result<u8> {
     let merged = run::merge(&arguments.folders, &arguments.out, arguments.format.csv, &PROGRAM)?;
     conclude(&arguments.out, &merged.finished);
     if !arguments.quiet {
@@ -22,7 +52,7 @@ pub fn merge(arguments: &args::MergeArguments) -> anyhow::Result<u8> {
     Ok(if complete { DONE } else { INCOMPLETE })
 }
 
-fn report(arguments: &args::MergeArguments, merged: &run::Merged) -> String {
+fn report(arguments: &Arguments, merged: &run::Merged) -> String {
     let folders = counted(arguments.folders.len() as u64, "folder");
     let added = counted(merged.added, "design");
     let name = merged.sweep.name();
@@ -35,6 +65,7 @@ fn missing(merged: &run::Merged) -> String {
     if merged.missing.is_empty() {
         return String::new();
     }
+    // The ranges count from 1, the grid from 0.
     let number = |number: u64| merged.sweep.grid().number(number - 1);
     let name = |range: &RangeInclusive<u64>| match (*range.start(), *range.end()) {
         (first, last) if first == last => number(first).to_string(),

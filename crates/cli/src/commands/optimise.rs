@@ -5,16 +5,17 @@ mod record;
 mod report;
 mod skins;
 
+use std::path::PathBuf;
 use std::time::Instant;
 
 use ::report::Figure;
+use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
 use results::RunFolder;
-use sweep::Setting;
 
-use super::source::folder_of;
+use super::source::{folder_of, settings};
+use super::work::{Earlier, Format, Threads};
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
@@ -23,20 +24,82 @@ use figures::figures;
 use record::record;
 use report::SearchReport;
 
+/// Arguments of `squama optimise`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama optimise sweeps/goals/strong-and-covered.toml
+  squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
+  squama optimise glove.toml --set goal.seed=1 --fresh
+  squama optimise glove.toml --resume
+
+A goal is a definition with two more sections. [variables] lists the parameters to search over: ranges, such
+as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
+the optimum, two to four give a Pareto front) and require, a list of constraints on columns. Every other
+parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
+sound = false, and counts both.
+One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
+[default: the paper's four, with equal weights]; rescale = { coverage = [0, 0.9] } gives the worst and the best
+value of a criterion [default: those of the sample].
+With a [tolerance] section (see squama tolerance), the goal may also name statistics over samples: quantiles, such
+as critical_force_p05 (or _p50, _p95), and yield, the share of samples that meet all constraints on columns and do
+not fold (unless sound = false), as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. The search solves
+skins = 200 samples of each design, with the same deviations for all, and five times as many near the best.
+Finally it solves 1000 new samples of the best, and shows their statistics beside those that the search saw.
+The search first solves samples = 1024 designs that fill the space; a front has points = 30 designs; seed = 0
+selects the random numbers.
+Writes optimum.csv and optimum.toml, the definition of the best design, or front.csv; history.csv with every
+design of the search; and evaluations.jsonl, from which --resume continues. The results do not depend on the
+number of threads.
+Exit code: 0 done, 1 no design meets the constraints, or the new samples of the best do not, 2 bad input or
+a disk error, 130, 143 or 129 ended by SIGINT, SIGTERM or SIGHUP.")]
+pub struct Arguments {
+    /// Goal in TOML
+    #[arg(value_name = "GOAL.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the goal, e.g. goal.seed=1 (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Results folder [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub earlier: Earlier,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Show no progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub format: Format,
+}
+
 /// Finds the best designs of a goal and writes them down.
-pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let settings = arguments.settings.iter().map(|text| Setting::parse(text));
-    let settings: Vec<Setting> = settings.collect::<Result<_, _>>()?;
-    let goal = DesignGoal::read(&arguments.path, &settings)?;
+pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+    let goal = DesignGoal::read(&arguments.path, &settings(&arguments.settings)?)?;
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
     interrupt.ask_first();
     let begun = Instant::now();
     let display = SearchDisplay::new(arguments.quiet, interrupt);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
+    // The bar goes before anything is printed.
     drop(display);
     let Some(found) = found else {
-        note(&format!("{}: what is solved so far is kept, --resume goes on", folder.display()));
+        note(&format!(
+            "{}: the designs solved so far are kept; --resume continues from them",
+            folder.display()
+        ));
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let written = RunFolder::new(&folder);
@@ -55,7 +118,7 @@ pub fn optimise(arguments: &args::OptimiseArguments, interrupt: &Interrupt) -> a
 }
 
 fn options<'i>(
-    arguments: &args::OptimiseArguments,
+    arguments: &Arguments,
     interrupt: &'i Interrupt,
     display: &'i SearchDisplay,
 ) -> SearchOptions<'i> {

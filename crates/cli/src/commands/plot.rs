@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
+use clap::{Args, Subcommand};
 use report::{DesignCurves, MapRequest, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
@@ -10,13 +11,103 @@ use skin::puncture::{self, Puncture};
 use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
-use super::figure_file::{Written, check_dpi, joined, write_svg};
+use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
 use super::results_folder::ResultsFolder;
-use super::selection::{SelectedDesign, select};
-use super::source::{folder_within, verified_folder};
-use super::{DONE, INCOMPLETE, derived};
-use crate::args;
-use crate::print::print;
+use super::selection::{SelectedDesign, Selection, select};
+use super::source::{Definition, Partial, folder_within, verified_folder};
+use super::{DONE, INCOMPLETE};
+
+/// Arguments of `squama plot`.
+#[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  squama plot results/paper
+  squama plot results/paper --png --out figures
+  squama plot curves sweeps/paper.toml --design 0417,0418
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force"
+)]
+pub struct Arguments {
+    /// Plot curves of designs or a map instead of the figures of a sweep
+    #[command(subcommand)]
+    pub what: Option<PlotWhat>,
+
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
+/// The subjects of `squama plot` besides a sweep.
+#[derive(Debug, Subcommand)]
+pub enum PlotWhat {
+    /// Plot force–displacement and moment–curvature curves, and the energies of designs
+    Curves(CurvesArguments),
+    /// Plot any column over any two parameters, with contours
+    Map(MapArguments),
+}
+
+/// Arguments of `squama plot map`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama plot map results/paper --x gap_over_t --y slant_deg --of critical_force
+  squama plot map results/paper --x gap_over_t --y slant_deg --of compliance --at length_over_t=0.1")]
+pub struct MapArguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Column of the parameter on the horizontal axis
+    #[arg(long, value_name = "COLUMN")]
+    pub x: String,
+
+    /// Column of the parameter on the vertical axis
+    #[arg(long, value_name = "COLUMN")]
+    pub y: String,
+
+    /// Column to plot, of numbers; the colours are logarithmic if its values span decades
+    #[arg(long, value_name = "COLUMN")]
+    pub of: String,
+
+    /// Fix another parameter (may be repeated); the others get a map for each of their values
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
+
+/// Arguments of `squama plot curves`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama plot curves sweeps/paper.toml --design 0417,0418
+  squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png
+  squama plot curves results/paper --gap 0.1 --length 1")]
+pub struct CurvesArguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    #[command(flatten)]
+    pub selection: Selection,
+
+    /// Follow punctures to this displacement u/t instead of the critical tilt
+    #[arg(long, value_name = "U", allow_hyphen_values = true)]
+    pub to: Option<f64>,
+
+    #[command(flatten)]
+    pub output: FigureOutput,
+}
 
 /// Largest step along a curve, as a fraction of the whole path.
 const CURVE_STEP: f64 = 0.004;
@@ -25,39 +116,32 @@ const CURVE_STEP: f64 = 0.004;
 const OF_PUNCTURES: [&str; 2] = ["force-displacement-curves", "puncture-energies"];
 
 /// Draws the figures of a sweep, or the curves of designs.
-pub fn plot(arguments: &args::PlotArguments) -> anyhow::Result<u8> {
+pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
     match (&arguments.what, &arguments.results) {
-        (Some(args::PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
-        (Some(args::PlotWhat::Map(arguments)), _) => plot_map(arguments),
+        (Some(PlotWhat::Curves(arguments)), _) => plot_curves(arguments),
+        (Some(PlotWhat::Map(arguments)), _) => plot_map(arguments),
         (None, Some(results)) => plot_results(results, arguments),
         (None, None) => bail!("nothing to plot, expected RESULTS or curves SWEEP.toml"),
     }
 }
 
-fn plot_results(results: &Path, arguments: &args::PlotArguments) -> anyhow::Result<u8> {
+fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
     )?;
-    let folder = figure_folder(&results, &arguments.output);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
     let ranking = results.comparable_ranking()?;
     for figure in figures(&results.title(), &results.designs, ranking.as_ref()) {
-        write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
+        files.svg(&figure.name, &figure.svg)?;
     }
-    derived::note(results.verified(), "figures", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    files.note(results.verified())?;
+    files.print()?;
     Ok(DONE)
 }
 
-/// The folder of the figures of a sweep.
-fn figure_folder(results: &ResultsFolder, output: &args::FigureOutput) -> PathBuf {
-    output.out.clone().unwrap_or_else(|| results.folder.join("figures"))
-}
-
-fn plot_map(arguments: &args::MapArguments) -> anyhow::Result<u8> {
+fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     let held = |text: &String| {
         let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
@@ -72,16 +156,14 @@ fn plot_map(arguments: &args::MapArguments) -> anyhow::Result<u8> {
     let request =
         MapRequest { x: arguments.x.clone(), y: arguments.y.clone(), of: arguments.of.clone(), at };
     let figure = map(&results.title(), &results.designs, &request)?;
-    let folder = figure_folder(&results, &arguments.output);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
-    write_svg(&folder, &figure.name, &figure.svg, &arguments.output, &mut files)?;
-    derived::note(results.verified(), "figures", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    let mut files = FigureFiles::new(&arguments.output, || results.folder.join("figures"))?;
+    files.svg(&figure.name, &figure.svg)?;
+    files.note(results.verified())?;
+    files.print()?;
     Ok(DONE)
 }
 
-fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
+fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     check_dpi(&arguments.output)?;
     check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;
@@ -99,9 +181,7 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
         .collect();
     let sweep = &designs[0].sweep;
     let folder = || folder_within(&arguments.definition, sweep, "curves");
-    let folder = arguments.output.out.clone().unwrap_or_else(folder);
-    results::make_folder(&folder)?;
-    let mut files = Written::default();
+    let mut files = FigureFiles::new(&arguments.output, folder)?;
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
     for figure in curves(sweep.name(), &shown) {
@@ -109,9 +189,9 @@ fn plot_curves(arguments: &args::CurvesArguments) -> anyhow::Result<u8> {
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
         let file = format!("{}{to}-of-{names}", figure.name);
-        write_svg(&folder, &file, &figure.svg, &arguments.output, &mut files)?;
+        files.svg(&file, &figure.svg)?;
     }
-    print(&files.report(&folder))?;
+    files.print()?;
     let failed = solved
         .iter()
         .any(|(puncture, flexure)| [puncture.status, flexure.status] != [Status::Complete; 2]);
@@ -129,6 +209,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
         puncture::snapshots(&case.design, &substrate, &common, &case.puncture, &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
+        // One point beyond, so that the line reaches the end.
         puncture.path.truncate(beyond.map_or(usize::MAX, |beyond| beyond + 1));
         let path = &puncture.path;
         puncture.events.retain(|event| path.contains(&event.point));
@@ -139,7 +220,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
 
 /// The number of a design, for a legend, which tells its geometry too; with the values in which it differs from the others besides.
 fn number(design: &SelectedDesign, cases: &[Case]) -> String {
-    let number = design.number.map_or("beside the grid".to_owned(), |number| number.to_string());
+    let number = design.number.map_or("off the grid".to_owned(), |number| number.to_string());
     let own = design.case();
     let differing = PARAMETERS.iter().filter(|parameter| {
         let is_told = ["gap_over_t", "length_over_t", "slant_deg"].contains(&parameter.key);

@@ -5,6 +5,7 @@ mod record;
 mod report;
 
 use anyhow::Context as _;
+use clap::Args;
 use ranking::{
     CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
     TetrahedralGrid, Unmet, Weights, check_comparable,
@@ -12,9 +13,9 @@ use ranking::{
 use results::columns::SOUND_FORCE;
 use results::{Results, RunFolder};
 
-use super::source::verified_folder;
+use super::source::{Partial, verified_folder};
+use super::work::whole;
 use super::{DONE, INCOMPLETE, derived};
-use crate::args;
 use crate::json;
 use crate::print::print;
 use gap_changes::{gap_changes, gap_changes_record};
@@ -22,13 +23,94 @@ use record::{ranking_record, unmet_record};
 use report::{RankReport, unmet_report};
 
 pub(super) use report::{distance, obstacle};
+use std::path::PathBuf;
+
+/// Arguments of `squama rank`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama rank results/paper
+  squama rank results/paper --weights 4,4,1,1 --top 20
+  squama rank results/paper --require 'coverage >= 0.6' --require 'penetration < 0.3'
+  squama rank results/paper --maximize critical_force --minimize gap_over_t
+  squama rank results/paper --criteria coverage,max:peak_force,min:sink --scale log
+  squama rank sweeps/paper.toml --json
+
+Ranks the designs that meet all requirements and have a value for every criterion. The criteria are those of
+the paper (coverage, critical force, penetration resistance, flexural compliance), those of --criteria, or
+those of --maximize and --minimize. The fitness of a design is the product of its criteria, each rescaled from
+0 (the worst) to 1 (the best) and raised to the power of its weight; with --scale linear or log it is their
+weighted mean. A criterion is ignored if its weight is 0, or if all designs have the same value but for
+round-off. Designs of equal fitness are listed in the order of their numbers.
+Writes ranking.csv (designs by fitness), pareto.csv (the Pareto front), ranking.toml (requirements, criteria
+and weights) and, with four criteria, winners.csv and quaternary.csv (the best design for all weights). If no
+design meets the requirements, shows the nearest design and the requirement that stands in the way.
+Exit code: 0 done, 1 no design meets the requirements, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Requirement: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    #[arg(long, value_name = "COLUMN OP NUMBER")]
+    pub require: Vec<String>,
+
+    /// Column to maximize (several give the Pareto front and its knee)
+    #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
+    pub maximize: Vec<String>,
+
+    /// Column to minimize (may be repeated)
+    #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
+    pub minimize: Vec<String>,
+
+    /// Criteria instead of the paper's: max:COLUMN, min:COLUMN, or COLUMN alone, if it has a default direction
+    #[arg(long, value_name = "CRITERION,…")]
+    pub criteria: Option<String>,
+
+    /// Weights of the criteria, in their order, --maximize before --minimize [default: equal]
+    ///
+    /// Weights are non-negative, and normalised to a sum of 1. The order of the paper's criteria is coverage, critical
+    /// force, penetration resistance, flexural compliance.
+    #[arg(long, value_name = "W,…", allow_hyphen_values = true)]
+    pub weights: Option<String>,
+
+    /// Scale of the criteria: paper, linear or log
+    #[arg(long, value_name = "SCALE", default_value = "paper")]
+    pub scale: String,
+
+    /// Rank by the largest force before the surface folds instead of the critical force
+    ///
+    /// Beyond a fold two bases have passed each other, and the model is no longer valid.
+    #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
+    pub sound: bool,
+
+    /// Number of designs to print
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<0, { u64::MAX }>)]
+    pub top: u64,
+
+    /// Number of steps along an edge of the tetrahedron of weights, 1 to 200
+    #[arg(long, value_name = "R", allow_hyphen_values = true, default_value = "20")]
+    pub resolution: String,
+
+    /// Folder for the tables [default: RESULTS]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
 
 /// Finds the best designs of a run and writes them down.
-pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
+pub fn rank(arguments: &Arguments) -> anyhow::Result<u8> {
     let preferences = preferences(arguments)?;
     let grid: TetrahedralGrid = option("--resolution", &arguments.resolution)?;
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = Results::read_from(&verified)?;
+    // Refused before anything is ranked: values that were measured in different ways have no order.
     check_comparable(&results, &preferences)?;
     match Ranking::by(&results, preferences.clone(), grid) {
         Ok(ranking) => ranked(arguments, &results, &ranking),
@@ -37,28 +119,25 @@ pub fn rank(arguments: &args::RankArguments) -> anyhow::Result<u8> {
     }
 }
 
-fn ranked(
-    arguments: &args::RankArguments,
-    results: &Results,
-    ranking: &Ranking<'_>,
-) -> anyhow::Result<u8> {
+fn ranked(arguments: &Arguments, results: &Results, ranking: &Ranking<'_>) -> anyhow::Result<u8> {
     let folder = arguments.out.as_deref().unwrap_or(results.folder());
     let files = ranking::write_ranking(folder, ranking)?;
     derived::note(results.verified_folder(), RunFolder::RANKING_RECORD, folder, &files)?;
     let changes = gap_changes(results, ranking);
     if arguments.json {
-        let mut record = ranking_record(results, ranking, arguments.top);
+        let mut record = ranking_record(results, ranking, arguments.top as usize);
         record["gap_changes"] = gap_changes_record(&changes).into();
         json::print(&record)?;
     } else {
-        let text = RankReport { results, ranking, top: arguments.top, changes: &changes }.text();
+        let text =
+            RankReport { results, ranking, top: arguments.top as usize, changes: &changes }.text();
         print(&format!("{text}\n{}: {}\n", folder.display(), files.join(" ")))?;
     }
     Ok(DONE)
 }
 
 fn none_meets(
-    arguments: &args::RankArguments,
+    arguments: &Arguments,
     results: &Results,
     preferences: &Preferences,
     unmet: &Unmet,
@@ -76,7 +155,7 @@ fn none_meets(
 }
 
 /// The preferences that the ranking goes by.
-fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
+fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     let require = |text: &String| option::<Requirement>("--require", text);
     let requirements = arguments.require.iter().map(require).collect::<anyhow::Result<_>>()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
@@ -90,7 +169,7 @@ fn preferences(arguments: &args::RankArguments) -> anyhow::Result<Preferences> {
 }
 
 /// The criteria that are asked for, or those of the paper.
-fn criteria(arguments: &args::RankArguments) -> anyhow::Result<Vec<Criterion>> {
+fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
         columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()

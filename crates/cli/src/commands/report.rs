@@ -4,6 +4,7 @@ mod front;
 
 use std::path::PathBuf;
 
+use clap::Args;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{GapFactors, Page, PageDesign, drawings};
@@ -14,12 +15,37 @@ use skin::{flexure, puncture};
 use sweep::Case;
 
 use super::draw::substrate;
-use super::figure_file::{Written, write_html};
+use super::figure_file::write;
 use super::results_folder::ResultsFolder;
-use super::source::{require_folder_of, verified_folder};
+use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derived};
-use crate::args;
 use crate::print::print;
+
+/// Arguments of `squama report`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama report results/paper
+  squama report results/paper --out paper.html
+  squama report results/paper --front results/front      # and the designs that squama optimise found
+
+Open the page in a browser; it needs no network and no server.")]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Page to write [default: RESULTS/report.html]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+
+    /// Results folder of squama optimise, whose designs are shown beside those of the grid
+    #[arg(long, value_name = "DIR")]
+    pub front: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub partial: Partial,
+}
 
 /// Designs that a page holds, about, at most: a browser takes no more.
 const HELD: usize = 25_000;
@@ -34,7 +60,7 @@ const CURVE_STEP: f64 = 0.01;
 const ROOM: usize = 1_500_000;
 
 /// Writes the page of a sweep.
-pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
+pub fn report(arguments: &Arguments) -> anyhow::Result<u8> {
     let verified = verified_folder(&arguments.results, arguments.partial.completeness())?;
     let results = ResultsFolder::read(&verified, HELD)?;
     let out: PathBuf = arguments.out.clone().unwrap_or_else(|| results.folder.join("report.html"));
@@ -42,12 +68,13 @@ pub fn report(arguments: &args::ReportArguments) -> anyhow::Result<u8> {
     let front = arguments.front.as_deref().map(|folder| front::front(folder, &results));
     let page = Page { front: front.transpose()?, ..page(&results)? };
     let folder = out.parent().map_or_else(PathBuf::new, PathBuf::from);
-    let name =
-        out.file_stem().map_or_else(|| "report".to_owned(), |n| n.to_string_lossy().into_owned());
-    let mut files = Written::default();
-    write_html(&folder, &name, &page.html(), &mut files)?;
-    derived::note(results.verified(), "page", &folder, files.names())?;
-    print(&files.report(&folder))?;
+    let name = out.with_extension("html");
+    let name = name.file_name().unwrap_or_default().to_string_lossy();
+    // A page of some megabytes that a kill has left half-written goes with the next one.
+    results::make_folder(&folder)?;
+    write(&folder, &name, page.html().as_bytes())?;
+    derived::note(results.verified(), "page", &folder, &[&name])?;
+    print(&format!("{}\n", folder.join(&*name).display()))?;
     Ok(DONE)
 }
 
@@ -101,6 +128,7 @@ fn opening(preferences: &Preferences) -> String {
 fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> {
     let mut groups: Vec<_> = rankings.iter().map(|ranking| leading(ranking).into_iter()).collect();
     let mut rows: Vec<usize> = Vec::new();
+    // In turns, so that no group of designs takes all the room.
     while rows.len() < SOLVED && !groups.is_empty() {
         groups.retain_mut(|group| {
             group.next().is_some_and(|row| {
@@ -115,6 +143,7 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
     let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
     let mut room = ROOM;
     for design in &mut all {
+        // The best come first: where the room ends, the others keep their curves.
         room = room.saturating_sub(design.svg.len());
         if room == 0 {
             design.svg.clear();

@@ -1,27 +1,75 @@
 //! `squama rerun`.
 
+use std::path::PathBuf;
+
+use clap::Args;
 use run::{Filter, Rerun};
-use sweep::Setting;
 
 use super::run::{conclude, exit_code, options, summary};
-use super::source::results_folder;
+use super::source::{results_folder, settings};
+use super::work::{Format, Work};
 use super::{DONE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
 use crate::progress::ProgressDisplay;
+
+/// Arguments of `squama rerun`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama rerun results/paper --failed --dry-run
+  squama rerun results/paper --failed --set solver.max_step=0.01
+  squama rerun results/paper --design 0417,0533 --set puncture.scales=801
+  squama rerun results/paper --where slant_deg=75 --where 'puncture_status=row limit'
+
+Replaces the rows of these designs in every table. The column `settings` then shows what --set changed;
+without --set the designs are solved with the sweep's own settings, and it is empty. reruns.csv lists
+the values that changed.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
+#[command(group(clap::ArgGroup::new("which").required(true).multiple(true)))]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Select the designs that lack a value
+    #[arg(long, group = "which")]
+    pub failed: bool,
+
+    /// Select designs by their numbers, e.g. 0417 or 1-12,0417
+    #[arg(long = "design", value_name = "NUMBERS", group = "which", value_delimiter = ',')]
+    pub numbers: Option<Vec<String>>,
+
+    /// Select designs by a value in designs.csv (may be repeated: all must hold)
+    #[arg(long = "where", value_name = "COLUMN=VALUE", group = "which")]
+    pub conditions: Vec<run::ColumnFilter>,
+
+    /// Set a key of the definition for these designs, e.g. `solver.max_step=0.01` (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Show what would be solved, and solve nothing
+    #[arg(long)]
+    pub dry_run: bool,
+
+    #[command(flatten)]
+    pub work: Work,
+
+    #[command(flatten)]
+    pub format: Format,
+}
 
 /// Designs that are named before the list is cut short.
 const NAMED: usize = 20;
 
 /// Solves some designs of a run again.
-pub fn rerun(arguments: &args::RerunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let settings = arguments.settings.iter().map(|text| Setting::parse(text));
-    let settings = settings.collect::<Result<Vec<_>, _>>()?;
+pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+    let settings = settings(&arguments.settings)?;
     let folder = results_folder(&arguments.results)?;
     let rerun = Rerun::plan(&folder, &filter(arguments), &settings, &PROGRAM)?;
     if rerun.designs().len() == 0 {
-        print(&format!("{}: no design is as asked, nothing is solved again\n", folder.display()))?;
+        print(&format!("{}: no design matches, so nothing is solved again\n", folder.display()))?;
         return Ok(DONE);
     }
     if arguments.dry_run {
@@ -44,7 +92,7 @@ pub fn rerun(arguments: &args::RerunArguments, interrupt: &Interrupt) -> anyhow:
     Ok(exit_code(&finished, interrupt))
 }
 
-fn filter(arguments: &args::RerunArguments) -> Filter {
+fn filter(arguments: &Arguments) -> Filter {
     Filter {
         failed: arguments.failed,
         numbers: arguments.numbers.clone(),

@@ -35,7 +35,7 @@ impl ResultsFolder {
         let name = self.sweep.name();
         let held = self.verified().shortfall();
         let (shown, all) = (self.results.len(), self.results.in_table());
-        let shown = (shown < all).then(|| format!("shown: {shown} of {all} designs, at equal distances, and the best by each criterion"));
+        let shown = (shown < all).then(|| format!("showing {shown} of {all} designs: evenly spaced ones, and the best by each criterion"));
         let remarks: Vec<_> = held.into_iter().chain(shown).collect();
         if remarks.is_empty() {
             name.to_owned()

@@ -2,25 +2,104 @@
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::time::Duration;
 
+use clap::Args;
 use results::columns::{FOLD_FORCE, SOUND_FORCE};
 use results::{Completeness, VerifiedFolder};
 use run::{Best, Finished, Options};
 use sweep::{RandomSample, Subset, Sweep};
 
-use super::source::{folder_of, read};
+use super::source::{Definition, folder_of, read};
+use super::work::{Earlier, Format, Work, whole};
 use super::{DONE, INCOMPLETE, PROGRAM, audit};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print, time};
 use crate::progress::ProgressDisplay;
+
+/// A part of the designs.
+#[derive(Clone, Copy, Debug)]
+pub struct Share(pub f64);
+
+impl FromStr for Share {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let share = text.parse().ok().filter(|share| *share > 0.0 && *share <= 1.0);
+        share.map(Self).ok_or_else(|| {
+            format!("{text} is out of range, expected a number above 0 and at most 1")
+        })
+    }
+}
+
+/// Arguments of `squama run`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama run sweeps/paper.toml
+  squama run sweeps/paper.toml --resume
+  squama run sweeps/paper.toml --set puncture.scales=41 --out results/short-rows
+  squama run sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]' --set name=exponent
+  squama run sweeps/paper.toml --sample 100 --seed 7 --out results/sample
+  squama run sweeps/paper.toml --shard 3/8
+
+Writes designs.csv, a table for each measure, failures.csv and run.toml. A journal records every design as
+soon as it is solved, so that --resume can continue an interrupted run. The tables do not depend on the
+number of threads or on interruptions. contents.toml is written last and lists the tables with their
+checksums, which every command that reads the folder verifies. The first SIGINT, SIGTERM or SIGHUP ends the
+run after the designs in progress; a second one, at least a second later, ends it at once.
+Exit code: 0 done, 1 some designs failed or are missing, 2 bad input or a disk error, 130, 143 or 129 ended by
+SIGINT, SIGTERM or SIGHUP.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Results folder; missing parent folders are created [default: results/NAME, or results/NAME/shards/i-of-N]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub earlier: Earlier,
+
+    /// Solve a random subset of this many designs
+    #[arg(long, allow_hyphen_values = true, value_name = "DESIGNS", value_parser = whole::<1, { u64::MAX }>)]
+    pub sample: Option<u64>,
+
+    /// Seed of the random subset; the same seed gives the same designs
+    #[arg(
+        long,
+        allow_hyphen_values = true,
+        value_name = "SEED",
+        requires = "sample",
+        default_value_t = 0,
+        value_parser = whole::<0, { u64::MAX }>
+    )]
+    pub seed: u64,
+
+    /// Solve one shard: every N-th design, starting with the i-th
+    #[arg(long, value_name = "i/N")]
+    pub shard: Option<sweep::Shard>,
+
+    /// Solve this share of the designs again by a second method, and show the differences
+    ///
+    /// The second method takes steps a tenth as large, and solves a strip as a chain of all its gaps. A relative difference
+    /// above 1e-6, or a different status, gives exit code 1.
+    #[arg(long, value_name = "SHARE")]
+    pub audit: Option<Share>,
+
+    #[command(flatten)]
+    pub work: Work,
+
+    #[command(flatten)]
+    pub format: Format,
+}
 
 /// How often the tables are written while a run goes on.
 const TABLES_EVERY: Duration = Duration::from_secs(30);
 
 /// Solves every design that is not done and writes the tables.
-pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     let folder = folder(arguments, &sweep);
     note_variables(&sweep);
@@ -32,6 +111,7 @@ pub fn run(arguments: &args::RunArguments, interrupt: &Interrupt) -> anyhow::Res
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     let threads = options.threads;
     let finished = finished?;
+    // Whoever ends a run does not wait for its audit.
     let audited = arguments.audit.filter(|_| interrupt.exit_code().is_none());
     let audited = audited.map(|share| run::Audit::of(&folder, share.0, &options)).transpose()?;
     drop(display);
@@ -50,7 +130,7 @@ fn note_variables(sweep: &Sweep) {
     let keys: Vec<_> = sweep.variables().iter().map(|v| v.parameter().key).collect();
     if !keys.is_empty() {
         note(&format!(
-            "[variables] {} stand in the middle of their values; squama optimise and squama sensitivity --global go through them",
+            "the [variables] {} keep the middle of their values; squama optimise and squama sensitivity vary them",
             keys.join(", ")
         ));
     }
@@ -62,16 +142,17 @@ pub(super) fn conclude(folder: &Path, finished: &Finished) {
     for text in &finished.notes {
         note(text);
     }
+    // Partial, because an interrupted run leaves products out of date, too.
     let verified = VerifiedFolder::open(folder, Completeness::Partial);
     for made in verified.iter().flat_map(VerifiedFolder::outdated) {
         note(&format!(
-            "{} is made from earlier tables; {} makes it again",
+            "{} was made from earlier tables; {} makes it again",
             made.product, made.command
         ));
     }
 }
 
-fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {
+fn folder(arguments: &Arguments, sweep: &Sweep) -> PathBuf {
     let folder = folder_of(sweep, arguments.out.as_deref());
     match &arguments.shard {
         Some(shard) if arguments.out.is_none() => {
@@ -81,15 +162,15 @@ fn folder(arguments: &args::RunArguments, sweep: &Sweep) -> PathBuf {
     }
 }
 
-fn subset(arguments: &args::RunArguments) -> Subset {
+fn subset(arguments: &Arguments) -> Subset {
     let sample = arguments.sample.map(|designs| RandomSample { designs, seed: arguments.seed });
     Subset { sample, shard: arguments.shard }
 }
 
 /// How designs are solved, as the arguments have it.
 pub(super) fn options<'i>(
-    work: &args::Work,
-    format: &args::Format,
+    work: &Work,
+    format: &Format,
     interrupt: &'i Interrupt,
     display: &'i ProgressDisplay,
 ) -> Options<'i> {
@@ -116,7 +197,7 @@ pub(super) fn summary(name: &str, folder: &Path, threads: usize, finished: &Fini
     let mut rows = Vec::new();
     if finished.missing > 0 {
         let missing = counted(finished.missing, "design");
-        rows.push(["missing".to_owned(), format!("{missing}, --resume goes on")]);
+        rows.push(["missing".to_owned(), format!("{missing}; --resume solves them")]);
     }
     rows.extend(status_rows(finished));
     rows.extend(folded_row(finished));
@@ -145,8 +226,7 @@ fn folded_row(finished: &Finished) -> Option<[String; 2]> {
 fn best_rows(finished: &Finished) -> impl Iterator<Item = [String; 2]> {
     let row = |Best { what, leader, apart }: Best| {
         if let Some(parameter) = apart {
-            let text =
-                format!("not told: designs of different {parameter} cannot be compared by it");
+            let text = format!("not comparable between designs of different {parameter}");
             return [what.to_owned(), text];
         }
         let ties = match leader.ties {

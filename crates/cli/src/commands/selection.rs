@@ -1,12 +1,34 @@
 //! The designs that a command looks at: by their numbers, or by their values.
 
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use anyhow::{Context as _, ensure};
-use sweep::{Axis, Case, DesignNumber, Setting, Sweep};
+use clap::Args;
+use sweep::{Axis, Case, DesignNumber, Grid, Setting, Sweep};
 
-use super::source::{definition_file, settings};
-use crate::args;
+use super::source::{Definition, definition_file, settings};
+
+/// Numbers of designs, or their values.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = true)]
+pub struct Selection {
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417
+    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
+    pub numbers: Vec<String>,
+
+    /// Gap d/t: one value, several (0.1,0.2), or all values of the sweep in a range (0.1..0.3)
+    #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
+    pub gap: Option<String>,
+
+    /// Length L/t, in the same forms as --gap
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub length: Option<String>,
+
+    /// Slant in degrees, in the same forms as --gap
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub slant: Option<String>,
+}
 
 /// A design that is looked at.
 pub struct SelectedDesign {
@@ -22,11 +44,11 @@ pub struct SelectedDesign {
 
 /// The designs that are selected, at least one.
 pub fn select(
-    definition: &args::Definition,
-    selection: &args::Selection,
+    definition: &Definition,
+    selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let file = definition_file(&definition.path)?;
-    let settings = settings(definition)?;
+    let settings = settings(&definition.settings)?;
     if selection.numbers.is_empty() {
         by_values(&file, settings, selection)
     } else {
@@ -41,30 +63,40 @@ fn by_numbers(
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let sweep = Sweep::read(file, settings)?;
     let grid = sweep.grid();
+    // Settings that change the number of designs leave no design to compare with.
     let original = Sweep::read(file, &[]).ok().filter(|other| other.grid().len() == grid.len());
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{}: --design {text}", file.display()))
-    };
-    let ranges = numbers.iter().map(range).collect::<anyhow::Result<Vec<_>>>()?;
     let selected = |index| SelectedDesign {
         number: Some(grid.number(index)),
         count: grid.len(),
         original: original.as_ref().map(|original| original.grid().case(index)),
         sweep: sweep.only(index),
     };
-    Ok(ranges.into_iter().flatten().map(selected).collect())
+    Ok(ranges(grid, numbers, file)?.into_iter().flatten().map(selected).collect())
+}
+
+/// The indices of the designs with these numbers in the grid of `file`, as ranges.
+pub fn ranges(
+    grid: &Grid,
+    numbers: &[String],
+    file: &Path,
+) -> anyhow::Result<Vec<RangeInclusive<u64>>> {
+    let range = |text: &String| {
+        let range = grid.parse_numbers(text.trim());
+        range.with_context(|| format!("{}: --design {text}", file.display()))
+    };
+    numbers.iter().map(range).collect()
 }
 
 fn by_values(
     file: &Path,
     mut settings: Vec<Setting>,
-    selection: &args::Selection,
+    selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let written = Sweep::read(file, &settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         let option = format!("{option} {text}");
+        // A range selects among the values as they are written, because the option takes the place of their axis.
         let values = values(text, written.grid().axis(key)).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
@@ -75,7 +107,7 @@ fn by_values(
 }
 
 /// The options that give values, each with the axis whose values they are.
-fn options(selection: &args::Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
+fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&String>); 3] {
     [
         ("--gap", "gap_over_t", selection.gap.as_ref()),
         ("--length", "length_over_t", selection.length.as_ref()),
@@ -86,6 +118,7 @@ fn options(selection: &args::Selection) -> [(&'static str, &'static str, Option<
 /// The values that `text` gives, in TOML: one, several with commas between, or with `..` those of `axis` from one to another.
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
+        // What is TOML already, such as { from = 0.1, to = 1 }, is left as it is.
         let is_list = text.contains(',') && !text.trim_start().starts_with(['[', '{']);
         return Ok(if is_list { format!("[{text}]") } else { text.to_owned() });
     };
@@ -96,7 +129,11 @@ fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let within = axis.iter().filter(|value| value.number().is_some_and(|n| bounds.contains(&n)));
     let values: Vec<_> = within.map(|value| value.to_toml()).collect();
     let all: Vec<_> = axis.iter().map(ToString::to_string).collect();
-    ensure!(!values.is_empty(), "the sweep has no such value, expected some of {}", all.join(" "));
+    ensure!(
+        !values.is_empty(),
+        "the sweep has no value in this range, expected some of {}",
+        all.join(" ")
+    );
     Ok(format!("[{}]", values.join(", ")))
 }
 

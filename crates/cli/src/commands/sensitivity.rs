@@ -1,9 +1,10 @@
 //! `squama sensitivity`.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::Args;
 use results::{Claim, CsvFormat, MEASURE_TABLES, Maker, RunFolder, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
@@ -12,21 +13,57 @@ use tolerance::{
     SampleStore, SobolIndices,
 };
 
-use super::source::{folder_within, read};
+use super::source::{Definition, folder_within, read};
 use super::tolerance::{SAMPLES, unless_stopped};
+use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{aligned, counted, print};
 
+/// Arguments of `squama sensitivity`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama sensitivity box.toml
+  squama sensitivity box.toml --samples 4000 --json
+
+Varies the parameters in [variables], such as gap_over_t = { from = 0.1, to = 1 } or length_over_t = [0.5, 1],
+independently and uniformly; all other parameters keep their values. Shows the share of the variance of each
+measure that is due to each variable, alone (first-order Sobol' index) and together with others (total index),
+with 95 % intervals. A sample solves two designs more than there are variables. A sample in which any of them
+fails is left out, and counted.
+Writes sobol.csv, and samples/, from which the same command continues after an interruption.
+For derivatives at one design, use squama design --sensitivity.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    // Scripts of earlier versions say it.
+    #[arg(long = "global", hide = true)]
+    _global: bool,
+
+    /// Number of samples
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<2, 1_000_000>)]
+    pub samples: u64,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Folder for the table [default: sensitivity in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
 const TABLE: &str = "sobol.csv";
 
 /// Says which part of the variance of each measure every variable has.
-pub fn sensitivity(
-    arguments: &args::SensitivityArguments,
-    interrupt: &Interrupt,
-) -> anyhow::Result<u8> {
+pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
     let default = || folder_within(&arguments.definition, &sweep, "sensitivity");
@@ -58,13 +95,13 @@ fn check(sweep: &Sweep, path: &Path) -> anyhow::Result<()> {
     let path = path.display();
     ensure!(
         !sweep.variables().is_empty(),
-        "{path}: has no [variables], expected some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
+        "{path}: has no [variables]; add some, e.g. gap_over_t = {{ from = 0.1, to = 1 }}"
     );
     let several = sweep.grid().axes().iter().filter(|axis| axis.len() > 1);
     let several: Vec<_> = several.map(|axis| axis.parameter().key).collect();
     ensure!(
         several.is_empty(),
-        "{path}: {} designs besides the variables, expected one: give one value, or [variables], for {}",
+        "{path}: {} designs besides the variables; give one value, or [variables], for {}",
         sweep.grid().len(),
         several.join(" ")
     );
@@ -85,6 +122,7 @@ fn report(sweep: &Sweep, found: &GlobalSensitivity, samples: usize) -> String {
     let points = samples * (found.variables.len() + 2);
     let samples = counted(samples as u64, "sample");
     let mut text = format!("{}: {samples}, {points} designs\n", sweep.name());
+    // People see the leading measures; the table has all.
     let is_shown = |m: &&MeasureIndices| MEASURE_TABLES.iter().any(|(table, _)| *table == m.name);
     for measure in found.measures.iter().filter(is_shown) {
         let failed = match measure.failed {

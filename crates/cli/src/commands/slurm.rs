@@ -1,15 +1,40 @@
 //! `squama slurm`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
+use clap::Args;
 use results::{make_folder, quoted, shell_word, write_text};
 use sweep::Sweep;
 
 use super::DONE;
-use super::source::{folder_of, read};
-use crate::args;
+use super::source::{Definition, folder_of, read};
+use super::work::whole;
 use crate::print::print;
+
+/// Arguments of `squama slurm`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama slurm sweeps/paper.toml --shards 20
+  results/paper/slurm/submit.sh --time=12:00:00 --cpus-per-task=4
+
+Writes submit.sh and the complete definition to DIR/slurm. submit.sh submits a job array with one element for
+each shard, and a job that merges the shards. Shards write to DIR/shards, the merged sweep to DIR. If they
+are submitted again, shards continue where they ended. The folder may be moved.
+Exit code: 0 done, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Number of shards, 1 to 1000: the elements of the job array
+    #[arg(long, allow_hyphen_values = true, value_name = "N", value_parser = whole::<0, { u64::MAX }>)]
+    pub shards: u64,
+
+    /// Results folder [default: results/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
 
 /// The scripts, which are the same for every sweep.
 const SCRIPTS: [(&str, &str); 3] = [
@@ -23,7 +48,7 @@ const SCRIPTS: [(&str, &str); 3] = [
 const LARGEST: u64 = 1000;
 
 /// Writes the scripts that run a sweep as a job array.
-pub fn slurm(arguments: &args::SlurmArguments) -> anyhow::Result<u8> {
+pub fn slurm(arguments: &Arguments) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments.shards, &sweep)?;
     let results = folder_of(&sweep, arguments.out.as_deref());

@@ -1,34 +1,65 @@
 //! A definition and the folder of its results: whichever of the two is given, the other is found.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::Args;
 use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep};
 
-use crate::args::Definition;
+/// Whether results are used that are not whole.
+#[derive(Debug, Args)]
+pub struct Partial {
+    /// Use an incomplete run; outputs state how many designs they are made from
+    #[arg(long)]
+    pub partial: bool,
+}
+
+impl Partial {
+    /// The results that will do.
+    pub fn completeness(&self) -> Completeness {
+        if self.partial { Completeness::Partial } else { Completeness::Whole }
+    }
+}
+
+/// A definition and what is put in its place.
+#[derive(Debug, Args)]
+pub struct Definition {
+    /// Definition of a sweep in TOML, or a results folder
+    #[arg(value_name = "SWEEP.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the definition, e.g. puncture.scales=41 (may be repeated)
+    ///
+    /// The key is dotted, the value is TOML; a single word needs no quotes. A parameter under
+    /// `designs` becomes an axis of the grid, e.g. `designs.width_over_t=[1,2]`.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+}
 
 /// The settings that take the place of what a definition says.
-pub fn settings(definition: &Definition) -> Result<Vec<Setting>, InvalidSetting> {
-    definition.settings.iter().map(|text| Setting::parse(text)).collect()
+pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
+    texts.iter().map(|text| Setting::parse(text)).collect()
 }
 
 /// The sweep that is defined, with its settings.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
-    let settings = settings(definition)?;
+    let settings = settings(&definition.settings)?;
     Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
 }
 
 /// The file of the definition, which is as it was written if a run has written it: `path`, or the record of the run in the folder `path`.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
+        // A run.toml that was edited is no longer the record of its run.
         verify_record(path)?;
         return Ok(path.to_owned());
     }
     let record = path.join(RunFolder::RUN_INFO);
     ensure!(
         record.is_file(),
-        "{}: holds no {}, expected a sweep definition in TOML or the folder of a run",
+        "{}: holds no {}, expected a definition in TOML or a results folder",
         path.display(),
         RunFolder::RUN_INFO
     );
@@ -39,6 +70,8 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
 /// The folder of results: `path`, the folder of the record `path`, or that of the sweep that `path` defines.
 pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_file() {
+        // A folder that does not exist is refused where its files are opened, by the name of what is missing.
+        refuse_folder_of_runs(path)?;
         return Ok(path.to_owned());
     }
     if path.ends_with(RunFolder::RUN_INFO) {
@@ -47,11 +80,30 @@ pub fn results_folder(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = folder_of(&Sweep::read(path, &[])?, None);
     ensure!(
         folder.is_dir(),
-        "{}: there are no results in {}, expected those of squama run {0}, or the folder of a run",
+        "{}: there are no results in {}; squama run {0} writes them",
         path.display(),
         folder.display()
     );
     Ok(folder)
+}
+
+/// Refuses a folder that holds runs but is none, and names them.
+fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
+    // A run that has only begun has a journal, but no record yet.
+    let is_run = |folder: &Path| {
+        [RunFolder::RUN_INFO, RunFolder::JOURNAL].iter().any(|file| folder.join(file).is_file())
+    };
+    if is_run(path) {
+        return Ok(());
+    }
+    let folders = fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path());
+    let runs = folders.filter(|folder| is_run(folder));
+    let mut names: Vec<_> =
+        runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
+    names.sort();
+    let folder = path.display();
+    ensure!(names.is_empty(), "{folder} holds no run; the runs in it are {}", names.join(", "));
+    Ok(())
 }
 
 /// The results in the folder that `path` stands for, once they are checked.
@@ -77,7 +129,7 @@ pub fn require_folder_of(option: &str, file: &Path) -> anyhow::Result<()> {
     let folder = folder.unwrap_or(Path::new("."));
     ensure!(
         folder.is_dir(),
-        "{option} {}: there is no folder {}, expected one that exists",
+        "{option} {}: there is no folder {}",
         file.display(),
         folder.display()
     );

@@ -1,18 +1,39 @@
 //! `squama status`.
 
+use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::Args;
 use serde_json::{Value, json};
 use sweep::DesignNumber;
 
 use super::source::results_folder;
 use super::{DONE, INCOMPLETE};
-use crate::args;
 use crate::json;
 use crate::print::{aligned, counted, print, time};
 
+/// Arguments of `squama status`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama status results/paper
+  squama status results/paper --json
+
+Works while the run is going on. Verifies the checksum of every table, and lists the rankings, figures and
+pages that were made from tables which have changed since.
+Exit code: 0 done, 1 some designs failed or are missing, or a table was changed, 2 bad input.")]
+pub struct Arguments {
+    /// Results folder of a run, or its definition
+    #[arg(value_name = "RESULTS")]
+    pub results: PathBuf,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// Says how far a run is.
-pub fn status(arguments: &args::StatusArguments) -> anyhow::Result<u8> {
+pub fn status(arguments: &Arguments) -> anyhow::Result<u8> {
     let status = run::RunStatus::of(&results_folder(&arguments.results)?)?;
     if arguments.json {
         json::print(&as_json(&status))?;
@@ -47,7 +68,7 @@ fn report(status: &run::RunStatus) -> String {
 /// The faults of the files of the run.
 fn problems(status: &run::RunStatus) -> String {
     let rows = status.problems.iter().map(|problem| [problem.clone()]);
-    titled("what is wrong", &rows.collect::<Vec<_>>())
+    titled("problems", &rows.collect::<Vec<_>>())
 }
 
 /// Products of tables that are no longer there, and the commands that make them again.

@@ -6,11 +6,12 @@ mod report;
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 use anyhow::{Context as _, ensure};
+use clap::Args;
 use ranking::Requirement;
 use rayon::prelude::*;
-
 use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
@@ -18,12 +19,60 @@ use tolerance::{
     SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
 };
 
-use super::source::{folder_within, read};
+use super::selection::ranges;
+use super::source::{Definition, folder_within, read};
+use super::work::{Threads, whole};
 use super::{DONE, INCOMPLETE, PROGRAM};
-use crate::args;
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
+
+/// Arguments of `squama tolerance`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama tolerance armour.toml --design 0417 --require 'critical_force >= 2'
+  squama tolerance results/armour --design 0417 --require 'critical_force_N >= 2' --require 'coverage >= 0.6'
+  squama tolerance sweeps/smoke.toml --set 'tolerance.gap_over_t={ batch_sd = 0.02, scale_sd = 0.01 }'
+  squama tolerance sweeps/paper.toml --samples 0 --set 'tolerance.slant_deg={ batch_within = 2 }'
+
+Parts differ from the nominal design by the deviations in [tolerance]. batch_sd is the standard deviation of a
+normal deviation that all scales of a batch share, batch_within the largest value of a uniform one, and scale_sd
+the standard deviation from scale to scale, of gaps and slants. A key is that of a parameter, such as
+gap_over_t, or, with material.thickness_mm, that of a length in mm, such as gap_mm.
+Predicts the spread of every measure from its derivatives, with the share of each source, and solves samples to
+check the prediction. The yield is the share of samples that meet a requirement, with its 95 % interval; a sample
+that fails does not meet it, and is counted separately.
+Writes tolerance.csv, tolerance_sources.csv, yield.csv, figures of a single design, and the samples of each design
+to samples/, from which the same command continues after an interruption, or adds more samples.
+Exit code: 0 done, 1 a nominal design failed, 2 bad input or a disk error.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417 [default: all]
+    #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',')]
+    pub numbers: Vec<String>,
+
+    /// Requirement on samples: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
+    #[arg(long, value_name = "COLUMN OP NUMBER")]
+    pub require: Vec<String>,
+
+    /// Number of samples of each design; 0 gives the linear prediction alone
+    #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<0, 1_000_000>)]
+    pub samples: u64,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Folder for the tables [default: tolerance in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
 
 /// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
 const MOST: u64 = 100_000;
@@ -32,10 +81,7 @@ const MOST: u64 = 100_000;
 pub(super) const SAMPLES: &str = "samples";
 
 /// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
-pub fn tolerance(
-    arguments: &args::ToleranceArguments,
-    interrupt: &Interrupt,
-) -> anyhow::Result<u8> {
+pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
     let requirements = requirements(arguments)?;
@@ -69,19 +115,19 @@ pub fn tolerance(
         let text = report::report(&sweep, &requirements, &all);
         print(&format!("{text}\n{}: {}\n", place.display(), files.join(" ")))?;
     }
-    let failed = all.iter().any(|design| design.drawn.result.failed());
+    let failed = all.iter().any(|design| design.nominal.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
 /// The outcome of an analysis; `None`, and a word about it, if it was told to stop.
 pub(super) fn unless_stopped<T>(
     analysed: Result<T, NoAnalysis>,
-    definition: &args::Definition,
+    definition: &Definition,
 ) -> anyhow::Result<Option<T>> {
     match analysed {
         Ok(all) => Ok(Some(all)),
         Err(stopped @ NoAnalysis::Stopped { .. }) => {
-            note(&format!("{stopped}, which are kept: the same command goes on"));
+            note(&format!("{stopped}, which are kept; the same command continues from them"));
             Ok(None)
         }
         Err(error) => Err(error).with_context(|| definition.path.display().to_string()),
@@ -89,10 +135,10 @@ pub(super) fn unless_stopped<T>(
 }
 
 /// Refuses a sweep in which nothing deviates.
-fn check(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<()> {
+fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
     ensure!(
         !sweep.deviations().is_empty() || sweep.is_imperfect(),
-        "{}: has no [tolerance], expected deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }} in it, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
+        "{}: has no [tolerance]; add deviations, e.g. gap_over_t = {{ batch_sd = 0.02 }}, or --set 'tolerance.gap_over_t={{ batch_sd = 0.02 }}'",
         arguments.definition.path.display()
     );
     ensure!(
@@ -102,20 +148,16 @@ fn check(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<
     Ok(())
 }
 
-fn requirements(arguments: &args::ToleranceArguments) -> anyhow::Result<Vec<Requirement>> {
+fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
     let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
     arguments.require.iter().map(read).collect()
 }
 
 /// The indices of the designs that are asked for.
-fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
+fn designs(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<Vec<u64>> {
     let grid = sweep.grid();
-    let path = arguments.definition.path.display();
-    let range = |text: &String| {
-        let range = grid.parse_numbers(text.trim());
-        range.with_context(|| format!("{path}: --design {text}"))
-    };
-    let mut ranges: Vec<_> = arguments.numbers.iter().map(range).collect::<anyhow::Result<_>>()?;
+    let path = &arguments.definition.path;
+    let mut ranges = ranges(grid, &arguments.numbers, path)?;
     if arguments.numbers.is_empty() {
         ranges.push(0..=grid.len().saturating_sub(1));
     }
@@ -124,7 +166,8 @@ fn designs(arguments: &args::ToleranceArguments, sweep: &Sweep) -> anyhow::Resul
     let count = ranges.iter().map(count).fold(0, u64::saturating_add);
     ensure!(
         count <= MOST,
-        "{path}: {count} designs, at most {MOST} at a time: choose some with --design"
+        "{}: {count} designs, at most {MOST} at a time: choose some with --design",
+        path.display()
     );
     let mut designs: Vec<u64> = ranges.into_iter().flatten().collect();
     // The samples of a design are solved once, however often it is named.
@@ -141,11 +184,13 @@ fn analysed(
 ) -> Result<Vec<DesignTolerance>, NoAnalysis> {
     let analyse = |&index: &u64| {
         let mut design = analysis.design(index, store)?;
+        // Only the figures of a single design need the samples, which would fill the memory.
         if designs.len() > 1 {
             design.samples = Vec::new();
         }
         Ok(design)
     };
+    // Designs and their samples share the threads, so that the last design leaves none idle.
     designs.par_iter().map(analyse).collect()
 }
 
@@ -153,7 +198,7 @@ fn analysed(
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
     let measures = all.iter().flat_map(|design| {
-        let number = design.drawn.number;
+        let number = design.nominal.number;
         let row = move |measure: &tolerance::MeasureTolerance| DesignMeasureTolerance {
             design: number,
             measure: measure.clone(),
@@ -167,7 +212,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
     write_rows(folder, "tolerance_sources.csv", format, SOURCE_COLUMNS, sources)?;
     files.push("tolerance_sources.csv".to_owned());
     let yields = all.iter().flat_map(|design| {
-        let number = design.drawn.number;
+        let number = design.nominal.number;
         design.yields.iter().map(move |of| DesignYield { design: number, of: of.clone() })
     });
     if all.iter().any(|design| !design.yields.is_empty()) {
@@ -180,7 +225,7 @@ fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<Stri
 fn sources(design: &DesignTolerance) -> impl Iterator<Item = DesignSource> {
     let of = |measure: &tolerance::MeasureTolerance| {
         let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
-        let (design, measure) = (design.drawn.number, measure.name.clone());
+        let (design, measure) = (design.nominal.number, measure.name.clone());
         let row = move |source| DesignSource { design, measure: measure.clone(), source };
         sources.map(row).collect::<Vec<_>>()
     };

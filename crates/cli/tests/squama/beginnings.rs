@@ -31,8 +31,8 @@ fn nothing_is_overwritten_or_misplaced() {
     let place = Place::new();
     place.prints("init");
     let before = place.read("paper.toml");
-    insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: is there already, expected the name of a new file, e.g. squama init paper mine.toml");
-    insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere, expected one that exists");
+    insta::assert_snapshot!(place.refused("init"), @"error: paper.toml: exists already; give the name of a new file, e.g. squama init paper mine.toml");
+    insta::assert_snapshot!(place.refused("init smoke nowhere/mine.toml"), @"error: FILE nowhere/mine.toml: there is no folder nowhere");
     insta::assert_snapshot!(place.refused("init smoke .hidden.toml"), @r#"error: .hidden.toml:6: name: ".hidden" is not accepted, expected a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"#);
     insta::assert_snapshot!(place.refused("init smok"), @"error: invalid value 'smok' for '[TEMPLATE]', [possible values: paper, smoke, glove, gaps, imperfection, paper-as-written, paper-neo-hookean], tip: a similar value exists: 'smoke'");
     assert_eq!((place.read("paper.toml"), place.list(".")), (before, "paper.toml".to_owned()));

@@ -47,7 +47,7 @@ fn a_cliff_is_told_in_words() {
         STEEP,
         "--require length_over_t==0.2 --require slant_deg==60 --require gap_over_t==0.1",
     );
-    let (_, told) = printed.split_once("Where the gap comes out").expect("changes");
+    let (_, told) = printed.split_once("Change if the gap is").expect("changes");
     let told = told.split("\n\n").next().expect("a part");
     insta::assert_snapshot!(told);
 }
@@ -58,7 +58,7 @@ fn without_a_definition_nothing_is_said_of_gaps() {
     std::fs::create_dir(place.path("alone")).expect("a folder");
     std::fs::copy(place.path("results/few/designs.csv"), place.path("alone/designs.csv"))
         .expect("a table");
-    assert!(!place.prints("rank alone").contains("gap comes out"));
+    assert!(!place.prints("rank alone").contains("Change if the gap is"));
 }
 
 #[test]

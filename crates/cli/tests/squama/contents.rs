@@ -35,7 +35,10 @@ fn a_run_that_is_not_whole_is_used_only_if_that_is_asked_for() {
     let place = incomplete();
     for reader in READERS {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r: holds 3 of 8 designs, expected all"), "{message}");
+        assert!(
+            message.starts_with("error: r: holds 3 of 8 designs; squama run --resume"),
+            "{message}"
+        );
     }
     assert_eq!(place.list("."), "r shard x.toml", "nothing is written");
     for reader in READERS {
@@ -70,7 +73,7 @@ fn a_run_without_a_statement_is_refused() {
         place.prints(reader);
     }
     change(&place, "r/contents.toml", "done = 8", "done = 7");
-    insta::assert_snapshot!(place.refused("rank r"), @"error: r/contents.toml: is not as it was written (its checksum does not match), expected no change; squama merge r --out r writes it again");
+    insta::assert_snapshot!(place.refused("rank r"), @"error: r/contents.toml: was changed after squama wrote it (its checksum does not match); squama merge r --out r writes it again");
 }
 
 #[test]
@@ -81,12 +84,15 @@ fn a_changed_digit_is_noticed_and_mended() {
     change(&place, "r/designs.csv", "0.1,0.2,0,0,", "0.1,0.2,0,1,");
     for reader in READERS {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r/designs.csv: is not as it was written"), "{message}");
+        assert!(
+            message.starts_with("error: r/designs.csv: was changed after squama wrote it"),
+            "{message}"
+        );
     }
     let status = place.squama("status r").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8(status).expect("text");
     assert!(
-        status.contains("what is wrong\n  r/designs.csv: is not as it was written"),
+        status.contains("problems\n  r/designs.csv: was changed after squama wrote it"),
         "{status}"
     );
     place.squama("merge -q r --out r").assert().code(0);
@@ -94,7 +100,7 @@ fn a_changed_digit_is_noticed_and_mended() {
     place.prints("status r");
     // A table that one command alone reads.
     change(&place, "r/penetration.csv", "0001", "0002");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: is not as it was written, expected no change; squama merge r --out r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/penetration.csv: was changed after squama wrote it; squama merge r --out r writes it again");
     // One that is gone is no table that was never there.
     std::fs::remove_file(place.path("r/penetration.csv")).expect("a table");
     let message = place.refused("export r --xlsx x.xlsx");
@@ -107,7 +113,7 @@ fn a_changed_digit_is_noticed_and_mended() {
     change(&place, "r/run.toml", "slant_deg = [0", "slant_deg = [1");
     for reader in ["design r/run.toml --design 1", "draw r/run.toml --design 1", "run r/run.toml"] {
         let message = place.refused(reader);
-        assert!(message.starts_with("error: r/run.toml: is not as its run wrote it"), "{message}");
+        assert!(message.starts_with("error: r/run.toml: was edited"), "{message}");
     }
 }
 
@@ -123,7 +129,10 @@ fn the_derivatives_belong_to_the_run_like_any_table() {
     assert!(!place.list("r").contains("sensitivity.csv"));
     fs::write(place.path("r/sensitivity.csv"), "design\n0001\n").expect("writable");
     let message = place.refused("export r --xlsx x.xlsx");
-    assert!(message.starts_with("error: r/sensitivity.csv: is not as it was written"), "{message}");
+    assert!(
+        message.starts_with("error: r/sensitivity.csv: was changed after squama wrote it"),
+        "{message}"
+    );
     // A stranger's is not written over.
     fs::create_dir(place.path("strange")).expect("a folder");
     fs::write(place.path("strange/sensitivity.csv"), "mine").expect("writable");
@@ -150,7 +159,7 @@ fn a_journal_that_was_changed_and_sealed_again_is_not_believed() {
     lines[content] =
         String::from_utf8(store::Seal::over(&texts).seal(&design)).expect("text").trim().to_owned();
     fs::write(place.path("r/journal.jsonl"), lines.join("\n") + "\n").expect("writable");
-    assert!(place.refused("rank r").contains("is not the journal that the tables beside it"));
+    assert!(place.refused("rank r").contains("is not the journal from which the tables beside it"));
     for command in ["merge r --out r", "run x.toml --resume --out r", "rerun r --design 1"] {
         let message = place.refused(command);
         assert!(message.contains("design 0003 is not what the tables beside it say"), "{message}");
@@ -176,7 +185,7 @@ fn requirements_that_nobody_ranked_by_are_noticed() {
     change(&place, "r/ranking.toml", "coverage >= 0.1", "coverage >= 0.2");
     for reader in ["export r --xlsx x.xlsx", "report r --out page.html"] {
         insta::allow_duplicates! {
-            insta::assert_snapshot!(place.refused(reader), @"error: r/ranking.toml: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+            insta::assert_snapshot!(place.refused(reader), @"error: r/ranking.toml: was changed after squama wrote it; squama rank r writes it again");
         }
     }
     place.prints("rank r --require coverage>=0.2");
@@ -196,17 +205,20 @@ fn tables_that_the_journal_has_left_behind_are_noticed() {
         fs::write(place.path("r").join(table), text).expect("writable");
     }
     let message = place.refused("rank r");
-    assert!(message.starts_with("error: r: the journal goes on beyond the tables"), "{message}");
+    assert!(
+        message.starts_with("error: r: the journal has more designs than the tables"),
+        "{message}"
+    );
     place.prints("rank r --partial");
     fs::write(place.path("r/critical_force.csv"), after).expect("writable");
     let message = place.refused("export r --xlsx x.xlsx --partial");
     assert!(
-        message.starts_with("error: r/critical_force.csv: is not as it was written"),
+        message.starts_with("error: r/critical_force.csv: was changed after squama wrote it"),
         "{message}"
     );
     place.squama("merge -q r --out r").assert().code(1);
     // The ranking is of the tables before.
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: is made from other tables, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was made from other tables; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
     assert!(place.read("r/designs.csv").contains("solver.max_points=3"));
@@ -218,13 +230,13 @@ fn a_ranking_that_did_not_come_to_its_end_is_no_sheet_of_a_workbook() {
     place.squama("run x.toml -q --out r").assert().code(0);
     place.prints("rank r");
     change(&place, "r/pareto.csv", "0006", "0007");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/pareto.csv: was changed after squama wrote it; squama rank r writes it again");
     place.prints("rank r");
     // As if the ranking had been killed before it stated what it had written.
     let record = place.read("r/derived/ranking.toml");
     let digest = record.lines().find(|line| line.contains("ranking.csv")).expect("a file");
     change(&place, "r/derived/ranking.toml", digest, "\"ranking.csv\" = \"\"");
-    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: is not as it was written, expected a ranking of the tables beside it; squama rank r writes it again");
+    insta::assert_snapshot!(place.refused("export r --xlsx x.xlsx"), @"error: r/ranking.csv: was changed after squama wrote it; squama rank r writes it again");
     place.prints("rank r");
     place.prints("export r --xlsx x.xlsx");
     // Without a record nobody knows whose it is.
@@ -264,8 +276,8 @@ fn lines_that_a_journal_has_lost_are_noticed() {
     let end = journal.trim_end().rfind('\n').expect("lines") + 1;
     fs::write(place.path("r/journal.jsonl"), &journal[..end]).expect("writable");
     let message = place.refused("rank r");
-    assert!(message.contains("is not the journal that the tables beside it"), "{message}");
-    insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines are missing that it had when its tables were written; expected all of them, as in a copy of the journal, or squama run --resume, which solves what is missing");
+    assert!(message.contains("is not the journal from which the tables beside it"), "{message}");
+    insta::assert_snapshot!(place.refused("merge r --out all"), @"error: r/journal.jsonl: 1 of the 12 lines are missing that it had when its tables were written; restore them from a copy of the journal, or solve them again with squama run --resume");
     let run = place.squama("run x.toml -q --resume --out r").assert().code(0);
     let said = String::from_utf8(run.get_output().stderr.clone()).expect("text");
     assert!(said.starts_with("note: r/journal.jsonl: 1 of the 12 lines are missing"), "{said}");

@@ -47,11 +47,11 @@ fn a_single_best_design_stands_beside_what_is_required() {
 #[test]
 fn a_folder_without_a_front_for_the_grid_is_refused() {
     let place = grid();
-    insta::assert_snapshot!(place.refused("report grid --front grid"), @"error: --front grid: there is neither front.csv nor optimum.csv, expected a folder in which squama optimise has found designs");
+    insta::assert_snapshot!(place.refused("report grid --front grid"), @"error: --front grid: holds neither front.csv nor optimum.csv, expected a results folder of squama optimise");
     let physical =
         GOAL.replace("[goal]", "[material]\nthickness_mm = 1\nscale_density_kg_m3 = 1000\n[goal]");
     std::fs::write(place.path("goal.toml"), physical + "minimize = 'areal_mass_kg_m2'\n")
         .expect("writable");
     place.squama("optimise goal.toml --out found").assert().code(0);
-    insta::assert_snapshot!(place.refused("report grid --front found"), @"error: --front found: its objective areal_mass_kg_m2 is no column of the designs in grid, expected a sweep with the same measures and [material]");
+    insta::assert_snapshot!(place.refused("report grid --front found"), @"error: --front found: its objective areal_mass_kg_m2 is not a column of the designs in grid, expected a sweep with the same measures and [material]");
 }

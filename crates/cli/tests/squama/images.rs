@@ -23,6 +23,6 @@ fn each_drawing_has_an_image() {
 #[test]
 fn who_is_built_without_images_says_how_to_have_them() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused(DRAW), @"error: --png: this squama was built without images, expected one that is built with them: cargo run --release --features png -- followed by the same arguments");
+    insta::assert_snapshot!(place.refused(DRAW), @"error: --png: this squama was built without images; build it with them: cargo run --release --features png -- followed by the same arguments");
     assert_eq!(place.list("y"), "", "nothing is written");
 }

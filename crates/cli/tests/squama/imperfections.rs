@@ -75,5 +75,5 @@ fn a_rerun_keeps_its_columns_and_repeats_its_samples() {
         .code(0);
     assert!(!place.read("p/designs.csv").contains("_mean"));
     let message = place.refused("rerun p --design 2 --set imperfection.slant_sd_deg=1");
-    insta::assert_snapshot!(message, @"error: imperfections are off in the run and on in the settings, expected the same: a run keeps its columns");
+    insta::assert_snapshot!(message, @"error: imperfections are off in the run and on in the settings; they must be the same, because a run keeps its columns");
 }

@@ -19,7 +19,7 @@ fn the_optimum_is_a_design_like_any_other() {
       areal_mass_kg_m2  0.53590
       coverage          0.50000
 
-    It cannot be better because of
+    No better one was found from 33 starts in 3 regions of the space. It is limited by
       coverage >= 0.5                0.01 more coverage adds 0.00497 kg/m^2 of areal_mass_kg_m2
       slant_deg at its upper end 60  1 more slant_deg would gain 0.01 kg/m^2 of areal_mass_kg_m2
 
@@ -42,7 +42,7 @@ fn a_run_says_that_it_does_not_go_through_variables() {
     let (definition, _) = GOAL.split_once("[goal]").expect("a goal");
     let assert = Place::with(definition).squama("run x.toml --quiet").assert().code(0);
     let told = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    assert!(told.contains("gap_over_t, slant_deg stand in the middle of their values"), "{told}");
+    assert!(told.contains("gap_over_t, slant_deg keep the middle of their values"), "{told}");
 }
 
 #[test]
@@ -54,7 +54,7 @@ fn tables_do_not_depend_on_threads_or_interruptions() {
     let journal = place.read("three/evaluations.jsonl");
     std::fs::write(place.path("three/evaluations.jsonl"), &journal[..journal.len() / 2])
         .expect("writable");
-    assert!(place.refused("optimise x.toml --out three").contains("--resume to go on"));
+    assert!(place.refused("optimise x.toml --out three").contains("--resume to continue"));
     place.squama("optimise x.toml --threads 2 --out three --resume").assert().code(0);
     for file in ["front.csv", "history.csv", "goal.toml", "front.svg", "history.svg"] {
         assert_eq!(
@@ -79,6 +79,8 @@ fn an_answer_for_programs() {
     let output = place.squama(infeasible).assert().code(1).get_output().stdout.clone();
     let record: serde_json::Value = serde_json::from_slice(&output).expect("JSON");
     assert_eq!(record["infeasible"]["requirements"][0]["met"], 0);
+    // The design that comes nearest is a definition like that of the best.
+    place.squama("run y/nearest.toml -q --out z").assert().code(0);
 }
 
 #[test]
@@ -146,11 +148,11 @@ fn the_fitness_tells_its_criteria_and_their_ends() {
       coverage          0.42265
       areal_mass_kg_m2  0.50000
 
-    It cannot be better because of
+    No better one was found from 33 starts in 3 regions of the space. It is limited by
       gap_over_t at its upper end 1  0.01 more gap_over_t would gain 0.00409 of fitness
       slant_deg at its upper end 60  1 more slant_deg would gain 0.0115 of fitness
 
-    Fitness between the worst and the best: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
+    The criteria were rescaled between their worst and best values: rescale = { coverage = [3.3402e-4, 0.88453], areal_mass_kg_m2 = [0.90909, 0.50000] }
 
     results/light: goal.toml history.csv optimum.csv optimum.toml history.svg
     ");
@@ -198,5 +200,5 @@ fn a_folder_of_a_run_is_left_alone() {
     let place = Place::with(crate::FEW);
     place.squama("run x.toml --out r -q --set measures=coverage").assert().code(0);
     std::fs::write(place.path("g.toml"), GOAL).expect("writable");
-    insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run, expected another folder with --out DIR");
+    insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }

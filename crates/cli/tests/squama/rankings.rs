@@ -50,7 +50,7 @@ fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
     let place = Place::new();
     put(&place, "a", FOLDED);
     let printed = place.prints("rank a --weights 0,1,0,0");
-    let (_, others) = printed.split_once("folds over under the best design").expect("a fold");
+    let (_, others) = printed.split_once("folds under the best design").expect("a fold");
     assert!(others.lines().nth(2).is_some_and(|best| best.contains("0002")), "{printed}");
     // Wherever it is named, it is marked.
     let named = printed.lines().filter(|line| line.contains("0001"));
@@ -184,7 +184,7 @@ fn tables_that_a_spreadsheet_has_saved_are_ranked() {
     place.squama("run x.toml -q --out r").assert().code(0);
     let ranked = place.prints("rank r");
     // A table alone has no definition by which designs could be solved again.
-    let (before, gaps) = ranked.split_once("\nWhere the gap comes out").expect("gaps");
+    let (before, gaps) = ranked.split_once("\nChange if the gap is").expect("gaps");
     let (_, after) = gaps.split_once("\n\n").expect("more");
     let ranked = format!("{before}\n{after}");
     let table = place.read("r/designs.csv");

@@ -15,13 +15,13 @@ fn a_folder_does_for_a_definition() {
     assert!(place.list("r/curves").contains("force-displacement-curves-of-0006.svg"));
     assert!(place.prints("check r").contains("designs       8\n"));
     std::fs::create_dir(place.path("empty")).expect("a folder");
-    insta::assert_snapshot!(place.refused("design empty --design 1"), @"error: empty: holds no run.toml, expected a sweep definition in TOML or the folder of a run");
+    insta::assert_snapshot!(place.refused("design empty --design 1"), @"error: empty: holds no run.toml, expected a definition in TOML or a results folder");
 }
 
 #[test]
 fn a_definition_does_for_a_folder() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few, expected those of squama run x.toml, or the folder of a run");
+    insta::assert_snapshot!(place.refused("rank x.toml"), @"error: x.toml: there are no results in results/few; squama run x.toml writes them");
     place.squama("run x.toml -q").assert().code(0);
     for command in ["rank", "plot", "report", "status", "rerun --failed --dry-run"] {
         let by_definition = place.prints(&format!("{command} x.toml"));
@@ -41,7 +41,7 @@ fn designs_are_selected_by_ranges() {
     assert_eq!(place.list("d"), [2, 3, 4, 8].map(file).join(" "));
     insta::assert_snapshot!(place.refused("draw x.toml --design 4-2"), @"error: x.toml: --design 4-2: there is no design 4-2, expected a number from 1 to 8");
     insta::assert_snapshot!(place.refused("draw x.toml --design 7-9"), @"error: x.toml: --design 7-9: there is no design 9, expected a number from 1 to 8");
-    insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are asked for, expected one: give a value with --slant …");
+    insta::assert_snapshot!(place.refused("design x.toml --design 1-2"), @"error: x.toml: 2 designs are selected, expected one: give a value with --slant …");
     place.squama("run x.toml -q").assert().code(0);
     let text = place.prints("rerun x.toml --design 2-4,8 --dry-run");
     assert!(text.contains("4 designs") && text.contains("0002 0003 0004 0008"), "{text}");
@@ -59,7 +59,7 @@ fn designs_are_selected_by_values() {
     assert_eq!(place.list("beside"), beside);
     place.prints("plot curves x.toml --gap 0.1 --slant 45 --out c");
     assert!(place.list("c").contains("force-displacement-curves-of-0002-0004.svg"));
-    insta::assert_snapshot!(place.refused("draw x.toml --slant 10..40"), @"error: --slant 10..40: the sweep has no such value, expected some of 0 45");
+    insta::assert_snapshot!(place.refused("draw x.toml --slant 10..40"), @"error: --slant 10..40: the sweep has no value in this range, expected some of 0 45");
     insta::assert_snapshot!(place.refused("draw x.toml --slant 10..x"), @"error: --slant 10..x: not accepted, expected FROM..TO, e.g. 15..60");
     insta::assert_snapshot!(place.refused("draw x.toml --slant 1,99"), @"error: --slant 1,99: designs.slant_deg: 99 is out of range, expected an angle of at least 0 and below 90");
     insta::assert_snapshot!(place.refused("draw x.toml"), @"error: the following required arguments were not provided: <--design <NUMBERS>|--gap <GAP>|--length <LENGTH>|--slant <DEG>>");

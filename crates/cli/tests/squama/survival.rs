@@ -62,14 +62,14 @@ fn results_are_not_overwritten_unasked() {
     let place = Place::with(FEW);
     place.squama("run x.toml -q").assert().code(0);
     let before = place.read("results/few/designs.csv");
-    insta::assert_snapshot!(place.refused("run x.toml"), @"error: results/few: holds results already, expected --resume to go on with them or --fresh to throw them away");
+    insta::assert_snapshot!(place.refused("run x.toml"), @"error: results/few: already holds results; use --resume to continue from them, or --fresh to discard them");
     insta::assert_snapshot!(place.refused("run x.toml --resume --set contact.c1=2 --set designs.slant_deg=30"), @"error: results/few/journal.jsonl: is of another definition: contact.c1 is 1.1 in it and 2 now; designs.slant_deg is [0, 45] in it and [30] now; expected no difference, or --fresh to throw the results away");
     insta::assert_snapshot!(place.refused("run x.toml --resume --sample 3"), @"error: results/few/journal.jsonl: is of all designs, not of --sample 3 --seed 0; expected no difference, or --fresh to throw the results away");
     assert_eq!(place.read("results/few/designs.csv"), before);
     place.squama("run x.toml -q --fresh --set contact.c1=2").assert().code(0);
     assert_ne!(place.read("results/few/designs.csv"), before);
     std::fs::remove_file(place.path("results/few/journal.jsonl")).expect("a file");
-    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds designs.csv without a journal, expected another folder with --out DIR, or --fresh to throw away what has the names of results");
+    insta::assert_snapshot!(place.refused("run x.toml --resume"), @"error: results/few: holds designs.csv without a journal; choose another folder with --out DIR, or use --fresh to delete the files that have the names of results");
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn what_is_a_strangers_is_not_touched() {
     let place = Place::with(FEW);
     std::fs::create_dir(place.path("r")).expect("a folder");
     std::fs::write(place.path("r/journal.jsonl"), "{\"a\": 1}").expect("writable");
-    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this), expected it as it was written, or --fresh to throw all of it away");
+    insta::assert_snapshot!(place.refused("run x.toml --out r"), @"error: r/journal.jsonl:1: not the first line of a journal (squama begins none like this); restore it, or use --fresh to discard everything");
     assert_eq!(place.read("r/journal.jsonl"), "{\"a\": 1}");
 }
 
@@ -141,7 +141,7 @@ fn the_second_run_on_a_folder_is_refused() {
     let slow = "run x.toml -q --threads 1 --resume --set solver.max_step=0.0005";
     let mut first = place.spawn(slow);
     first.until(|| place.lines("results/many/journal.jsonl") >= 3);
-    insta::assert_snapshot!(place.refused(slow), @"error: results/many: another squama is writing there, expected one at a time");
+    insta::assert_snapshot!(place.refused(slow), @"error: results/many: another squama is writing there; wait until it ends");
     let status = place.squama("status results/many").assert().code(1).get_output().stdout.clone();
     let status = String::from_utf8_lossy(&status).into_owned();
     assert!(
@@ -183,7 +183,7 @@ mod signals {
         let mut run = place.spawn("run x.toml --threads 1");
         run.until(|| place.lines("results/endless/journal.jsonl") >= 3);
         run.send(SIGINT);
-        let word = "ending once the designs in hand are done; a second signal ends at once, --resume goes on\n";
+        let word = "ending after the designs in progress; a second signal ends at once, and --resume continues\n";
         run.until_said(word);
         // What comes within a second is the same request; a later one ends it.
         assert_eq!(run.end_by(SIGINT).code(), Some(130));
@@ -250,7 +250,7 @@ mod signals {
             let code = squama.end_within(Duration::from_secs(20)).expect("it does not hang").code();
             assert_eq!(code, Some(2), "{command}");
         }
-        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is no regular file, expected a journal that squama writes");
+        insta::assert_snapshot!(place.refused("run x.toml --fresh --out r"), @"error: r/journal.jsonl: is not a regular file, expected a journal that squama writes");
     }
 
     #[test]

@@ -91,9 +91,8 @@ fn bad_input_is_one_line() {
         "tolerance x.toml --samples -3",
         "tolerance box.toml",
         "tolerance missing.toml",
-        "sensitivity box.toml",
         "sensitivity --global x.toml",
-        "sensitivity --global several.toml",
+        "sensitivity several.toml",
         "sensitivity --global box.toml --samples 1",
         "sensitivity --global box.toml --set variables.gap_over_t=[1]",
     ]

@@ -24,7 +24,7 @@ fn a_run_becomes_a_workbook() {
 fn a_folder_without_a_run_is_refused() {
     let place = Place::with(FEW);
     insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
-    insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: is no name of a workbook, expected one that ends in .xlsx");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: a workbook needs a name that ends in .xlsx");
     assert_eq!(place.list("."), "x.toml");
 }
 

@@ -4,7 +4,7 @@ use ranking::{CRITERIA, Criterion, CriterionEnds, FitnessGoal, Goal, Scale, Weig
 use sweep::InvalidDefinition;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 
-use super::refusal::not_accepted;
+use super::refusal::{no_effect, not_accepted};
 
 const WEIGHTS: &str = "weights of which none is negative and one is more than 0, of columns of which it is plain what is good, e.g. { coverage = 1, critical_force = 2 }";
 const RESCALE: &str = "the worst and the best value of columns, e.g. { coverage = [0, 0.9] }";
@@ -82,8 +82,7 @@ impl FitnessSection {
         let of_weights = self.weights.iter().map(|(.., place)| ("goal.weights", place));
         let of_ends = self.ends.iter().map(|(_, place)| ("goal.rescale", place));
         let (key, place) = of_weights.chain(of_ends).next()?;
-        let expected = "it beside maximize = [\"fitness\"]";
-        Some(not_accepted(place, key, "a goal without fitness", expected))
+        Some(no_effect(place, key, "the goal does not maximize fitness"))
     }
 }
 

@@ -12,6 +12,7 @@ use sweep::{
     nearest, read_entries,
 };
 
+use super::bounds::out_of_bounds;
 use super::refusal::{not_accepted, refuse, several};
 use super::section::{GoalSection, Written};
 use super::{DesignGoal, statistics};
@@ -58,13 +59,17 @@ impl DesignGoal {
         if refused.is_empty() {
             refused.extend(senseless(&section, fitness.as_ref(), &sweep));
         }
+        let space = DesignSpace::new(sweep);
+        if refused.is_empty() {
+            refused.extend(out_of_bounds(&section, &space));
+        }
         if !refused.is_empty() {
             return Err(several(refused));
         }
         let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } =
             section;
         Ok(Self {
-            space: DesignSpace::new(sweep),
+            space,
             objectives: objectives.into_iter().map(|(objective, _)| objective).collect(),
             requirements: requirements.into_iter().map(|(requirement, _)| requirement).collect(),
             fitness,

@@ -23,6 +23,10 @@ pub(super) fn not_accepted(
     refuse(place, key, WrongValue::NotAccepted { found, expected })
 }
 
+pub(super) fn no_effect(place: &Place, key: &str, reason: &str) -> InvalidDefinition {
+    refuse(place, key, WrongValue::NoEffect { reason: reason.to_owned() })
+}
+
 /// Errors as one, of which there is at least one.
 pub(super) fn several(mut refused: Vec<InvalidDefinition>) -> InvalidDefinition {
     if refused.len() == 1 { refused.swap_remove(0) } else { InvalidDefinition::Several(refused) }

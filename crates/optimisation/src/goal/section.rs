@@ -45,7 +45,7 @@ impl Default for GoalSection {
             requirements: Vec::new(),
             fitness: FitnessSection::default(),
             sound: true,
-            samples: 1024,
+            samples: 128,
             points: 30,
             skins: 200,
             skins_place: None,

@@ -5,7 +5,7 @@ use results::columns::{Cell, design_columns, measure_of};
 use results::{Column, DesignResult, DesignRow, FlexureResult, Outcome, PunctureResult, QUANTILES};
 use sweep::{InvalidDefinition, Sweep};
 
-use super::refusal::not_accepted;
+use super::refusal::{no_effect, not_accepted};
 use super::section::{GoalSection, Written};
 use crate::statistic::Statistic;
 
@@ -97,8 +97,8 @@ pub(super) fn senseless(goal: &GoalSection) -> Vec<InvalidDefinition> {
     }));
     let is_sampled = goal.columns().any(|named| !plain(named.column));
     if let Some(place) = goal.skins_place.as_ref().filter(|_| !is_sampled) {
-        let expected = "it beside a yield or a quantile";
-        refused.push(not_accepted(place, "goal.skins", goal.skins, expected));
+        let reason = "the goal names no yield or quantile";
+        refused.push(no_effect(place, "goal.skins", reason));
     }
     refused
 }

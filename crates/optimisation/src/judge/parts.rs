@@ -55,7 +55,7 @@ impl JudgeParts<'_> {
         requirements.extend(open);
         let samples =
             SampleJudge { bounds: self.bounds(), statistics, count: self.goal.realisations };
-        Judge { objectives, requirements, soundness, bends: self.bends(), samples }
+        Judge { objectives, requirements, soundness, measures: self.measures(), samples }
     }
 
     /// The column of that name of a nominal design.
@@ -129,12 +129,11 @@ impl JudgeParts<'_> {
         UsedStatistic { name: name.to_owned(), statistic, column, large }
     }
 
-    /// Whether a column of bending is part of the goal.
-    fn bends(&self) -> bool {
+    /// The measures of the columns that the goal names.
+    fn measures(&self) -> Vec<Measure> {
         let criteria = self.goal.fitness.iter().flat_map(|fitness| &fitness.criteria);
         let criteria = self.goal.objectives.iter().chain(criteria).map(|c| c.column.as_ref());
         let required = self.goal.requirements.iter().map(|r| r.column.as_str());
-        let mut columns = criteria.chain(required).map(Statistic::base);
-        columns.any(|column| measure_of(column) == Some(Measure::Flexure))
+        criteria.chain(required).map(Statistic::base).filter_map(measure_of).collect()
     }
 }

@@ -7,25 +7,55 @@ use basin::{
     SelectedFirstOrderState, Slsqp,
 };
 
-use super::LocalSearch;
+use sweep::Measure;
+
 use super::problem::LocalProblem;
+use super::{Effort, LocalSearch};
 use crate::candidate::SearchStage;
 use crate::evaluations::Halt;
 use crate::slopes::Slopes;
+use crate::tooth::Tooth;
 
 /// Accuracy of constraints and objective, both about 1 in size.
 const ACCURACY: f64 = 1e-11;
 
 impl LocalSearch<'_> {
-    /// Climbs from the best design; what it comes by is noted.
-    pub(super) fn climb(&self) -> Result<(), Halt> {
-        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient) else { return Ok(()) };
+    /// Climbs from the best design, in one smooth piece of coverage after the other as long as the best stands on a border; what it
+    /// comes by is noted.
+    pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
+        let mut climbed: Vec<Option<Tooth>> = Vec::new();
+        while climbed.len() < effort.pieces {
+            let pieces = self.pieces();
+            let Some(&piece) = pieces.iter().find(|piece| !climbed.contains(piece)) else { break };
+            self.climb_in(piece, effort)?;
+            climbed.push(piece);
+        }
+        Ok(())
+    }
+
+    /// The pieces of coverage that the best design belongs to; none, once, if the goal is not about coverage.
+    fn pieces(&self) -> Vec<Option<Tooth>> {
+        let judge = self.search.judge;
+        // Samples of one design lie in several pieces.
+        if !judge.is_about(Measure::Coverage) || judge.samples().is_some() {
+            return vec![None];
+        }
+        let case = self.search.space.case(&self.best.borrow().point);
+        Tooth::beside(&case).into_iter().map(Some).collect()
+    }
+
+    fn climb_in(&self, piece: Option<Tooth>, effort: Effort) -> Result<(), Halt> {
+        let Some(problem) = LocalProblem::new(self, SearchStage::Gradient, piece) else {
+            return Ok(());
+        };
         let start = SelectedFirstOrderState::new(self.best_shares());
         let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
-        let most = self.search.fineness().looks * self.best_shares().len() as u64;
+        let most = effort.looks * self.best_shares().len() as u64;
         match Executor::new(problem, solver, start).max_cost_evals(most).run() {
-            Err(ConstraintSolveError::Evaluation(halt)) => Err(halt),
-            // The bounds and the number of constraints are as they were declared.
+            Err(ConstraintSolveError::Evaluation(halt)) if !matches!(halt, Halt::Stalled) => {
+                Err(halt)
+            }
+            // Stalled, or at its end: the bounds and the number of constraints are as they were declared.
             Ok(_) | Err(_) => Ok(()),
         }
     }

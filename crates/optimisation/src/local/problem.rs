@@ -1,17 +1,26 @@
 //! The problem of a local search along derivatives: a cost that is to be small and limits, both about 1 in size, over shares of the
 //! intervals.
 
+use std::cell::RefCell;
+
 use ranking::Worth;
 use results::DesignResult;
-use sweep::Parameter;
+use sweep::{Measure, Parameter};
 
-use super::room::{bending_room, bending_room_slopes};
 use super::{LocalSearch, floor_size};
 use crate::candidate::{Merit, SearchStage};
 use crate::evaluations::Halt;
 use crate::looked::LookedRow;
+use crate::room::{bending_room, bending_room_slopes};
 use crate::slopes::Slopes;
+use crate::tooth::{Tooth, continue_compliance};
 use crate::worth::Judgement;
+
+/// A step that hardly moves, a share of the intervals.
+const STILL: f64 = 1e-7;
+
+/// Such steps in a row that end a climb.
+const STALLED: usize = 3;
 
 /// Room that is kept before scales touch in bending.
 const CLEAR: f64 = 1e-9;
@@ -51,6 +60,10 @@ pub(super) struct LocalProblem<'a> {
     scale: CostScale,
     /// Whether the search stays where bending brings no scales into contact: compliances jump where it does, and no derivative tells.
     stays_open: bool,
+    /// The piece of coverage in which the search stays.
+    tooth: Option<Tooth>,
+    /// Where it looked last, and how often in a row it has hardly moved.
+    still: RefCell<(Vec<f64>, usize)>,
     pub lower: Vec<f64>,
     pub upper: Vec<f64>,
 }
@@ -65,7 +78,11 @@ pub(super) struct Looked {
 
 impl<'a> LocalProblem<'a> {
     /// The problem from the best design of `walk`; none if that cannot be judged.
-    pub fn new(walk: &'a LocalSearch<'a>, stage: SearchStage) -> Option<Self> {
+    pub fn new(
+        walk: &'a LocalSearch<'a>,
+        stage: SearchStage,
+        tooth: Option<Tooth>,
+    ) -> Option<Self> {
         let best = walk.best.borrow();
         let Judgement::Judged(worth) = &best.verdict else { return None };
         let value = worth.objectives[walk.target.objective];
@@ -74,7 +91,9 @@ impl<'a> LocalProblem<'a> {
             walk,
             stage,
             scale: if value > 0.0 { CostScale::Logarithm } else { CostScale::Linear(value.abs()) },
-            stays_open: walk.search.judge.bends() && is_open(&best.result),
+            stays_open: walk.search.judge.is_about(Measure::Flexure) && is_open(&best.result),
+            tooth,
+            still: RefCell::default(),
             lower: vec![0.0; count],
             upper: vec![1.0; count],
         })
@@ -82,10 +101,34 @@ impl<'a> LocalProblem<'a> {
 
     /// The design at some shares, with its derivatives.
     pub fn look(&self, shares: &[f64]) -> Result<Option<Looked>, Halt> {
-        let (candidate, row) = self.walk.at(self.stage, shares, true)?;
+        let (mut candidate, mut row) = self.walk.at(self.stage, shares, true)?;
         let met = matches!(self.walk.search.merit(&candidate, self.walk.target), Merit::Met(_));
+        self.end_if_stalled(shares)?;
+        if let Some(tooth) = self.tooth {
+            tooth.continue_coverage(&mut row.nominal);
+            if self.stays_open {
+                continue_compliance(&mut row.nominal);
+            }
+            candidate.verdict = self.walk.search.judge.verdict(&row.nominal);
+        }
         let Judgement::Judged(worth) = candidate.verdict else { return Ok(None) };
         Ok(Some(Looked { worth, row, met }))
+    }
+
+    /// Ends a climb that does not move any more: at a kink, steps along derivatives become ever smaller.
+    fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
+        let (last, count) = &mut *self.still.borrow_mut();
+        if last.as_slice() == shares {
+            return Ok(());
+        }
+        let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
+        shares.clone_into(last);
+        if *count >= STALLED && self.stage == SearchStage::Gradient {
+            Err(Halt::Stalled)
+        } else {
+            Ok(())
+        }
     }
 
     /// The cost, to be small; infinite where there is none.
@@ -97,20 +140,36 @@ impl<'a> LocalProblem<'a> {
         if cost.is_finite() { cost } else { f64::INFINITY }
     }
 
-    /// The number of limits: requirements, floors, and room in bending.
+    /// The number of limits: requirements, floors, borders of the piece, and room in bending.
     pub fn limit_count(&self) -> usize {
         let floors = self.walk.target.floors.len();
-        self.walk.search.judge.requirements().count() + floors + usize::from(self.stays_open)
+        let borders = self.tooth.map_or(0, |_| Tooth::BORDERS);
+        let required = self.walk.search.judge.requirements().count();
+        required + floors + borders + usize::from(self.stays_open)
     }
 
     /// How far a design is beyond each limit; not above 0 where it keeps to it.
     pub fn limits(&self, looked: &Looked) -> Vec<f64> {
         let Looked { worth, row, .. } = looked;
         let room = self.stays_open.then(|| CLEAR - bending_room(&row.nominal.case));
+        let borders = self.borders();
+        let borders = borders.filter_map(|(tooth, border)| tooth.beyond(border, &row.nominal.case));
         let turned = |k: usize| self.walk.search.judge.sign(k) * worth.objectives[k];
         let floors = self.walk.target.floors.iter();
         let floors = floors.map(|&(k, floor)| (floor - turned(k)) / floor_size(floor));
-        worth.margins.iter().map(|margin| -margin).chain(floors).chain(room).collect()
+        worth
+            .margins
+            .iter()
+            .map(|margin| -margin)
+            .chain(floors)
+            .chain(borders)
+            .chain(room)
+            .collect()
+    }
+
+    /// The borders of the piece.
+    fn borders(&self) -> impl Iterator<Item = (Tooth, usize)> {
+        self.tooth.into_iter().flat_map(|tooth| (0..Tooth::BORDERS).map(move |k| (tooth, k)))
     }
 
     /// The gradient of the cost, made of the slopes that are picked.
@@ -134,7 +193,17 @@ impl<'a> LocalProblem<'a> {
         if k < required {
             return self.falling(shares, |p| judge.margin_slopes(k, row, p), pick);
         }
-        match self.walk.target.floors.get(k - required) {
+        let floors = &self.walk.target.floors;
+        if let Some((tooth, border)) =
+            (k - required).checked_sub(floors.len()).and_then(|k| self.borders().nth(k))
+        {
+            return self.falling(
+                shares,
+                |p| tooth.border_slopes(border, &row.nominal.case, p),
+                pick,
+            );
+        }
+        match floors.get(k - required) {
             Some(&(objective, floor)) => {
                 let slopes = |p: &Parameter| judge.objective_slopes(objective, row, p);
                 let size = floor_size(floor).recip();

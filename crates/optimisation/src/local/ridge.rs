@@ -18,7 +18,9 @@ impl LocalSearch<'_> {
         if self.search.judge.is_yield(Use::Objective(self.target.objective)) {
             return Ok(());
         }
-        let Some(problem) = LocalProblem::new(self, SearchStage::Ridge) else { return Ok(()) };
+        let Some(problem) = LocalProblem::new(self, SearchStage::Ridge, None) else {
+            return Ok(());
+        };
         let smallest = SMALLEST.max(self.search.fineness().step).min(0.1 * reach);
         let options = BundleOptions { reach, smallest, places: most };
         descend(&problem, &self.best_shares(), options)

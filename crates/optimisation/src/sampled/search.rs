@@ -6,7 +6,7 @@ use rayon::iter::{
 
 use super::confirmation::confirm;
 use crate::answer::{Answer, Plan, answer};
-use crate::best::{BestDesign, apart, best_design};
+use crate::best::{BestDesign, best_design, starts};
 use crate::candidate::{Candidate, Merit, SearchStage, Target};
 use crate::evaluations::Halt;
 use crate::goal::DesignGoal;
@@ -110,7 +110,7 @@ fn seeds(nominal: &Search<'_>, history: &[Candidate], answer: &Answer) -> Vec<Sp
     let best = best.iter().map(|best| best.candidate.point.clone());
     let others = (0..nominal.judge.objectives()).flat_map(|objective| {
         let target = Target { objective, floors: Vec::new() };
-        apart(nominal, history, &target, SEEDS).into_iter().map(|candidate| candidate.point)
+        starts(nominal, history, &target, SEEDS).into_iter().map(|candidate| candidate.point)
     });
     let mut seeds: Vec<SpacePoint> = Vec::new();
     for point in best.chain(others) {

@@ -44,7 +44,7 @@ pub struct MapRequest {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidMap {
     /// An axis is no parameter that varies.
-    #[error("{option} {found}: is no parameter that varies, expected one of {}", known.join(", "))]
+    #[error("{option} {found}: is not a parameter that varies, expected one of {}", known.join(", "))]
     NoAxis {
         /// Option that names the axis.
         option: &'static str,
@@ -54,12 +54,10 @@ pub enum InvalidMap {
         known: Vec<String>,
     },
     /// Both axes are the same.
-    #[error("--y {0}: is the axis across already, expected another parameter")]
+    #[error("--y {0}: is on the horizontal axis already; choose another parameter")]
     Twice(String),
     /// The column has no numbers.
-    #[error(
-        "--of {0}: there is no number in such a column, expected a column of numbers of designs.csv"
-    )]
+    #[error("--of {0}: designs.csv has no such column of numbers")]
     NoNumbers(String),
     /// No design has the values that are held.
     #[error("--at {found}: no design has it, expected one of {}", known.join(", "))]

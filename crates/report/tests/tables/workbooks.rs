@@ -218,7 +218,7 @@ fn what_is_no_workbook_or_no_table_is_refused() {
     insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
     fs::write(place.path().join("designs.csv"), b"design,\xff\r\n").expect("writable");
     insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (it is no text), expected a table that squama writes");
-    insta::assert_snapshot!(refused("designs.csv"), @"R/designs.csv: is no name of a workbook, expected one that ends in .xlsx");
+    insta::assert_snapshot!(refused("designs.csv"), @"R/designs.csv: a workbook needs a name that ends in .xlsx");
     insta::assert_snapshot!(refused("designs.csv/x.xlsx"), @"R/designs.csv: cannot be written (File exists), expected a folder that can be written, e.g. with --out DIR");
     assert_eq!(fs::read_dir(place.path()).expect("a folder").count(), 1, "nothing is left");
 }

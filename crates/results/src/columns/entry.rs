@@ -32,6 +32,7 @@ pub(super) const BLANK: MeasuredValue = MeasuredValue {
     samples: None,
     at_tilts: None,
     shown: Shown::Chosen,
+    is_of_guided_needle: false,
 };
 
 type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
@@ -145,6 +146,11 @@ impl MeasuredValue {
         meaning: &'static str,
     ) -> Self {
         Self { name, unit, meaning, ..self }
+    }
+
+    /// Only runs with a guided needle have it.
+    pub(super) const fn guided(self) -> Self {
+        Self { is_of_guided_needle: true, ..self }
     }
 
     /// Large values are good.

@@ -160,6 +160,7 @@ impl ValueColumn {
         is_given
             && table.is_none_or(|table| self.value.tables.contains(&table))
             && (sweep.is_imperfect() || !self.is_of_samples())
+            && (sweep.is_guided() || !self.value.is_of_guided_needle)
     }
 
     fn cell(&self, row: &DesignRow) -> Cell {

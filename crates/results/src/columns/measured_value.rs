@@ -34,6 +34,8 @@ pub struct MeasuredValue {
     pub(super) at_tilts: Option<TiltValue>,
     /// Whether the table of a page shows it unless others are chosen.
     pub shown: Shown,
+    /// Whether only runs with a guided needle have it.
+    pub(super) is_of_guided_needle: bool,
 }
 
 /// The value of a measure in a result.

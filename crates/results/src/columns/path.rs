@@ -10,8 +10,10 @@ use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
-/// The columns of `path.csv`.
-pub static PATH: &[Column<StabilityPoint>] = &[
+/// The columns of `path.csv`, with more behind them.
+macro_rules! path_columns {
+    ($($more:expr),*) => {
+        &[
     Column::new("displacement", "t", "downward displacement of the punctured point", |(p, _)| {
         p.displacement.into()
     }),
@@ -50,7 +52,21 @@ pub static PATH: &[Column<StabilityPoint>] = &[
         "width of the widest gap between bases over that at rest",
         |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
     ),
-];
+            $($more),*
+        ]
+    };
+}
+
+/// The columns of `path.csv`.
+pub static PATH: &[Column<StabilityPoint>] = path_columns!();
+
+/// The same under a guided needle.
+pub static GUIDED_PATH: &[Column<StabilityPoint>] = path_columns!(Column::new(
+    "lateral_force",
+    "E_s L t/(1-nu^2)",
+    "force of the guided needle on the scales along the row, to the right",
+    |(p, _)| p.lateral_force.into()
+));
 
 /// An event of a puncture.
 pub enum PunctureEvent {

@@ -1,7 +1,7 @@
 //! The measured values of a design, an entry each: a new one is added here, and nowhere else but where it is measured.
 
 use skin::flexure::FlexureMeasures;
-use skin::puncture::PunctureMeasures;
+use skin::puncture::{CriticalEvent, PunctureMeasures};
 
 use super::cell::Cell;
 use super::entry::{
@@ -94,6 +94,37 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             "scales that touch a neighbour at the critical tilt, the punctured one included",
             |r| measured(r, |m| m.engaged_scales),
         ).at(Place::End).large(),
+    other(
+        "critical_event",
+        BOTH,
+        "what ended the path of a guided needle: tilt, a scale that it touches is critically tilted; through, it has come to the soft surface",
+        |r| measured(r, |m| m.passage.critical_event.map(CriticalEvent::name)),
+    ).guided(),
+    force(
+        "passing_force",
+        Place::Anywhere,
+        "puncture force where a guided needle first left the face that it was set down on; empty if it did not",
+        |m| &mut m.passage.passing_force,
+    ).large().guided(),
+    depth(
+        "passing_displacement",
+        Place::Anywhere,
+        "depth of the tip of a guided needle where it first left its face",
+        |m| &mut m.passage.passing_displacement,
+    ).within(BOTH).guided(),
+    number(
+        "passing_tilt_deg",
+        "deg",
+        Place::Anywhere,
+        "tilt of the punctured scale where a guided needle first left its face",
+        |m| &mut m.passage.passing_tilt_deg,
+    ).guided(),
+    depth(
+        "needle_shift",
+        Place::Anywhere,
+        "how far a guided needle has moved inward on its face: at the end, or where it left it",
+        |m| &mut m.passage.needle_shift,
+    ).within(BOTH).guided(),
     other("scales", BOTH, "scales in the row that was solved", |r| {
         measured(r, |m| (m.scales > 0).then_some(m.scales))
     }),

@@ -97,3 +97,63 @@ fn require_none(folder: &RunFolder, name: &str) -> Result<(), OutputError> {
     let is_there = fs::symlink_metadata(&path).is_ok();
     if is_there { Err(OutputError::strange(&path)) } else { Ok(()) }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::folder::FILES;
+
+    #[test]
+    fn no_command_claims_a_file_of_a_stranger_and_every_one_its_own() {
+        for file in FILES.iter().filter(|file| file.maker != Maker::Run) {
+            let place = tempfile::tempdir().expect("a folder");
+            let folder = RunFolder::new(place.path());
+            let write = |text: &str| fs::write(folder.file(file.name), text).expect("writable");
+            if FileEntry::products(file.maker).all(|product| product.name != file.name) {
+                continue;
+            }
+            write("a stranger's");
+            let refused = Claim::take(&folder, file.maker).expect_err(file.name).to_string();
+            assert!(
+                refused.contains(file.name) && refused.contains("has not written"),
+                "{refused}"
+            );
+            assert_eq!(fs::read_to_string(folder.file(file.name)).expect("text"), "a stranger's");
+            folder.remove(file.name);
+            for text in ["first", "second"] {
+                let claim = Claim::take(&folder, file.maker).expect(file.name);
+                assert!(!folder.holds(file.name), "that of before is gone");
+                write(text);
+                claim.state().expect("written");
+            }
+            // What a kill leaves between the claim and the statement is its own, too.
+            drop(Claim::take(&folder, file.maker).expect(file.name));
+            write("half of it");
+            Claim::take(&folder, file.maker).expect(file.name);
+            assert!(!folder.holds(file.name));
+        }
+    }
+
+    #[test]
+    fn what_somebody_has_changed_is_not_removed_with_the_rest() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = RunFolder::new(place.path());
+        let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
+        for name in ["tolerance.csv", "yield.csv"] {
+            fs::write(folder.file(name), "written").expect("writable");
+        }
+        claim.state().expect("written");
+        fs::write(folder.file("yield.csv"), "changed").expect("writable");
+        Claim::release(&folder, Maker::Tolerance);
+        assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
+    }
+
+    #[test]
+    fn one_command_writes_at_a_time() {
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = RunFolder::new(place.path());
+        let _claim = Claim::take(&folder, Maker::Comparison).expect("a claim");
+        let refused = Claim::take(&folder, Maker::Design).expect_err("in use").to_string();
+        assert!(refused.contains("another squama is writing there"), "{refused}");
+    }
+}

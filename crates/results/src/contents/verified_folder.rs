@@ -37,13 +37,13 @@ pub struct VerifiedFolder {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidFolder {
     /// A journal, and nothing that says what its tables are.
-    #[error("{}: holds a journal but no contents.toml, which a run writes last, expected a run that came to its end; {} writes the tables of what is done", folder.display(), mend(folder))]
+    #[error("{}: holds a journal but no contents.toml, which a run writes last; {} writes the tables of the designs that are solved", folder.display(), mend(folder))]
     Unfinished {
         /// The folder.
         folder: PathBuf,
     },
     /// The statement of the contents was damaged.
-    #[error("{}: is not as it was written ({problem}), expected no change; {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
+    #[error("{}: was changed after squama wrote it ({problem}); {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
     Contents {
         /// The folder.
         folder: PathBuf,
@@ -51,7 +51,7 @@ pub enum InvalidFolder {
         problem: String,
     },
     /// The journal is not the one that the tables were written from.
-    #[error("{}: is not the journal that the tables beside it were written from ({problem}), expected no change; {} writes the tables of what is there", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
+    #[error("{}: is not the journal from which the tables beside it were written ({problem}); {} writes the tables of the designs that it has", folder.join(RunFolder::JOURNAL).display(), mend(folder))]
     Journal {
         /// The folder.
         folder: PathBuf,
@@ -59,7 +59,7 @@ pub enum InvalidFolder {
         problem: String,
     },
     /// A table is not the one that was written.
-    #[error("{}: is not as it was written, expected no change; {} writes it again", folder.join(file).display(), mend(folder))]
+    #[error("{}: was changed after squama wrote it; {} writes it again", folder.join(file).display(), mend(folder))]
     Changed {
         /// The folder.
         folder: PathBuf,
@@ -67,13 +67,13 @@ pub enum InvalidFolder {
         file: String,
     },
     /// The record of a run was changed.
-    #[error("{}: is not as its run wrote it, expected no change, or a copy of another name; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
+    #[error("{}: was edited; copy it under another name to use it as a definition; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
     Record {
         /// The folder.
         folder: PathBuf,
     },
     /// A table of a ranking that did not come to its end, or of other tables.
-    #[error("{}: {problem}, expected a ranking of the tables beside it; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
+    #[error("{}: {problem}; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
     Ranking {
         /// The folder.
         folder: PathBuf,
@@ -91,7 +91,7 @@ pub enum InvalidFolder {
         file: String,
     },
     /// A file of a search that did not come to its end, or one that was changed.
-    #[error("{}: {problem}, expected the file that squama optimise wrote; the same command with --resume writes it again", folder.join(file).display())]
+    #[error("{}: {problem}; the same command with --resume writes it again", folder.join(file).display())]
     Search {
         /// The folder.
         folder: PathBuf,
@@ -109,7 +109,7 @@ pub enum InvalidFolder {
         reason: String,
     },
     /// Some designs are not done.
-    #[error("{}: holds {done} of {designs} designs, expected all of them; squama run --resume solves the others, --partial uses those that are there", folder.display())]
+    #[error("{}: holds {done} of {designs} designs; squama run --resume solves the others, --partial uses those that are there", folder.display())]
     Incomplete {
         /// The folder.
         folder: PathBuf,
@@ -119,7 +119,7 @@ pub enum InvalidFolder {
         designs: u64,
     },
     /// The journal goes on beyond the tables.
-    #[error("{}: the journal goes on beyond the tables, because a run is going on or was ended before it wrote them; expected tables of all of it; {} writes them, --partial uses those that are there", folder.display(), mend(folder))]
+    #[error("{}: the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables", folder.display(), mend(folder))]
     Behind {
         /// The folder.
         folder: PathBuf,
@@ -265,7 +265,7 @@ impl VerifiedFolder {
             || InvalidFolder::Unrecorded { folder: self.path().to_owned(), file: name.to_owned() };
         let ranking = ranking.ok_or_else(unrecorded)?;
         if ranking.from != contents.digest() {
-            return Err(refuse("is made from other tables"));
+            return Err(refuse("was made from other tables"));
         }
         let stated = ranking.files.get(name).cloned();
         stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
@@ -288,7 +288,7 @@ impl VerifiedFolder {
 
     fn changed(&self, name: &str) -> InvalidFolder {
         let (folder, file) = (self.path().to_owned(), name.to_owned());
-        let problem = "is not as it was written";
+        let problem = "was changed after squama wrote it";
         match FileEntry::of(name).map(|file| file.maker) {
             Some(Maker::Ranking) => InvalidFolder::Ranking { folder, file, problem },
             Some(Maker::Search) => InvalidFolder::Search { folder, file, problem },
@@ -386,20 +386,22 @@ mod tests {
             let place = tempfile::tempdir().expect("a folder");
             let folder = folder(place.path(), BTreeMap::new());
             fs::write(folder.file(file.name), "forged").expect("writable");
+            fs::write(folder.file(RunFolder::EVALUATIONS), "").expect("writable");
             let open = || VerifiedFolder::open(folder.path(), Completeness::Whole);
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
             assert!(refused.to_string().contains(file.name), "{refused}");
             let written = BTreeMap::from([(file.name.to_owned(), sha256("as it was written"))]);
-            if file.maker == Maker::Ranking {
-                let from = open().expect("a folder").digest().expect("a digest");
-                let (product, command) = ("ranking".to_owned(), "squama rank".to_owned());
-                let made = Derivation { product, command, from, made_from: None, files: written };
-                made.write(&folder, RunFolder::RANKING_RECORD).expect("writable");
-            } else {
+            if file.maker == Maker::Run {
                 self::folder(place.path(), written);
+            } else {
+                let from = open().expect("a folder").digest().expect("a digest");
+                let (product, command) = file.maker.names();
+                let (product, command) = (product.to_owned(), command.to_owned());
+                let made = Derivation { product, command, from, made_from: None, files: written };
+                made.write(&folder, file.maker.key()).expect("writable");
             }
             let refused = open().and_then(|folder| folder.text(file.name)).expect_err(file.name);
-            assert!(refused.to_string().contains("is not as"), "{refused}");
+            assert!(refused.to_string().contains("was changed after"), "{refused}");
             fs::write(folder.file(file.name), "as it was written").expect("writable");
             let read = open().and_then(|folder| folder.text(file.name)).expect("a text");
             assert_eq!(read, "as it was written", "{}", file.name);

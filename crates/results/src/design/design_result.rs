@@ -146,7 +146,7 @@ fn finite_or<M>(finite: bool, outcome: Outcome, measures: M, few: M) -> (Outcome
 #[cfg(test)]
 mod tests {
     use skin::Status;
-    use skin::puncture::{Passage, PunctureMeasures};
+    use skin::puncture::PunctureMeasures;
 
     use super::*;
 
@@ -171,7 +171,6 @@ mod tests {
             folds,
             scales,
             history,
-            passage: Passage::default(),
         }
     }
 

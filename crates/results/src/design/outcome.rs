@@ -102,7 +102,7 @@ impl Outcome {
                 "load, depth and tilt turned back together, and the path ends before any of them recovers"
             }
             Self::Untilted => {
-                "a guided needle is two thicknesses deep and has tilted no scale critically"
+                "a guided needle pushes a scale straight down and tilts none critically"
             }
         }
     }

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 use solver::Path;
 
-use super::PuncturePoint;
 use super::fold::Fold;
 use super::system::Chain;
+use super::{Passage, PuncturePoint};
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
 
@@ -63,6 +63,9 @@ pub struct PunctureMeasures {
     pub fold_tilt_deg: Option<f64>,
     /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
     pub sound_force: Option<f64>,
+    /// How a guided needle came through.
+    #[serde(default, skip_serializing_if = "Passage::is_none")]
+    pub passage: Passage,
 }
 
 impl PunctureMeasures {
@@ -115,6 +118,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
+            passage: self.passage,
             ..Self::default()
         }
     }

@@ -120,6 +120,17 @@ impl GuidedNeedle {
         self.contacts + CONSTRAINTS * touch + constraint
     }
 
+    /// The constraint at which a path has ended.
+    pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
+        let mut conditions = Vec::new();
+        chain.needle_conditions(self, end, &mut conditions);
+        let ends = [TILT, CONSTRAINTS + TILT, THROUGH].into_iter();
+        // It has vanished to the tolerance of Newton's method.
+        ends.filter(|&number| conditions[number].abs() < 1e-8)
+            .map(|number| self.contacts + number)
+            .next()
+    }
+
     /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or the needle is through.
     pub(super) fn ends(&self, constraint: usize) -> bool {
         let ends = [TILT, CONSTRAINTS + TILT, THROUGH];
@@ -135,29 +146,31 @@ impl Chain {
         rest.active[needle.number(0, PUSH)] = true;
         let face = Face::new(&self.contacts.scale(self.layout.left), Place::Top);
         let touch = |rub| [Some(Touch { scale: 0, place: Place::Top, rub }), None];
-        rest.mode.needle.touches = touch(Rub::Slip { ratio: 0.0, from: 0.0 });
+        rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: 0.0 });
         let at = self.tip(&rest.z, 0, Place::Top).map_or(face.length, |tip| tip.way);
         if needle.friction == 0.0 {
-            rest.mode.needle.touches = touch(Rub::Slip { ratio: 0.0, from: at });
+            rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: at });
             return rest;
         }
         rest.mode.needle.touches = touch(Rub::Stick { at });
         let control = self.controls[0];
-        let condition = Condition { row: vec![(control.index, 1.0 / control.scale)], value: 0.0 };
+        let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
         let push = needle.push(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[push], rates[push + 1]];
             if tangential.abs() > needle.friction * normal {
-                let (ratio, constraint) = if tangential > 0.0 {
-                    (needle.friction, FORWARD)
-                } else {
-                    (-needle.friction, BACKWARD)
-                };
-                rest.mode.needle.touches = touch(Rub::Slip { ratio, from: at });
+                let (sign, constraint) =
+                    if tangential > 0.0 { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+                rest.mode.needle.touches = touch(Rub::Slip { sign, from: at });
                 rest.active[needle.number(0, constraint)] = true;
             }
         }
         rest
+    }
+
+    /// Whether the equations of a state keep something of the way to it.
+    pub(super) fn has_history(state: &SkinState) -> bool {
+        state.mode.needle.touches.iter().flatten().any(Touch::has_history)
     }
 
     /// The tip at a place of a scale; `None` of a free needle, and of a scale that is not solved for or too far away.

@@ -63,12 +63,16 @@ impl Problem<'_> {
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
-        let spots = self.spots(watch, path);
+        let (spots, sticking): (Vec<_>, Vec<_>) =
+            self.spots(watch, path).into_iter().partition(is_known);
         let system = path.system();
+        let missing = missing(system, &sticking, variations.len());
         let chain = |input: &PunctureInput| input.chain(system.layout);
         let variations: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(chain)).collect();
-        Ok(derivatives(system, spots, &variations?, &self.settings))
+        let mut derivatives = derivatives(system, spots, &variations?, &self.settings);
+        derivatives.extend(missing);
+        Ok(derivatives)
     }
 
     /// The places of the path at which measures are taken.
@@ -95,15 +99,17 @@ impl Problem<'_> {
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
         let (end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        let mut at_rest = rest(chain);
+        at_rest.state = chain.at_rest();
         vec![
-            spot(Some(end(path)), end_quantities),
+            spot(Some(chain.end_of(end(path))), end_quantities),
             spot(folded, fold_quantities),
             spot(highest, vec![force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),
             at_turn(depth_limit, [force("depth_stability_force")]),
             spot(touching, vec![depth("first_contact_displacement")]),
-            spot(Some(rest(chain)), vec![stiffness("initial_stiffness")]),
+            spot(Some(at_rest), vec![stiffness("initial_stiffness")]),
             spot(stiffest, vec![stiffness("max_stiffness")]),
         ]
     }
@@ -120,7 +126,39 @@ impl PunctureInput {
     }
 }
 
+/// Whether the place of a measure depends on the parameters alone. Where a needle sticks, the place at which it does is a matter of the
+/// way to it.
+fn is_known(spot: &MeasuredPoint<Chain>) -> bool {
+    spot.place.as_ref().is_none_or(|place| !Chain::has_history(&place.state))
+}
+
+/// Derivatives that are not known, each with the reason.
+fn missing(chain: &Chain, spots: &[MeasuredPoint<Chain>], parameters: usize) -> Vec<Derivative> {
+    let mut derivatives = Vec::new();
+    for MeasuredPoint { place, quantities } in spots {
+        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
+            let value = place.as_ref().map_or(0.0, |place| quantity.at(chain, place));
+            let kink = "the needle sticks: it depends on the way to this place";
+            derivatives.extend((0..parameters).map(|parameter| Derivative {
+                measure: quantity.measure,
+                parameter,
+                value,
+                left: None,
+                right: None,
+                kink: Some(kink.to_owned()),
+            }));
+        }
+    }
+    derivatives
+}
+
 impl Chain {
+    /// The end of a path, held by what ended it: the tilt, or under a guided needle one of its constraints.
+    fn end_of(&self, place: AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
+        let ended = self.needle.as_ref().and_then(|n| n.ended_at(self, &place.state));
+        AnchoredPoint { anchor: ended.map_or(place.anchor, PathAnchor::Guard), ..place }
+    }
+
     /// The place of the largest load: held by that where nothing else holds it.
     fn extremum(&self, place: &AnchoredPoint<SkinMode>) -> AnchoredPoint<SkinMode> {
         let held = sensitivity::is_held(self, place);

@@ -78,13 +78,14 @@ pub fn snapshots(
     let stiffness = substrate.into();
     let mut parameters = *parameters;
     loop {
-        let rows = Rows::Even(design.row()?);
+        let row = design.row()?;
+        let rows = Rows::Even(row);
         let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
         let (start, longest) = problem.start()?;
         let mut followed = problem.follow(start, longest, &[], at)?;
         let found = std::mem::take(&mut followed.watch.places.found);
         let chain = followed.path.system();
-        let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, &point?.state));
+        let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, row.pitch(), &point?.state));
         let at_places = found.into_iter().map(snapshot).collect();
         let puncture = followed.puncture();
         if !reaches_short(&puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
@@ -107,12 +108,19 @@ fn reaches_short(puncture: &Puncture, at: &[At]) -> bool {
     puncture.status == Status::Complete && at.iter().any(beyond)
 }
 
-fn snapshot(chain: &Chain, state: &SkinState) -> RowSnapshot {
+fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
+    // Contacts count from the first scale that is solved for, a snapshot from the first of the row.
+    let [before, _] = chain.surroundings.scales_to_ends();
+    let in_row = |contact: Contact| {
+        let [x, y] = contact.point;
+        let point = [x + before as f64 * pitch, y];
+        Contact { left: contact.left + before, point, ..contact }
+    };
     RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
         tilt_deg: chain.angle_deg(state),
         scales: scales(chain, state),
-        contacts: chain.contacts.closed_contacts(state),
+        contacts: chain.contacts.closed_contacts(state).into_iter().map(in_row).collect(),
     }
 }

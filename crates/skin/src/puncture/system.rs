@@ -339,6 +339,11 @@ impl System for Chain {
         &self.controls
     }
 
+    fn coordinates(&self) -> Vec<usize> {
+        let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
+        scales.flat_map(|at| at..at + 3).collect()
+    }
+
     fn constraints(&self) -> &[usize] {
         &self.constraints
     }

@@ -11,6 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use solver::{BandMatrix, Path, Settings, System, check_tangent};
 use substrate::{Coupling, RowStiffness, calibrate};
 
+use self::needle::integral;
 use super::stability::Instability;
 use super::surroundings::{Beyond, Reach, Surroundings};
 use super::system::{Chain, Layout};
@@ -171,22 +172,6 @@ fn work(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> f64 {
     let states = [&from.state, &inner[0], &inner[1], &inner[2], &to.state];
     let chain = path.system();
     integral(states.map(|state| [state.z[chain.load()], chain.depth(&state.z)]))
-}
-
-/// `∫ F du` by the values of both at five places.
-fn integral(values: [[f64; 2]; 5]) -> f64 {
-    let u = values.map(|[_, u]| u);
-    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
-    let slopes = [
-        [-25.0, 48.0, -36.0, 16.0, -3.0],
-        [-3.0, -10.0, 18.0, -6.0, 1.0],
-        [1.0, -8.0, 0.0, 8.0, -1.0],
-        [-1.0, 6.0, -18.0, 10.0, 3.0],
-        [3.0, -16.0, 36.0, -48.0, 25.0],
-    ]
-    .map(slope);
-    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
-    (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
 }
 
 /// Work and energy along a path.

@@ -31,12 +31,19 @@ pub(crate) fn first_contact<S: Skin>(
     point: &SkinPoint,
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
+    let contacts = system.contacts().forces();
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
+    if changes.iter().any(|change| change.constraint >= contacts.len()) {
+        // The needle changes with the contact: what it did before is not known here.
+        return None;
+    }
     let mut state = SkinState::at_rest(system);
     state.z.clone_from(&point.state.z);
-    for &force in system.constraints() {
+    for &force in contacts {
         state.z[force] = 0.0;
     }
+    state.mode.needle = point.state.mode.needle;
+    state.active[contacts.len()..].copy_from_slice(&point.state.active[contacts.len()..]);
     let direction = point.arriving.clone();
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })
 }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use skin::puncture::{Instability, Puncture, PunctureParameters, PuncturePoint};
 use skin::{Base, Common, Design, Status};
 use solver::{Settings, Stop};
-use substrate::Calibrations;
+use substrate::{Calibrations, SubstrateLaw};
 
 use crate::end;
 use crate::samples::{
@@ -76,6 +76,42 @@ fn the_steep_half_of_the_study_ends_before_a_needle_pulls() {
     let every = if long_campaigns() { 1 } else { 11 };
     let designs: Vec<_> = steep.step_by(every).map(|design| (design, 35.0)).collect();
     check(&designs, &Calibrations::default());
+}
+
+/// Rest is a regular point: no path comes back to it, by whatever branch, and none goes round and round.
+/// Eight designs that did; all of the study with both bases in a long campaign.
+#[test]
+fn no_path_comes_back_to_rest() {
+    use SubstrateLaw::{Linear, NeoHookean};
+    let came_back = [
+        (Linear, 0.1, 0.05),
+        (Linear, 0.2, 0.1),
+        (NeoHookean, 0.1, 0.8),
+        (NeoHookean, 0.1, 1.0),
+        (NeoHookean, 0.4, 0.025),
+        (NeoHookean, 0.5, 0.05),
+        (NeoHookean, 0.6, 0.1),
+        (NeoHookean, 0.7, 0.2),
+    ];
+    let named = came_back.map(|(law, gap, length)| (law, design(gap, length, 75.0, Base::L)));
+    let study = || BASES.map(reference_study).concat().into_iter();
+    let both_laws = [Linear, NeoHookean].into_iter();
+    let designs: Vec<_> = if long_campaigns() {
+        both_laws.flat_map(|law| study().map(move |design| (law, design))).collect()
+    } else {
+        named.to_vec()
+    };
+    let known = Calibrations::default();
+    designs.par_iter().for_each(|&(substrate_law, design)| {
+        let parameters = PunctureParameters { substrate_law, ..to_tilt(35.0) };
+        let puncture = solve_with(&known, &design, &parameters);
+        assert_ne!(puncture.status, Status::Stopped(Stop::TooManyPoints), "{design:?}");
+        let last = end(&puncture);
+        assert!(
+            last.tilt_deg > 1.0 && last.displacement > 0.01,
+            "{substrate_law:?} {design:?} {last:?}"
+        );
+    });
 }
 
 /// Tilts from 10° to 45°. Two hundred designs; two thousand in a long campaign.

@@ -73,7 +73,8 @@ impl System for Block {
         match active[..] {
             [true, _] => residual.add(1, z[1] - limit(z[0])),
             [_, true] => residual.add(1, z[1] + limit(z[0])),
-            _ => residual.add(1, z[0] - mode),
+            // With this sign the determinant keeps its own where the block begins to slide: a path that turns back is known by it.
+            _ => residual.add(1, mode - z[0]),
         }
     }
 
@@ -81,7 +82,7 @@ impl System for Block {
         let [by_u, by_friction] = match active[..] {
             [true, _] => [-FRICTION * WEDGE, 1.0],
             [_, true] => [FRICTION * WEDGE, 1.0],
-            _ => [1.0, 0.0],
+            _ => [-1.0, 0.0],
         };
         let entries = [(0, 0, 1.0), (0, 1, 1.0), (0, 4, 8.0 * z[4] - 4.0)];
         let ways = [(2, 2, 1.0), (2, 0, -1.0), (3, 3, 1.0), (3, 0, 1.0)];

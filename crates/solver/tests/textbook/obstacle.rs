@@ -30,7 +30,7 @@ fn a_string_that_touches_without_a_force_lies_free() {
     let string = StringOverFloor::whole(4, 1.0);
     let mut newton = Newton::new(&string);
     let touching = string.touching_load(2);
-    let condition = Condition { row: vec![(string.load(), 1.0)], value: touching };
+    let condition = Condition::new(vec![(string.load(), 1.0)], touching);
     let z = (0..string.size()).map(|i| if i % 2 == 1 { 0.3 } else { 0.0 }).collect();
     let mut state = State { z, active: vec![false; 3], mode: () };
     newton.solve(&string, &mut state, &condition, &Settings::default()).unwrap();

@@ -84,7 +84,7 @@ fn an_equation_is_satisfied_where_it_is_small_against_its_terms() {
 
 #[test]
 fn newtons_method_says_why_it_fails() {
-    let condition = |value| Condition { row: vec![(0, 1.0)], value };
+    let condition = |value| Condition::new(vec![(0, 1.0)], value);
     let fail = |system, value, settings: &Settings| {
         let mut state = State { z: vec![0.0, 0.0], active: Vec::new(), mode: () };
         let mut newton = Newton::new(&system);

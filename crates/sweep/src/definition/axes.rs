@@ -57,7 +57,7 @@ fn read_range(
 ) -> Result<Axis, Problem> {
     let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
     if !parameter.takes_numbers() {
-        return Err(wrong(format!("no range of words, expected {}", parameter.expected())));
+        return Err(wrong(format!("words have no range, expected {}", parameter.expected())));
     }
     let [from, to, step] = range_values(entries).map_err(&wrong)?;
     // Both ends in bounds means all of it, because the bounds are those of an interval.
@@ -69,7 +69,7 @@ fn read_range(
     // A step that is not positive has an error of its own.
     let has_broken_step = step.to_f64() > 0.0 && is_broken(step);
     if parameter.takes_counts() && (is_broken(from) || is_broken(to) || has_broken_step) {
-        return Err(wrong("not whole, expected whole numbers".to_owned()));
+        return Err(wrong("has fractions, expected whole numbers".to_owned()));
     }
     let numbers = decimal::range(from, to, step).map_err(|problem| wrong(problem.to_string()))?;
     let values = numbers.into_iter().map(|number| parameter.scalar(number)).collect();

@@ -27,13 +27,16 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     let [sd, within, scale_sd] = KEYS.map(|key| number(entries, key));
     let batch = match (sd?, within?) {
         (Some(_), Some(_)) => {
-            return Err(wrong(entry, "two distributions, expected one of the two".to_owned()));
+            return Err(wrong(
+                entry,
+                "has batch_sd and batch_within; keep one of the two".to_owned(),
+            ));
         }
         (sd, within) => sd.map(BatchDeviation::Normal).or(within.map(BatchDeviation::Uniform)),
     };
     let scale_sd = scale_sd?;
     if scale_sd.is_some() && !parameter.has(Role::Scattered) {
-        let problem = "nothing but gap_over_t (or gap_mm) and slant_deg differs from scale to scale, expected batch_sd or batch_within";
+        let problem = "scale_sd is for gap_over_t (or gap_mm) and slant_deg only, expected batch_sd or batch_within";
         return Err(wrong(entry, problem.to_owned()));
     }
     if batch.is_none() && scale_sd.is_none() {

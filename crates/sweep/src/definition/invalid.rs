@@ -78,13 +78,13 @@ pub enum Problem {
         problem: String,
     },
     /// A value stands in a list twice.
-    #[error("{value} stands in the list twice, expected each value once")]
+    #[error("{value} is in the list twice")]
     Twice {
         /// The value.
         value: String,
     },
     /// A parameter is set in its section and in the grid.
-    #[error("{value} contradicts {other} at {place}, expected one of the two")]
+    #[error("{value} conflicts with {other} at {place}; keep one of the two")]
     Contradiction {
         /// The value that the parameter is set to here.
         value: String,
@@ -94,7 +94,7 @@ pub enum Problem {
         place: Place,
     },
     /// Two parameters that say the same in two ways.
-    #[error("stands beside {other} at {place}, expected one of the two")]
+    #[error("cannot be combined with {other} at {place}; keep one of the two")]
     Alternative {
         /// The other key.
         other: String,
@@ -102,13 +102,13 @@ pub enum Problem {
         place: Place,
     },
     /// A deviation in a unit that only another key gives.
-    #[error("needs {other}, expected that to be set")]
+    #[error("needs {other} to be set")]
     Needs {
         /// The other key.
         other: String,
     },
     /// Steps that no path can follow.
-    #[error("{value} is larger than {other}, expected at most that")]
+    #[error("{value} must be at most {other}")]
     StepOrder {
         /// The smallest step.
         value: String,

@@ -11,7 +11,7 @@ use crate::definition::Sweep;
 use crate::deviation::Deviation;
 use crate::grid::{Axis, Grid};
 use crate::number;
-use crate::parameter::{Parameter, Scalar, WrongValue};
+use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::toml_source::{KeyValue, KeyValues, Place, Value};
 use crate::variable::Variable;
 
@@ -142,6 +142,7 @@ impl Reader {
         let without_unit: Vec<_> = self.deviations_without_unit().collect();
         self.refused.extend(without_unit);
         self.refused.extend(self.check_alternatives().err());
+        self.refused.extend(self.check_needle().err());
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
         InvalidDefinition::of(self.refused)?;
@@ -160,7 +161,8 @@ impl Reader {
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.variables.iter().filter_map(|(variable, place)| {
             let parameter = variable.parameter();
-            let alternative = parameter.alternative().filter(|other| !self.leaves_open(other));
+            let alternative = parameter.alternative_in(&self.case);
+            let alternative = alternative.filter(|other| !self.leaves_open(other));
             let mut both = std::iter::once(parameter).chain(alternative);
             let (fixed, there) = both.find_map(|fixed| Some((fixed, self.place(fixed.key)?)))?;
             let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
@@ -205,6 +207,31 @@ impl Reader {
         Ok(())
     }
 
+    /// Refuses several frictions of a guided needle, which has a path for each, and a friction of 0 of a free one, whose critical tilt
+    /// it would be.
+    fn check_needle(&self) -> Result<(), InvalidDefinition> {
+        let Some((parameter, place)) =
+            self.shared.iter().find(|(shared, _)| shared.key == key::NEEDLE_FRICTION)
+        else {
+            return Ok(());
+        };
+        let is_axis = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
+        let is_guided = self.case.puncture.needle.is_guided();
+        let friction = parameter.get(&self.case);
+        let expected = match friction {
+            Scalar::List(_) if is_guided || is_axis => {
+                "a number: a guided needle has a path for each friction, as an axis in [designs]"
+            }
+            Scalar::Number(0.0) if !is_guided && !is_axis => {
+                "a number above 0: its arctangent is the critical tilt of a free needle"
+            }
+            _ => return Ok(()),
+        };
+        let wrong =
+            WrongValue::NotAccepted { found: friction.to_toml(), expected: expected.to_owned() };
+        Err(refuse(place, &parameter.path(), Problem::from(wrong)))
+    }
+
     /// Refuses a parameter that `gives` a value if its alternative does too.
     fn check_alternative(
         &self,
@@ -212,7 +239,8 @@ impl Reader {
         place: &Place,
         gives: bool,
     ) -> Result<(), InvalidDefinition> {
-        let other = parameter.alternative().filter(|other| gives && !self.leaves_open(other));
+        let other = parameter.alternative_in(&self.case);
+        let other = other.filter(|other| gives && !self.leaves_open(other));
         let Some((other, there)) = other.and_then(|other| Some((other, self.place(other.key)?)))
         else {
             return Ok(());

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::suggestion::VARIABLES;
 use crate::parameter::Parameter;
+use crate::parameter::key;
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
 
 /// Parts of a dotted key, at most. None has more than two, but a mistyped one is refused by name.
@@ -53,7 +54,7 @@ impl Setting {
             text.split_once('=').ok_or_else(|| refuse("there is no `=`".to_owned()))?;
         let path: Vec<_> = key.split('.').map(|part| part.trim().to_owned()).collect();
         if path.iter().any(String::is_empty) {
-            return Err(refuse(format!("`{}` is no key", key.trim())));
+            return Err(refuse(format!("`{}` is not a key", key.trim())));
         }
         if path.len() > DEEPEST {
             return Err(refuse(format!(
@@ -62,7 +63,7 @@ impl Setting {
             )));
         }
         let value = toml_source::parse_argument(value, &place).map_err(|message| {
-            refuse(format!("`{}` is no TOML value ({message})", value.trim()))
+            refuse(format!("`{}` is not a TOML value ({message})", value.trim()))
         })?;
         Ok(Self { path, value, place })
     }
@@ -117,11 +118,24 @@ impl Setting {
                 drop_from_file(table, section, parameter.key);
             }
         }
-        if let Some(other) = parameter.alternative() {
+        let is_guided = says(table, "puncture", key::NEEDLE, "guided");
+        let is_needle =
+            parameter.key == key::NEEDLE_FRICTION || parameter.key == key::CRITICAL_TILT;
+        // Under a guided needle tilt and friction are two things.
+        if let Some(other) = parameter.alternative().filter(|_| !(is_guided && is_needle)) {
             drop_from_file(table, "designs", other.key);
             drop_from_file(table, other.section, other.key);
         }
     }
+}
+
+/// Whether a definition gives a key of a section this text.
+fn says(table: &KeyValues, section: &str, key: &str, text: &str) -> bool {
+    table.iter().filter(|entry| entry.key == section).any(|entry| {
+        let Value::Table(entries) = &entry.value else { return false };
+        let is_text = |value: &Value| matches!(value, Value::Text(found) if found == text);
+        entries.iter().any(|entry| entry.key == key && is_text(&entry.value))
+    })
 }
 
 /// Removes what the file says about a key of a section.
@@ -142,9 +156,9 @@ mod tests {
     fn settings_that_are_none_say_why() {
         let message = |text| Setting::parse(text).expect_err("invalid").to_string();
         insta::assert_snapshot!(message("scales"), @"--set scales: there is no `=`, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("=3"), @"--set =3: `` is no key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is no TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
-        insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is no TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("=3"), @"--set =3: `` is not a key, expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("designs.slant_deg=[0,"), @"--set designs.slant_deg=[0,: `[0,` is not a TOML value (unclosed array, expected `]`), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
+        insta::assert_snapshot!(message("scale.base="), @"--set scale.base=: `` is not a TOML value (string values must be quoted, expected literal string), expected KEY=VALUE with a dotted key, e.g. puncture.scales=41");
     }
 
     #[test]

@@ -23,7 +23,9 @@ fn between(
 ) -> Result<VariableValues, Problem> {
     let wrong = |problem: String| Problem::Range { range: written.to_string(), problem };
     if parameter.takes_counts() || !parameter.takes_numbers() {
-        return Err(wrong("no numbers in between, expected a list of values".to_owned()));
+        return Err(wrong(
+            "there are no numbers between these bounds, expected a list of values".to_owned(),
+        ));
     }
     if let Some(entry) = entries.iter().find(|entry| !["from", "to"].contains(&entry.key.as_str()))
     {
@@ -31,15 +33,16 @@ fn between(
     }
     let bound = |key: &str| {
         let entry = entries.iter().find(|entry| entry.key == key);
-        let entry = entry.ok_or_else(|| wrong(format!("no `{key}`, expected from and to")))?;
+        let entry =
+            entry.ok_or_else(|| wrong(format!("`{key}` is missing, expected from and to")))?;
         let number = parameter.read(&entry.value)?.number();
-        number.ok_or_else(|| wrong(format!("{} is no number", entry.value)))
+        number.ok_or_else(|| wrong(format!("{} is not a number", entry.value)))
     };
     let (from, to) = (bound("from")?, bound("to")?);
     if from < to {
         Ok(VariableValues::Between(from, to))
     } else {
-        Err(wrong("nothing in between, expected from below to".to_owned()))
+        Err(wrong("`from` must be below `to`".to_owned()))
     }
 }
 

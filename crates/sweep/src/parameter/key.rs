@@ -18,6 +18,8 @@ pub const POISSON_RATIO: &str = "poisson_ratio";
 /// The tilt at which a puncture ends.
 pub const CRITICAL_TILT: &str = "critical_tilt_deg";
 
+/// How the needle is held.
+pub const NEEDLE: &str = "needle";
 /// The friction between needle and scale.
 pub const NEEDLE_FRICTION: &str = "needle_friction";
 

@@ -2,7 +2,7 @@
 
 use skin::Base;
 use skin::flexure::{MembraneMesh, Method};
-use skin::puncture::{NumberList, RowLength};
+use skin::puncture::{Needle, NumberList, RowLength};
 use substrate::{Coupling, SubstrateLaw};
 
 use crate::case::Case;
@@ -175,6 +175,21 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: key::NEEDLE,
+        section: "puncture",
+        unit: "-",
+        meaning: "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale",
+        roles: &[EndsPuncture],
+        kind: ParameterKind::Word {
+            words: &["free", "guided"],
+            get: |c| usize::from(c.puncture.needle.is_guided()),
+            set: |c, word| {
+                c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word];
+                settle_needle(c);
+            },
+        },
+    },
+    Parameter {
         key: key::CRITICAL_TILT,
         section: "puncture",
         unit: "deg",
@@ -188,23 +203,26 @@ pub static PARAMETERS: &[Parameter] = &[
                 tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),
                 tilts => Scalar::List(tilts),
             },
-            set: |c, tilts| set_tilts(c, tilts, |tilt| tilt),
+            set: |c, tilts| {
+                c.critical_tilt = tilts;
+                settle_needle(c);
+            },
         },
     },
     Parameter {
         key: key::NEEDLE_FRICTION,
         section: "puncture",
         unit: "-",
-        meaning: "friction between needle and scale, whose arctangent is the critical tilt, instead of that",
+        meaning: "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given",
         roles: &[Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
         kind: ParameterKind::Numbers {
             noun: "a number",
-            range: POSITIVE,
+            range: Range { low: Included(0.0), high: Included(1e30) },
             word: Some("none"),
             get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
             set: |c, friction| {
                 c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
-                set_tilts(c, friction, |friction| friction.atan().to_degrees());
+                settle_needle(c);
             },
         },
     },
@@ -489,6 +507,19 @@ pub static PARAMETERS: &[Parameter] = &[
 ];
 
 /// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
+/// Makes tilts and friction of a puncture what the case says of them, in whatever order it was said.
+fn settle_needle(case: &mut Case) {
+    let friction = case.needle_friction;
+    if let Needle::Guided { friction: of_needle } = &mut case.puncture.needle {
+        *of_needle = friction.and_then(Scalar::number).unwrap_or(0.0);
+        return set_tilts(case, case.critical_tilt, |tilt| tilt);
+    }
+    match friction {
+        Some(friction) => set_tilts(case, friction, |friction| friction.atan().to_degrees()),
+        None => set_tilts(case, case.critical_tilt, |tilt| tilt),
+    }
+}
+
 fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
     let tilts = match value {
         Scalar::Number(number) => {

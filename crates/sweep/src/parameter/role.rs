@@ -1,6 +1,7 @@
 //! What parameters are to a skin: whoever treats some of them in a way of their own asks for their role, not for their names.
 
-use super::{PARAMETERS, Parameter};
+use super::{PARAMETERS, Parameter, key};
+use crate::case::Case;
 
 /// What a parameter is to the skin, beyond its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,6 +43,14 @@ impl Parameter {
         self.instead_of().or_else(|| self.instead())
     }
 
+    /// The same in a case: under a guided needle tilt and friction are two things.
+    pub(crate) fn alternative_in(&self, case: &Case) -> Option<&'static Self> {
+        self.alternative().filter(|other| {
+            let is_needle = [self.key, other.key].contains(&key::NEEDLE_FRICTION);
+            !(is_needle && case.puncture.needle.is_guided())
+        })
+    }
+
     /// The parameter instead of which this one may be given.
     fn instead_of(&self) -> Option<&'static Self> {
         self.roles.iter().find_map(|role| match role {
@@ -59,7 +68,6 @@ impl Parameter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::Case;
     use crate::parameter::Scalar;
 
     #[test]

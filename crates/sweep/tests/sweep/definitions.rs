@@ -86,6 +86,38 @@ fn the_record_of_a_run_is_a_definition() {
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
 
+/// Of a guided needle tilt and friction are two things, in whatever order they are said, and a friction of 0 is one.
+#[test]
+fn a_guided_needle_has_a_tilt_and_a_friction() {
+    use skin::puncture::Needle;
+    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
+    let puncture = |text: &str, index| read(text).unwrap().grid().case(index).puncture;
+    let guided = "puncture = { needle_friction = 0.3, critical_tilt_deg = 8, needle = 'guided' }";
+    assert_eq!(puncture(guided, 0).needle, Needle::Guided { friction: 0.3 });
+    assert_eq!(puncture(guided, 0).critical_tilt_deg, 8.0);
+    let sweep = read(guided).unwrap();
+    let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
+    assert_eq!(again.grid().case(0), sweep.grid().case(0));
+    assert!(sweep.is_guided() && !read("").unwrap().is_guided());
+    let smooth = "puncture = { needle_friction = 0, needle = 'guided' }";
+    assert_eq!(puncture(smooth, 0).needle, Needle::Guided { friction: 0.0 });
+    assert_eq!(puncture(smooth, 0).critical_tilt_deg, 10.0);
+    // Both needles in one sweep: the friction is that of the one, and says the tilt of the other.
+    let both = "puncture.needle_friction = 0.2\ndesigns.needle = ['free', 'guided']";
+    let last = read(both).unwrap().grid().len() - 1;
+    assert_eq!(puncture(both, 0).critical_tilt_deg, 0.2_f64.atan().to_degrees());
+    assert_eq!(puncture(both, last).critical_tilt_deg, 10.0);
+    assert_eq!(puncture(both, last).needle, Needle::Guided { friction: 0.2 });
+    let several = "puncture = { needle_friction = [0.1, 0.2], needle = 'guided' }";
+    let refused = read(several).unwrap_err().to_string();
+    assert!(refused.contains("as an axis in [designs]"), "{refused}");
+    let refused = read("puncture.needle_friction = 0").unwrap_err().to_string();
+    assert!(refused.contains("a number above 0"), "{refused}");
+    let setting = [Setting::parse("puncture.needle_friction=0.1").unwrap()];
+    let set = Sweep::parse(&format!("name = 'x'\n{guided}"), "x.toml", &setting).unwrap();
+    assert_eq!(set.grid().case(0).puncture.critical_tilt_deg, 8.0);
+}
+
 /// Several critical tilts, or the frictions whose arctangents they are: the largest is where a puncture ends.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {

@@ -141,7 +141,7 @@ fn all_errors_are_told_at_once() {
     x.toml:8: contact.c2: 0 is out of range, expected a number above 0 and at most 10
     x.toml:10: puncture.scales: "many" is not accepted, expected a whole number from 1 to 1000000 or "auto"
     --set solver.max_step=0: solver.max_step: 0 is out of range, expected a fraction above 0 and at most 1
-    x.toml:7: contact.c1: 2 contradicts designs.c1 at x.toml:5, expected one of the two
+    x.toml:7: contact.c1: 2 conflicts with designs.c1 at x.toml:5; keep one of the two
     x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
     "#);
     let text = "name = x\n[designs]\nslant_deg 30\ngap_over_t = 0.1";
@@ -209,7 +209,7 @@ fn long_lists_and_many_keys_are_read_or_refused_at_once() {
     assert_eq!(sweep.grid().axis("gap_over_t").expect("an axis").len(), 300_000);
     let twice = text.replace("\n]", ",\n0.25\n]");
     let error = Sweep::parse(&twice, "x.toml", &[]).expect_err("refused").to_string();
-    assert!(error.contains("0.25 stands in the list twice"), "{error}");
+    assert!(error.contains("0.25 is in the list twice"), "{error}");
     let keys: Vec<_> = (0..100_000).map(|k| format!("key{k} = {k}")).collect();
     let keys = keys.join("\n");
     let error = Sweep::parse(&keys, "x.toml", &[]).expect_err("refused").to_string();
@@ -269,4 +269,15 @@ fn deviations() {
         "tolerance.critical_tilt_deg = { batch_sd = 1 }",
         "tolerance.gap_over_t = { batch_sd = 1 }\nmaterial.thickness_mm = 1\ntolerance.gap_mm = { batch_sd = 1 }",
     ]));
+}
+
+#[test]
+fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
+    let text = format!("name = 'x'\n[designs]\ngap_over_t = [{}]", "1,".repeat(1_300_000));
+    let error = Sweep::parse(&text, "x.toml", &[]).expect_err("too many").to_string();
+    assert!(
+        error.starts_with("x.toml:3: ") && error.contains("more than 1200000 values"),
+        "{error}"
+    );
+    assert_eq!(error.lines().count(), 1);
 }

@@ -53,6 +53,7 @@ impl PlaneFrame {
         let beams = nodes.windows(2).map(beam).collect::<Option<Vec<_>>>()?;
         let control = |k: usize, scale| Control { index: 3 * loaded + k, scale };
         let stiffest = beams.iter().map(|beam| axial / beam.length()).fold(1.0, f64::max);
+        // Residuals are measured by the stiffest beam, held nodes like the others.
         let units = vec![stiffest; 3 * nodes.len() + 1];
         let controls = match drive {
             Drive::Depth(depth) => [control(1, -depth), control(0, depth), control(2, 1.0)],

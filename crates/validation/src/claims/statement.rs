@@ -1,27 +1,34 @@
 //! The statements of a claim, and their checks.
 
+use serde::Deserialize;
+
 use super::digits;
 use super::evidence::{BestDesigns, Evidence};
+use super::measurements::measurement;
 use super::statistics::TrendSteps;
 use super::verdict::{Limits, Optimum, Verdict};
+use crate::ValidationError;
 
-/// A single statement of a claim.
-#[derive(Clone, Copy)]
+/// A single statement of a claim, as the table has it.
+#[derive(Clone, Debug, Deserialize)]
 pub(crate) struct Statement {
+    /// The number of the claim, with a letter if it has several statements.
+    pub(crate) id: String,
     /// The statement in words; empty if the claim says just that.
-    pub(crate) says: &'static str,
+    pub(crate) says: String,
     /// The measured quantity.
-    pub(crate) measured: &'static str,
-    pub(crate) check: StatementCheck,
+    pub(crate) measured: String,
+    /// The limits that it must keep to be reproduced, and to be reproduced in part.
+    pub(crate) limits: String,
 }
 
-/// The check of a statement: `None` where there is nothing to measure.
+/// How a statement is measured: `None` where there is nothing to measure.
 #[derive(Clone, Copy)]
-pub(crate) enum StatementCheck {
+pub(crate) enum Measurement {
     /// A number must keep its limits.
-    Number(fn(&Evidence) -> Option<Measured>, Limits),
+    Number(fn(&Evidence) -> Option<Measured>),
     /// The designs of which something is largest must be those of the paper.
-    Best(fn(&Evidence) -> Option<BestDesigns>, Optimum),
+    Best(fn(&Evidence) -> Option<BestDesigns>),
 }
 
 /// A number that was measured, with its text on the page.
@@ -54,43 +61,24 @@ pub struct Finding {
 }
 
 impl Statement {
-    pub(crate) const fn number(
-        says: &'static str,
-        measured: &'static str,
-        measure: fn(&Evidence) -> Option<Measured>,
-        limits: Limits,
-    ) -> Self {
-        Self { says, measured, check: StatementCheck::Number(measure, limits) }
-    }
-
-    pub(crate) const fn best(
-        says: &'static str,
-        measured: &'static str,
-        find: fn(&Evidence) -> Option<BestDesigns>,
-        optimum: Optimum,
-    ) -> Self {
-        Self { says, measured, check: StatementCheck::Best(find, optimum) }
-    }
-
-    /// Returns the limits, as the page prints them.
-    pub(crate) fn limits(&self) -> String {
-        match &self.check {
-            StatementCheck::Number(_, limits) => limits.to_string(),
-            StatementCheck::Best(_, optimum) => optimum.to_string(),
-        }
-    }
-
     /// Judges the statement. A statement about a value that does not exist does not hold.
-    pub(crate) fn find(&self, evidence: &Evidence) -> Finding {
-        let found = match &self.check {
-            StatementCheck::Number(measure, limits) => measure(evidence)
-                .map(|found| Finding { verdict: limits.verdict(found.value), ours: found.shown }),
-            StatementCheck::Best(find, optimum) => find(evidence).map(|best| Finding {
-                verdict: optimum.verdict(&best.designs),
-                ours: best.to_string(),
-            }),
+    ///
+    /// # Errors
+    /// If nothing is measured for the statement, or its limits cannot be read.
+    pub(crate) fn find(&self, evidence: &Evidence) -> Result<Finding, ValidationError> {
+        let unchecked = || ValidationError::UncheckedClaim(self.id.clone());
+        // A statement without a measurement, or with limits that cannot be read, is a mistake in the table.
+        let found = match measurement(&self.id).ok_or_else(unchecked)? {
+            Measurement::Number(measure) => {
+                let limits = Limits::read(&self.limits).ok_or_else(unchecked)?;
+                measure(evidence).map(|found| (limits.verdict(found.value), found.shown))
+            }
+            Measurement::Best(find) => {
+                let optimum = Optimum::read(&self.limits).ok_or_else(unchecked)?;
+                find(evidence).map(|best| (optimum.verdict(&best.designs), best.to_string()))
+            }
         };
-        let nothing = || Finding { verdict: Verdict::NotReproduced, ours: "none".to_owned() };
-        found.unwrap_or_else(nothing)
+        let (verdict, ours) = found.unwrap_or_else(|| (Verdict::NotReproduced, "none".to_owned()));
+        Ok(Finding { verdict, ours })
     }
 }

@@ -1,15 +1,20 @@
 //! Verdicts on constructed tables.
 
-use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, PunctureCurve};
-use super::verdict::{DesignRange, Limits, Optimum, Verdict};
-use super::{STATEMENTS, claims, ids, judge, verdict};
-use crate::study::MeasuredDesign;
-
 use Verdict::{InPart, NotReproduced, Reproduced};
 
+use super::evidence::{Balanced, BentStrip, CurveEnd, Evidence, LoadedRow, PunctureCurve};
+use super::verdict::{Limits, Optimum, Verdict};
+use super::{STATEMENTS, judge, statements, verdict};
+use crate::study::MeasuredDesign;
+
 fn on(id: &str, evidence: &Evidence) -> Verdict {
-    let (_, statements, _) = STATEMENTS.iter().find(|(known, ..)| *known == id).expect("a claim");
-    verdict(statements, evidence)
+    let claims = statements().expect("tables");
+    let (_, statements) = claims.iter().find(|(claim, _)| claim.id == id).expect("a claim");
+    verdict(statements, evidence).expect("limits")
+}
+
+fn limits(text: &str) -> Limits {
+    Limits::read(text).expect("limits")
 }
 
 fn design(gap: f64, length: f64, slant: f64) -> MeasuredDesign {
@@ -21,10 +26,13 @@ fn designs(designs: impl IntoIterator<Item = MeasuredDesign>) -> Evidence {
 }
 
 #[test]
-fn every_claim_has_statements_and_every_check_a_claim() {
-    let written: Vec<_> = claims().expect("a table").into_iter().map(|claim| claim.id).collect();
-    assert_eq!(written, ids().collect::<Vec<_>>());
-    assert!(STATEMENTS.iter().all(|(_, statements, _)| !statements.is_empty()));
+fn every_claim_has_statements_and_every_statement_a_claim_and_limits() {
+    let claims = statements().expect("tables");
+    assert!(claims.iter().all(|(_, statements)| !statements.is_empty()));
+    let of_claims: usize = claims.iter().map(|(_, statements)| statements.len()).sum();
+    assert_eq!(of_claims, STATEMENTS.lines().count() - 1);
+    let all = claims.iter().flat_map(|(_, statements)| statements);
+    all.for_each(|statement| drop(statement.find(&Evidence::default()).expect("a check")));
 }
 
 #[test]
@@ -53,8 +61,8 @@ fn a_claim_has_a_row_for_itself_and_one_for_each_of_several_statements() {
 
 #[test]
 fn without_evidence_nothing_is_reproduced() {
-    for id in ids() {
-        assert_eq!(on(id, &Evidence::default()), NotReproduced, "{id}");
+    for (claim, _) in statements().expect("tables") {
+        assert_eq!(on(&claim.id, &Evidence::default()), NotReproduced, "{}", claim.id);
     }
 }
 
@@ -67,8 +75,8 @@ fn a_claim_is_as_good_as_all_its_statements() {
 }
 
 #[test]
-fn limits_include_their_ends_and_print_them() {
-    let printed = Limits::printed(100.0);
+fn limits_include_their_ends() {
+    let printed = limits("90 to 110; in part 70 to 130");
     for (number, expected) in [
         (90.0, Reproduced),
         (110.0, Reproduced),
@@ -81,17 +89,16 @@ fn limits_include_their_ends_and_print_them() {
     ] {
         assert_eq!(printed.verdict(number), expected, "{number}");
     }
-    assert_eq!(printed.to_string(), "90 to 110; in part 70 to 130");
-    assert_eq!(Limits::printed(0.08).to_string(), "0.072 to 0.088; in part 0.056 to 0.104");
-    assert_eq!(Limits::at_least(1.0, 1.0).to_string(), "≥ 1");
-    assert_eq!(Limits::LITTLE.to_string(), "≤ 1.5; in part ≤ 2");
-    assert_eq!(Limits::exactly(0.0).to_string(), "0");
+    assert_eq!(limits("≥ 1").verdict(1.0), Reproduced);
+    assert_eq!(limits("≤ 1.5; in part ≤ 2").verdict(1.6), InPart);
+    assert_eq!(limits("0").verdict(1e-9), NotReproduced);
+    assert_eq!(["", "1 or 2", "> 1"].map(Limits::read), [None; 3]);
 }
 
 #[test]
 fn one_among_equals_is_best_in_part_only() {
-    let words = DesignRange { length: [0.0, 0.2], ..DesignRange::ANY };
-    let optimum = Optimum { printed: DesignRange::design(0.1, 0.1, 60.0), words };
+    let optimum = Optimum::read("(0.1, 0.1, 60°); in part (any, 0 to 0.2, any) or among equals");
+    let optimum = optimum.expect("designs");
     let (printed, other) = (design(0.1, 0.1, 60.0), design(0.1, 1.0, 75.0));
     let fitting = design(1.0, 0.2, 0.0);
     assert_eq!(optimum.verdict(&[printed]), Reproduced);

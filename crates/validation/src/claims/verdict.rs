@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use super::brief;
 use crate::study::MeasuredDesign;
 
 /// The verdict on a claim of the paper, or on one of its statements.
@@ -44,10 +43,25 @@ impl fmt::Display for Verdict {
 }
 
 /// A closed range of numbers.
-pub(crate) type Interval = [f64; 2];
+type Interval = [f64; 2];
 
 fn within(range: Interval, number: f64) -> bool {
     range[0] <= number && number <= range[1]
+}
+
+/// Reads a range: `≥ 1`, `≤ 1`, `1 to 2`, `1` or `any`. Degrees may have their sign.
+fn interval(text: &str) -> Option<Interval> {
+    let number = |text: &str| text.trim_end_matches('°').parse::<f64>().ok();
+    if text == "any" {
+        Some([f64::NEG_INFINITY, f64::INFINITY])
+    } else if let Some(low) = text.strip_prefix("≥ ") {
+        Some([number(low)?, f64::INFINITY])
+    } else if let Some(high) = text.strip_prefix("≤ ") {
+        Some([f64::NEG_INFINITY, number(high)?])
+    } else {
+        let (low, high) = text.split_once(" to ").unwrap_or((text, text));
+        Some([number(low)?, number(high)?])
+    }
 }
 
 /// The range in which a number must lie for a statement to be reproduced, and the wider one in which it is reproduced
@@ -59,36 +73,10 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// The limits of a trend along lines, in percent of their steps.
-    pub(crate) const TREND: Self = Self::at_least(100.0, 75.0);
-    /// The limits of a trend that holds "in general".
-    pub(crate) const IN_GENERAL: Self = Self::at_least(90.0, 75.0);
-    /// The limits of a ratio if there is "no significant effect".
-    pub(crate) const NO_EFFECT: Self = Self::at_most(1.1, 1.3);
-    /// The limits of a ratio if there is "little effect".
-    pub(crate) const LITTLE: Self = Self::at_most(1.5, 2.0);
-    /// The limits of a ratio if things differ "much", or "significantly".
-    pub(crate) const MUCH: Self = Self::at_least(2.0, 1.5);
-
-    /// Returns the limits of a number that is printed, and positive: reproduced within a tenth of it, in part within three tenths.
-    pub(crate) const fn printed(number: f64) -> Self {
-        Self::between([0.9 * number, 1.1 * number], [0.7 * number, 1.3 * number])
-    }
-
-    pub(crate) const fn exactly(number: f64) -> Self {
-        Self::between([number; 2], [number; 2])
-    }
-
-    pub(crate) const fn between(holds: Interval, in_part: Interval) -> Self {
-        Self { holds, in_part }
-    }
-
-    pub(crate) const fn at_least(holds: f64, in_part: f64) -> Self {
-        Self::between([holds, f64::INFINITY], [in_part, f64::INFINITY])
-    }
-
-    pub(crate) const fn at_most(holds: f64, in_part: f64) -> Self {
-        Self::between([f64::NEG_INFINITY, holds], [f64::NEG_INFINITY, in_part])
+    /// Reads limits, e.g. `≥ 100; in part ≥ 75`; a single range leaves no part.
+    pub(crate) fn read(text: &str) -> Option<Self> {
+        let (holds, in_part) = text.split_once("; in part ").unwrap_or((text, text));
+        Some(Self { holds: interval(holds)?, in_part: interval(in_part)? })
     }
 
     pub(crate) fn verdict(&self, number: f64) -> Verdict {
@@ -96,60 +84,21 @@ impl Limits {
     }
 }
 
-impl fmt::Display for Limits {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", in_words(self.holds, brief))?;
-        if self.in_part == self.holds {
-            return Ok(());
-        }
-        write!(f, "; in part {}", in_words(self.in_part, brief))
-    }
-}
-
-/// Writes a range in words.
-fn in_words(range: Interval, number: fn(f64) -> String) -> String {
-    match range {
-        [low, high] if low == high => number(low),
-        [f64::NEG_INFINITY, f64::INFINITY] => "any".to_owned(),
-        [f64::NEG_INFINITY, high] => format!("≤ {}", number(high)),
-        [low, f64::INFINITY] => format!("≥ {}", number(low)),
-        [low, high] => format!("{} to {}", number(low), number(high)),
-    }
-}
-
-/// Ranges of the parameters of a design.
+/// Ranges of the gap, the length and the slant of a design.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct DesignRange {
-    pub(crate) gap: Interval,
-    pub(crate) length: Interval,
-    pub(crate) slant: Interval,
-}
+struct DesignRange([Interval; 3]);
 
 impl DesignRange {
-    /// Every design.
-    pub(crate) const ANY: Self = {
-        let any = [f64::NEG_INFINITY, f64::INFINITY];
-        Self { gap: any, length: any, slant: any }
-    };
-
-    /// A single design.
-    pub(crate) const fn design(gap: f64, length: f64, slant: f64) -> Self {
-        Self { gap: [gap; 2], length: [length; 2], slant: [slant; 2] }
+    /// Reads ranges, e.g. `(0.1 to 0.3, any, 45°)`.
+    fn read(text: &str) -> Option<Self> {
+        let ranges = text.strip_prefix('(')?.strip_suffix(')')?.split(", ").map(interval);
+        let ranges: Vec<_> = ranges.collect::<Option<_>>()?;
+        Some(Self(ranges.try_into().ok()?))
     }
 
-    pub(crate) fn contains(&self, design: &MeasuredDesign) -> bool {
-        within(self.gap, design.gap)
-            && within(self.length, design.length)
-            && within(self.slant, design.slant)
-    }
-}
-
-impl fmt::Display for DesignRange {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plain = |number: f64| number.to_string();
-        let degrees = |number: f64| format!("{number}°");
-        let [gap, length] = [self.gap, self.length].map(|range| in_words(range, plain));
-        write!(f, "({gap}, {length}, {})", in_words(self.slant, degrees))
+    fn contains(&self, design: &MeasuredDesign) -> bool {
+        let values = [design.gap, design.length, design.slant];
+        self.0.iter().zip(values).all(|(range, value)| within(*range, value))
     }
 }
 
@@ -157,15 +106,18 @@ impl fmt::Display for DesignRange {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Optimum {
     /// The designs with the printed numbers.
-    pub(crate) printed: DesignRange,
+    printed: DesignRange,
     /// The designs that fit the printed words.
-    pub(crate) words: DesignRange,
+    words: DesignRange,
 }
 
 impl Optimum {
-    /// Returns the optimum of a statement that has numbers or words alone.
-    pub(crate) const fn at(printed: DesignRange) -> Self {
-        Self { printed, words: printed }
+    /// Reads the designs, e.g. `(0.1, 0.1, 75°); in part (0.1 to 0.3, any, 60° to 75°) or among equals`; without ranges behind
+    /// `in part` the words are those that are printed.
+    pub(crate) fn read(text: &str) -> Option<Self> {
+        let (printed, in_part) = text.split_once("; in part ")?;
+        let words = in_part.strip_suffix(" or among equals").unwrap_or(printed);
+        Some(Self { printed: DesignRange::read(printed)?, words: DesignRange::read(words)? })
     }
 
     /// Returns the verdict on the best designs, of which there are several if they are equal: one among equals is not the best.
@@ -174,15 +126,5 @@ impl Optimum {
             |region: &DesignRange| !best.is_empty() && best.iter().all(|d| region.contains(d));
         let among = best.iter().any(|design| self.printed.contains(design));
         Verdict::graded(all(&self.printed), among || all(&self.words))
-    }
-}
-
-impl fmt::Display for Optimum {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.printed)?;
-        if self.words == self.printed {
-            return f.write_str("; in part among equals");
-        }
-        write!(f, "; in part {} or among equals", self.words)
     }
 }

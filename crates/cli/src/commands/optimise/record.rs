@@ -19,6 +19,8 @@ pub fn record(goal: &DesignGoal, found: &Found) -> Value {
         "designs": found.history.len(),
         "failed": failed.collect::<Map<_, _>>(),
         "folded": left_out.folded,
+        "starts": found.starts,
+        "regions": found.regions,
     });
     let (key, answer) = match &found.answer {
         Answer::Optimum(best) => ("optimum", design(goal, &words, best)),

@@ -20,7 +20,7 @@ pub struct SearchReport<'a> {
 impl SearchReport<'_> {
     pub fn text(&self, duration: Duration, threads: usize) -> String {
         let mut text = format!(
-            "{}: {} looked at in {} on {}\n{}",
+            "{}: {} evaluated in {} on {}\n{}",
             self.goal.name(),
             counted(self.found.history.len() as u64, "design"),
             time(duration),
@@ -44,7 +44,9 @@ impl SearchReport<'_> {
         });
         match ends.collect::<Vec<_>>().join(", ") {
             ends if ends.is_empty() => ends,
-            ends => format!("\nFitness between the worst and the best: rescale = {{ {ends} }}\n"),
+            ends => format!(
+                "\nThe criteria were rescaled between their worst and best values: rescale = {{ {ends} }}\n"
+            ),
         }
     }
 
@@ -54,9 +56,11 @@ impl SearchReport<'_> {
         let mut rows: Vec<[String; 2]> = Vec::new();
         let row = |count: usize, why: String| [format!("{count} left out"), why];
         rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, why.to_string())));
-        rows.extend(left_out.missing.iter().map(|(column, n)| row(*n, format!("no {column}"))));
+        rows.extend(
+            left_out.missing.iter().map(|(column, n)| row(*n, format!("no value of {column}"))),
+        );
         if left_out.folded > 0 {
-            rows.push(row(left_out.folded, "their surface has folded".to_owned()));
+            rows.push(row(left_out.folded, "the surface folds".to_owned()));
         }
         aligned(&rows)
     }
@@ -73,9 +77,22 @@ impl SearchReport<'_> {
                 [words.limit(&binding.limit, &best.target), price.unwrap_or_default()]
             };
             let rows: Vec<_> = bindings.map(row).collect();
-            let _ = write!(text, "\nIt cannot be better because of\n{}", aligned(&rows));
+            let _ = write!(
+                text,
+                "\nNo better one was found{}. It is limited by\n{}",
+                self.looked(),
+                aligned(&rows)
+            );
         }
         text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
+    }
+
+    /// Where the search looked: from so many starts, in so many regions.
+    fn looked(&self) -> String {
+        let Found { starts, regions, .. } = self.found;
+        let [starts, regions] = [(*starts, "start"), (*regions, "region")]
+            .map(|(count, name)| counted(count as u64, name));
+        format!(" from {starts} in {regions} of the space")
     }
 
     fn variables(&self, candidate: &Candidate) -> Vec<[String; 2]> {
@@ -119,18 +136,18 @@ impl SearchReport<'_> {
     /// How many designs a front has, and why they are fewer than was asked for.
     fn title(&self, front: &Front) -> String {
         let (found, asked) = (front.designs.len(), self.goal.points);
-        let mut title = format!("Beaten by no other: {}\n", counted(found as u64, "design"));
+        let mut title = format!("Pareto front: {}\n", counted(found as u64, "design"));
         if found < asked {
             let reasons = [
-                (front.same, "came to the design of another: the front has a step there"),
-                (front.beaten, "came to a design that another beats"),
-                (front.empty, "came to none"),
+                (front.same, "led to the design of another: the front has a step there"),
+                (front.beaten, "led to a design that another beats"),
+                (front.empty, "led to no design"),
             ];
             let of = |(count, why): &(usize, &str)| {
                 (*count > 0).then(|| format!("{} {why}", counted(*count as u64, "point")))
             };
             let reasons: Vec<String> = reasons.iter().filter_map(of).collect();
-            let _ = writeln!(title, "Fewer than the {asked} asked for: {}", reasons.join("; "));
+            let _ = writeln!(title, "Fewer than the {asked} requested: {}", reasons.join("; "));
         }
         title
     }
@@ -169,7 +186,7 @@ impl SearchReport<'_> {
         let mut text = format!("No design meets all requirements\n{obstacle}");
         if let Some(nearest) = nearest {
             let rows = self.variables(&self.found.history[nearest]);
-            let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&rows));
+            let _ = write!(text, "\nThe nearest design\n{}", aligned(&rows));
         }
         text
     }

@@ -11,15 +11,15 @@ use crate::print::{aligned, counted, digits};
 
 /// What is made of the best design.
 pub fn text(made: &Confirmation) -> String {
-    let header = ["", "search", "others", "95 % interval of the others"].map(str::to_owned);
+    let header = ["", "search", "new samples", "95 % interval"].map(str::to_owned);
     let row = |of: &Estimate| {
         let [low, high] = of.interval.map(value);
         [of.name.clone(), value(of.seen), value(of.value), format!("{low} to {high}")]
     };
     let rows: Vec<_> = [header].into_iter().chain(made.estimates.iter().map(row)).collect();
     let mut text = format!(
-        "\nMade of it: {} that the search saw, and {} others\n{}",
-        counted(made.seen as u64, "skin"),
+        "\nSamples of it: {} in the search, and {} new ones\n{}",
+        made.seen,
         sweep::number::text(made.fresh as f64),
         aligned(&rows)
     );
@@ -27,14 +27,14 @@ pub fn text(made: &Confirmation) -> String {
     if !broken.is_empty() {
         let _ = writeln!(
             text,
-            "  (!) The others do not keep {}: a design looks a little better on the skins that it was chosen by. Ask for more, or let the search see more skins (goal.skins)",
+            "  (!) The new samples miss {}: a design looks a little better on the samples that it was chosen by. Require a little more, or solve more samples in the search (goal.skins)",
             joined(&broken)
         );
     }
     if !open.is_empty() {
         let _ = writeln!(
             text,
-            "  (?) So many others cannot tell whether {} is kept: ask for a little more to be on the safe side",
+            "  (?) The new samples are too few to tell whether {} is met: require a little more to be safe",
             joined(&open)
         );
     }
@@ -65,13 +65,13 @@ pub fn of_all(designs: &[BestDesign]) -> String {
     let Some(first) = made.first() else { return String::new() };
     let fresh = sweep::number::text(first.fresh as f64);
     let mut text = format!(
-        "  Quantiles and yields are those of {fresh} skins of each design that the search did not see; front.csv has their intervals, and what it saw. Designs of a front that differ by less than that may beat each other\n"
+        "  Quantiles and yields are those of {fresh} new samples of each design; front.csv has their intervals, and the values of the search. Designs that differ by less than an interval may beat each other\n"
     );
     let broken = made.iter().filter(|made| !made.broken.is_empty()).count();
     if broken > 0 {
         let _ = writeln!(
             text,
-            "  (!) Of {} these skins do not keep a requirement that those of the search do",
+            "  (!) {}: the new samples miss a requirement that the samples of the search meet",
             counted(broken as u64, "design")
         );
     }

@@ -59,7 +59,7 @@ pub fn gap_changes_report(changes: &[GapChange], requirements: &[Requirement]) -
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(changes.iter().map(row)).collect();
     let cliffs: String = changes.iter().flat_map(cliffs).collect();
     let missed: String = changes.iter().flat_map(|change| missed(change, requirements)).collect();
-    let title = "Where the gap comes out 10 % smaller / 10 % larger";
+    let title = "Change if the gap is 10 % smaller / 10 % larger";
     format!("\n{title}\n{}{cliffs}{missed}", aligned(&rows))
 }
 
@@ -87,6 +87,7 @@ fn words(value: f64, changed: Option<f64>) -> String {
     let Some(changed) = changed else { return "no value".to_owned() };
     let ratio = changed / value;
     match ratio {
+        // Half of the last digit that is shown.
         _ if (ratio - 1.0).abs() < 5e-4 => "as is".to_owned(),
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
@@ -99,13 +100,12 @@ fn words(value: f64, changed: Option<f64>) -> String {
 fn cliffs(change: &GapChange) -> Vec<String> {
     let sentence = |measure: &MeasureChange, side: &str, changed: Option<f64>| {
         let ratio = changed? / measure.value;
+        // A measure that is zero, or changes its sign, has no factor.
         let is_cliff = ratio.is_finite() && ratio > 0.0 && ratio.max(ratio.recip()) >= CLIFF;
         let (design, column) = (&change.design, &measure.column);
         let moved = moved(ratio);
         is_cliff.then(|| {
-            format!(
-                "  {design} stands at a cliff: where its gap is 10 % {side}, {column} {moved}\n"
-            )
+            format!("  {design} is at a cliff: if its gap is 10 % {side}, {column} {moved}\n")
         })
     };
     let both = |measure: &MeasureChange| {
@@ -120,7 +120,7 @@ fn missed(change: &GapChange, requirements: &[Requirement]) -> Vec<String> {
     let sentence = |requirement: &Requirement, side: &str, changed: Option<f64>| {
         let is_missed = changed.is_none_or(|changed| !requirement.is_met(changed));
         is_missed.then(|| {
-            format!("  {} misses {requirement} where its gap is 10 % {side}\n", change.design)
+            format!("  {} misses {requirement} if its gap is 10 % {side}\n", change.design)
         })
     };
     let both = |requirement: &Requirement| {

@@ -65,7 +65,7 @@ impl RankReport<'_> {
         if ranked > 1 {
             for criterion in self.ranking.ties() {
                 let name = &self.preferences().criteria[criterion].name;
-                let _ = writeln!(text, "  {name} is the same for all of them and does not count");
+                let _ = writeln!(text, "  {name} is the same for all of them, and is ignored");
             }
         }
         text
@@ -94,7 +94,7 @@ impl RankReport<'_> {
     /// The best of the designs whose surface has not folded over, if that of the winner has.
     fn unfolded(&self) -> String {
         let Some(best) = self.ranking.best_unfolded() else { return String::new() };
-        let title = "The surface of the substrate folds over under the best design. Best of those under which it does not";
+        let title = "The surface of the substrate folds under the best design. The best design without a fold";
         format!("\n{title}\n{}", self.table(&[&best], "fitness", fitness))
     }
 
@@ -121,9 +121,9 @@ impl RankReport<'_> {
         let count = winners.len();
         let listed: Vec<_> = winners.iter().take(LISTED).collect();
         let table = self.table(&listed, "share", |s| format!("{:.2} %", 100.0 * s.share()));
-        let title = "Best for some weights";
+        let title = "Best for some choice of weights";
         format!(
-            "{title}: {}, with their share of all weights\n{table}{}",
+            "{title}: {}, with their share of all choices\n{table}{}",
             designs(count),
             more(count)
         )
@@ -133,7 +133,7 @@ impl RankReport<'_> {
     fn front(&self) -> String {
         let front = self.ranking.front();
         let count = front.len();
-        let title = format!("Beaten by no other in every criterion: {}\n", designs(count));
+        let title = format!("Pareto front: {}\n", designs(count));
         if self.preferences().are_the_papers() || self.preferences().criteria.len() == 1 {
             return title;
         }
@@ -222,15 +222,16 @@ pub fn unmet_report(results: &Results, preferences: &Preferences, unmet: &Unmet)
     let _ = write!(text, "\n{}", obstacle(unmet));
     if let Some(row) = unmet.nearest {
         let table = [shown_columns(results, preferences), shown_cells(results, preferences, row)];
-        let _ = write!(text, "\nThe design that comes nearest\n{}", aligned(&table));
+        let _ = write!(text, "\nThe nearest design\n{}", aligned(&table));
     }
     text
 }
 
 /// How far the nearest design is from each requirement, and which of them stands in the way.
 pub fn obstacle(unmet: &Unmet) -> String {
-    let mut rows =
-        vec![["requirement", "met by", "without it", "nearest has", "short by"].map(str::to_owned)];
+    let mut rows = vec![
+        ["requirement", "met by", "others met by", "nearest has", "short by"].map(str::to_owned),
+    ];
     rows.extend(unmet.requirements.iter().map(|requirement| {
         let [text, nearest, short] = distance(requirement);
         [text, designs(requirement.met), designs(requirement.met_without), nearest, short]

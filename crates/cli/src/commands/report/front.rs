@@ -17,7 +17,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     let found = VerifiedFolder::open(folder, Completeness::Partial)?;
     let table = [FRONT, OPTIMUM].into_iter().find(|table| found.holds(table));
     let table = table.with_context(|| {
-        format!("--front {name}: there is neither {FRONT} nor {OPTIMUM}, expected a folder in which squama optimise has found designs")
+        format!("--front {name}: holds neither {FRONT} nor {OPTIMUM}, expected a results folder of squama optimise")
     })?;
     let designs = Designs::of(&Results::of_file(&found, table)?);
     let goal = folder.join(GOAL).display().to_string();
@@ -28,7 +28,7 @@ pub fn front(folder: &Path, grid: &ResultsFolder) -> anyhow::Result<PageFront> {
     for objective in &objectives {
         ensure!(
             headers.iter().any(|header| *header == objective.column),
-            "--front {name}: its objective {} is no column of the designs in {}, expected a sweep with the same measures and [material]",
+            "--front {name}: its objective {} is not a column of the designs in {}, expected a sweep with the same measures and [material]",
             objective.column,
             grid.folder.display()
         );

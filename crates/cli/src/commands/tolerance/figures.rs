@@ -16,7 +16,7 @@ pub fn figures(
     requirements: &[Requirement],
     design: &DesignTolerance,
 ) -> Vec<(String, String)> {
-    let name = format!("{} design {}", sweep.name(), design.drawn.number);
+    let name = format!("{} design {}", sweep.name(), design.nominal.number);
     let shown = design.measures.iter().filter(|m| is_shown(&m.name, requirements));
     let shares: Vec<Shares> = shown.filter_map(shares).collect();
     let mut files = vec![(SOURCES.to_owned(), share_bars(&name, &shares))];

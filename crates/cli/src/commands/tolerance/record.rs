@@ -18,7 +18,7 @@ pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[St
 
 fn design(design: &DesignTolerance) -> Value {
     json!({
-        "design": design.drawn.number.to_string(),
+        "design": design.nominal.number.to_string(),
         "measures": design.measures.iter().map(measure).collect::<Vec<_>>(),
         "yields": design.yields.iter().map(yielded).collect::<Vec<_>>(),
     })

@@ -17,13 +17,13 @@ const LISTED: usize = 10;
 
 const HEADER: [&str; 8] = [
     "measure",
-    "drawn",
+    "nominal",
     "predicted ±",
-    "solved ±",
-    "prediction is off by",
+    "sampled ±",
+    "prediction off by",
     "5 %",
     "95 %",
-    "it comes from",
+    "sources",
 ];
 
 /// The report on a design, or a list of several.
@@ -35,7 +35,7 @@ pub fn report(sweep: &Sweep, requirements: &[Requirement], all: &[DesignToleranc
 }
 
 fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) -> String {
-    let (number, count) = (design.drawn.number, sweep.grid().len());
+    let (number, count) = (design.nominal.number, sweep.grid().len());
     let samples = counted(design.samples.len() as u64, "sample");
     let mut text = format!("{}: design {number} of {count}, {samples}\n", sweep.name());
     let is_shown = |measure: &&MeasureTolerance| is_shown(&measure.name, requirements);
@@ -43,7 +43,7 @@ fn one(sweep: &Sweep, requirements: &[Requirement], design: &DesignTolerance) ->
     rows.extend(design.measures.iter().filter(is_shown).map(measure_row));
     let _ = write!(text, "{}", aligned(&rows));
     if design.measures.iter().filter(is_shown).any(MeasureTolerance::is_off) {
-        text.push_str("  (!) by more than twice the statistical error: the measure is not linear over these deviations, trust the samples\n");
+        text.push_str("  (!) off by more than twice the statistical error: the measure is not linear over these deviations; trust the samples\n");
     }
     if !design.yields.is_empty() {
         let rows: Vec<_> = design.yields.iter().map(yield_row).collect();
@@ -60,7 +60,7 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     let count = design.samples.iter().filter(folds).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
-        "  (!) {samples}: two bases pass each other; --require '{GAP_STRETCH_MIN} >= 0' leaves out those that end so\n"
+        "  (!) {samples}: the surface folds; --require '{GAP_STRETCH_MIN} >= 0' counts those that end so as failed requirements\n"
     );
     (count > 0).then_some(line)
 }
@@ -135,7 +135,7 @@ fn list(sweep: &Sweep, requirements: &[Requirement], all: &[DesignTolerance]) ->
             format!("{} {value} ± {}", m.name, spread.map_or("unknown".to_owned(), short))
         };
         let measures: Vec<_> = shown.map(measure).collect();
-        vec![design.drawn.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
+        vec![design.nominal.number.to_string(), yielded.unwrap_or_default(), measures.join(", ")]
     };
     let rows: Vec<_> = designs.iter().take(LISTED).map(row).collect();
     text.push_str(&aligned(&rows));

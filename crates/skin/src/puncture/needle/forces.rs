@@ -45,7 +45,7 @@ impl Chain {
             add_balance(&tip, rows, push, &state.z, residual, matrix);
             residual.add(push, tip.gap);
             add_row(push, rows, 1.0, tip.gap_slopes(), matrix);
-            add_law(touch, &tip, rows, push, &state.z, residual, matrix);
+            add_law(needle.friction, touch, &tip, (rows, push), &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // How far the tip has slid: it only counts, and tells the path where it turns back.
                 let (Rub::Slip { from, .. }, true) =
@@ -74,12 +74,11 @@ impl Chain {
         let values = &mut values[first..];
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
-            match touch {
-                Some(touch) => self.touch_conditions(needle, state, number, touch, of_touch),
-                None => {
-                    let other = state.mode.needle.touches[1 - number].as_ref();
-                    of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
-                }
+            if let Some(touch) = touch {
+                self.touch_conditions(needle, state, number, touch, of_touch);
+            } else {
+                let other = state.mode.needle.touches[1 - number].as_ref();
+                of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
             }
             let tip = touch.as_ref().and_then(|t| self.tip(&state.z, t.scale, t.place));
             let left = match (touch.map(|touch| touch.place), tip) {
@@ -237,17 +236,22 @@ fn add_balance(
 
 /// The law of the tangential force, in its row.
 fn add_law(
+    friction: f64,
     touch: &Touch,
     tip: &Tip,
-    rows: [usize; COORDINATES],
-    push: usize,
+    (rows, push): ([usize; COORDINATES], usize),
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
     let row = push + 1;
     match touch.rub {
-        Rub::Slip { ratio, .. } | Rub::Held { ratio } => {
+        Rub::Slip { .. } | Rub::Held { .. } => {
+            let ratio = match touch.rub {
+                Rub::Slip { sign, .. } => sign * friction,
+                Rub::Held { ratio } => ratio,
+                Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
+            };
             residual.add(row, z[row]);
             residual.add(row, -ratio * z[push]);
             matrix.add(row, row, 1.0);

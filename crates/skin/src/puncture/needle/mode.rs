@@ -30,8 +30,8 @@ impl Place {
 /// coordinate `ξ` along the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Rub {
-    /// It slides: `T = ratio N`, where `ratio` is `μ sign ξ̇`. It has done so since `ξ` was `from`.
-    Slip { ratio: f64, from: f64 },
+    /// It slides: `T = sign μ N` with the sign of `ξ̇`, 0 without friction. It has done so since `ξ` was `from`.
+    Slip { sign: f64, from: f64 },
     /// It sticks: `ξ = at`, its anchor, and `T` is unknown.
     Stick { at: f64 },
     /// It passes over a corner, forward or backward along the outline: `ξ = 0` in the frame of the corner, and `T` is unknown.
@@ -47,6 +47,13 @@ pub(crate) struct Touch {
     pub(crate) scale: i64,
     pub(crate) place: Place,
     pub(crate) rub: Rub,
+}
+
+impl Touch {
+    /// Whether the equations keep something of the way to the state: where the tip sticks, or with what force it is held.
+    pub(crate) fn has_history(&self) -> bool {
+        matches!(self.rub, Rub::Stick { .. } | Rub::Held { .. })
+    }
 }
 
 /// The state of a guided needle, history included: the scales that it touches, which are neighbours if they are two. Nothing in a row

@@ -44,6 +44,13 @@ pub struct Passage {
     pub needle_shift: Option<f64>,
 }
 
+impl Passage {
+    /// Whether there is nothing to tell, as of a free needle.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 /// Watches a path for the place at which the needle leaves its face.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageWatch {
@@ -66,19 +73,13 @@ impl PassageWatch {
 
     pub(in crate::puncture) fn finish(&self, chain: &Chain, end: &SkinState) -> Passage {
         let Some(needle) = &chain.needle else { return Passage::default() };
-        let mut conditions = Vec::new();
-        chain.needle_conditions(needle, end, &mut conditions);
-        // The path ends where one of them vanishes, to the tolerance of Newton's method.
-        let ended = |number: usize| conditions[number].abs() < 1e-8;
-        let is_through = ended(super::THROUGH);
-        let is_tilted = ended(super::TILT) || ended(super::CONSTRAINTS + super::TILT);
+        let ended = needle.ended_at(chain, end);
         let passed = self.passed.as_ref();
         Passage {
-            critical_event: match (is_tilted, is_through) {
-                (true, _) => Some(CriticalEvent::Tilt),
-                (_, true) => Some(CriticalEvent::Through),
-                _ => None,
-            },
+            critical_event: ended.map(|constraint| {
+                let is_through = constraint == needle.contacts + super::THROUGH;
+                if is_through { CriticalEvent::Through } else { CriticalEvent::Tilt }
+            }),
             passing_force: passed.map(|(point, _)| point.force),
             passing_displacement: passed.map(|(point, _)| point.displacement),
             passing_tilt_deg: passed.map(|(point, _)| point.tilt_deg),

@@ -34,7 +34,7 @@ impl Chain {
             (FORWARD | BACKWARD, true) => {
                 let at = self.way(state, slot)?;
                 let sign = if constraint == FORWARD { 1.0 } else { -1.0 };
-                rub(state, slot, Rub::Slip { ratio: sign * needle.friction, from: at })?;
+                rub(state, slot, Rub::Slip { sign, from: at })?;
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
@@ -117,34 +117,26 @@ impl Chain {
         let touch = state.mode.needle.touches[slot]?;
         let next = touch.place.next(onward)?;
         needle.end_sliding(state, slot);
-        match touch.rub {
-            Rub::Passing { forward } => {
-                let face_length = self.tip(&state.z, touch.scale, next)?.length;
-                let at = if onward { 0.0 } else { face_length };
-                let inward = if onward { LOW } else { HIGH };
-                if needle.friction == 0.0 {
-                    self.move_to(needle, state, slot, next, needle.resting(at));
-                    return Some(inward);
-                }
-                if forward == onward {
-                    let (ratio, sliding) = if onward {
-                        (needle.friction, FORWARD)
-                    } else {
-                        (-needle.friction, BACKWARD)
-                    };
-                    self.move_to(needle, state, slot, next, Rub::Slip { ratio, from: at });
-                    state.active[needle.number(slot, sliding)] = true;
-                    return Some(inward);
-                }
-                self.move_to(needle, state, slot, next, Rub::Stick { at });
-                // The force is still that of sliding onto the corner.
-                Some(if onward { BACKWARD } else { FORWARD })
-            }
-            _ => {
-                self.move_to(needle, state, slot, next, Rub::Passing { forward: onward });
-                Some(if onward { LOW } else { HIGH })
-            }
+        let Rub::Passing { forward } = touch.rub else {
+            self.move_to(needle, state, slot, next, Rub::Passing { forward: onward });
+            return Some(if onward { LOW } else { HIGH });
+        };
+        let face_length = self.tip(&state.z, touch.scale, next)?.length;
+        let at = if onward { 0.0 } else { face_length };
+        let inward = if onward { LOW } else { HIGH };
+        if needle.friction == 0.0 {
+            self.move_to(needle, state, slot, next, needle.resting(at));
+            return Some(inward);
         }
+        if forward == onward {
+            let (sign, sliding) = if onward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+            self.move_to(needle, state, slot, next, Rub::Slip { sign, from: at });
+            state.active[needle.number(slot, sliding)] = true;
+            return Some(inward);
+        }
+        // The force is still that of sliding onto the corner: whether the tip sticks there shows at once.
+        self.move_to(needle, state, slot, next, Rub::Stick { at });
+        Some(if onward { BACKWARD } else { FORWARD })
     }
 
     /// Takes a touch to another place on its scale: the force stays, its parts are those along the normal and the face there.
@@ -169,7 +161,7 @@ impl Chain {
 impl GuidedNeedle {
     /// How a tip rubs that has come to rest at a place.
     fn resting(&self, at: f64) -> Rub {
-        if self.friction == 0.0 { Rub::Slip { ratio: 0.0, from: at } } else { Rub::Stick { at } }
+        if self.friction == 0.0 { Rub::Slip { sign: 0.0, from: at } } else { Rub::Stick { at } }
     }
 
     /// Takes the ways that a touch has slid out of the active set.

@@ -15,7 +15,7 @@ fn design(gap: f64, length: f64, slant_deg: f64) -> Design {
 fn parameters(design: &Design, friction: f64, inside: f64) -> PunctureParameters {
     let load_position = 1.0 - inside / (2.0 * design.half_base());
     let needle = Needle::Guided { friction };
-    PunctureParameters { needle, load_position, ..PunctureParameters::default() }
+    PunctureParameters { load_position, needle, ..PunctureParameters::default() }
 }
 
 fn springs(design: &Design) -> Springs {
@@ -49,6 +49,22 @@ const CASES: [(f64, f64, f64, f64, f64); 7] = [
     (0.2, 0.1, 0.0, 0.0, 0.0),
 ];
 
+/// `∫ F du` by the values of both at five places.
+pub(super) fn integral(values: [[f64; 2]; 5]) -> f64 {
+    let u = values.map(|[_, u]| u);
+    let slope = |row: [f64; 5]| row.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / 3.0;
+    let slopes = [
+        [-25.0, 48.0, -36.0, 16.0, -3.0],
+        [-3.0, -10.0, 18.0, -6.0, 1.0],
+        [1.0, -8.0, 0.0, 8.0, -1.0],
+        [-1.0, 6.0, -18.0, 10.0, 3.0],
+        [3.0, -16.0, 36.0, -48.0, 25.0],
+    ]
+    .map(slope);
+    let weights = [7.0, 32.0, 12.0, 32.0, 7.0];
+    (0..5).map(|k| weights[k] * values[k][0] * slopes[k]).sum::<f64>() / 90.0
+}
+
 /// Forces that an independent program has found for a needle without friction that stays on its top.
 #[test]
 fn a_needle_slides_inward_on_a_top() {
@@ -60,14 +76,14 @@ fn a_needle_slides_inward_on_a_top() {
     ] {
         let puncture = guided(&design(gap, length, slant), 0.0, 0.0);
         assert_eq!(puncture.status, Status::Complete);
-        assert_eq!(puncture.passage.critical_event, Some(CriticalEvent::Tilt));
-        assert_eq!(puncture.passage.passing_force, None);
+        assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
+        assert_eq!(puncture.measures.passage.passing_force, None);
         // The last digit given is half a per cent of the value.
         let force = puncture.measures.critical_force.unwrap();
         assert_relative_eq!(force, expected, max_relative = 5e-3);
         assert_eq!(puncture.measures.stable_under_load, None);
     }
-    let shift = guided(&design(0.1, 1.0, 0.0), 0.0, 0.0).passage.needle_shift.unwrap();
+    let shift = guided(&design(0.1, 1.0, 0.0), 0.0, 0.0).measures.passage.needle_shift.unwrap();
     assert_relative_eq!(shift, 0.12, max_relative = 0.02);
 }
 
@@ -92,8 +108,8 @@ fn a_needle_passes_into_the_notch() {
         (75.0, 0.0, 0.2, 0.88, 2.7),
         (75.0, 0.3, 0.0, 2.18, 4.4),
     ] {
-        let Puncture { passage, status, measures, .. } =
-            guided(&design(0.1, 1.0, slant), friction, inside);
+        let Puncture { status, measures, .. } = guided(&design(0.1, 1.0, slant), friction, inside);
+        let passage = measures.passage;
         assert_eq!(status, Status::Complete);
         assert_relative_eq!(passage.passing_force.unwrap(), force, max_relative = 0.01);
         assert_relative_eq!(passage.passing_tilt_deg.unwrap(), tilt, max_relative = 0.02);
@@ -210,9 +226,85 @@ fn passing_does_not_depend_on_the_steps() {
         let common = Common { solver: settings, ..Common::default() };
         let parameters = parameters(&steep, 0.3, 0.0);
         let puncture = puncture::solve(&steep, &springs(&steep), &common, &parameters).unwrap();
-        [puncture.passage.passing_force, puncture.measures.critical_force].map(Option::unwrap)
+        [puncture.measures.passage.passing_force, puncture.measures.critical_force]
+            .map(Option::unwrap)
     });
     for (coarse, fine) in forces[0].iter().zip(forces[1]) {
         assert_relative_eq!(*coarse, fine, max_relative = 1e-8);
+    }
+}
+
+type Value = fn(&puncture::PunctureMeasures) -> Option<f64>;
+
+const MEASURES: [(&str, Value); 5] = [
+    ("critical_force", |m| m.critical_force),
+    ("critical_displacement", |m| m.critical_displacement),
+    ("penetration", |m| m.penetration),
+    ("secant_stiffness", |m| m.secant_stiffness),
+    ("initial_stiffness", |m| m.initial_stiffness),
+];
+
+/// Of a needle that slides, derivatives are those of differences of whole solutions; of one that sticks there are none, and the reason.
+#[test]
+fn derivatives_of_a_needle_that_slides() {
+    type Change = fn(&mut puncture::PunctureInput, f64);
+    let changes: [(Change, f64); 4] = [
+        (|input, h| input.design.length += h, 2e-6),
+        (|input, h| input.parameters.load_position += h, 2e-6),
+        (|input, h| input.parameters.critical_tilt_deg += h, 2e-5),
+        (
+            |input, h| {
+                if let Needle::Guided { friction } = &mut input.parameters.needle {
+                    *friction += h;
+                }
+            },
+            2e-6,
+        ),
+    ];
+    for (friction, inside, slides) in [(0.1, 0.05, true), (2.0, 0.1, false)] {
+        let design = design(0.5, 1.0, 0.0);
+        let input = puncture::PunctureInput {
+            design,
+            stiffness: (&springs(&design)).into(),
+            common: Common::default(),
+            parameters: parameters(&design, friction, inside),
+            odd: None,
+        };
+        let moved = |change: Change, step: f64| {
+            let mut input = input.clone();
+            change(&mut input, step);
+            input
+        };
+        let variations = changes.map(|(change, step)| crate::Variation {
+            neighbours: crate::Neighbours {
+                below: moved(change, -step),
+                above: moved(change, step),
+                step,
+            },
+            right: None,
+        });
+        let (_, derivatives) = puncture::differentiate(&input, &variations).unwrap();
+        for (parameter, (change, step)) in changes.into_iter().enumerate() {
+            let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
+            // Far enough apart for round-off, near enough for the second derivative.
+            let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
+            let mut compared = 0;
+            for (name, value) in MEASURES {
+                let of = derivatives.iter().find(|d| d.measure == name && d.parameter == parameter);
+                let derivative = of.unwrap();
+                if !slides {
+                    assert_eq!([derivative.left, derivative.right], [None; 2], "{name}");
+                    assert!(derivative.kink.as_ref().is_some_and(|kink| kink.contains("sticks")));
+                    continue;
+                }
+                let expected = (value(&above).unwrap() - value(&below).unwrap()) / (100.0 * step);
+                let found = derivative
+                    .left
+                    .unwrap_or_else(|| panic!("{parameter} {derivative:?} {expected}"));
+                assert_relative_eq!(found, expected, max_relative = 2e-5, epsilon = 1e-5);
+                compared += 1;
+            }
+            assert!(!slides || compared == MEASURES.len());
+        }
     }
 }

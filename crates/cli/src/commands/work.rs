@@ -1,0 +1,84 @@
+//! How designs are solved and what becomes of earlier results: arguments that several commands share.
+
+use std::thread::available_parallelism;
+
+use clap::Args;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use run::Start;
+
+/// Whether a command goes on with earlier results or throws them away; it refuses to touch them if neither is said.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Earlier {
+    /// Continue from earlier results in the folder, if it has any
+    #[arg(long, conflicts_with = "fresh")]
+    resume: bool,
+
+    /// Discard earlier results in the folder, if it has any
+    #[arg(long)]
+    fresh: bool,
+}
+
+impl Earlier {
+    /// The start of the journal.
+    pub fn start(self) -> Start {
+        match (self.resume, self.fresh) {
+            (true, _) => Start::Resume,
+            (_, true) => Start::Fresh,
+            _ => Start::New,
+        }
+    }
+}
+
+/// How designs are solved.
+#[derive(Debug, Args)]
+pub struct Work {
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// End the run at the first design that fails
+    #[arg(long)]
+    pub fail_fast: bool,
+
+    /// Show no progress bar and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// The format of the tables.
+#[derive(Debug, Args)]
+pub struct Format {
+    /// Format of the tables: plain (`,` between cells, `.` in decimals) or excel-eu (`;`, `,` and a
+    /// byte-order mark) [default: the folder's present format, else plain]
+    #[arg(long, value_name = "FORMAT")]
+    pub csv: Option<results::CsvFormat>,
+}
+
+/// The number of threads.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Threads {
+    /// Number of threads [default: all cores]
+    #[arg(long = "threads", allow_hyphen_values = true, value_name = "N", value_parser = whole::<1, 1024>)]
+    number: Option<u64>,
+}
+
+impl Threads {
+    /// As many as are asked for, or one for each core.
+    pub fn count(self) -> usize {
+        let cores = || available_parallelism().map_or(1, usize::from);
+        self.number.map_or_else(cores, |number| number as usize)
+    }
+
+    /// A pool of so many threads.
+    pub fn pool(self) -> anyhow::Result<ThreadPool> {
+        Ok(ThreadPoolBuilder::new().num_threads(self.count()).build()?)
+    }
+}
+
+/// Reads a whole number from `LOW` to `HIGH`. The parsers of clap speak of digits and types where it is none.
+pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));
+    number.ok_or_else(|| match HIGH {
+        u64::MAX => format!("expected a whole number of at least {LOW}"),
+        _ => format!("expected a whole number from {LOW} to {HIGH}"),
+    })
+}

@@ -1,0 +1,74 @@
+//! Requirements that no design of a space can meet, by bounds that are known without solving any.
+//!
+//! Scales take the part `1 − d/p` of the pitch and bending has the rest: coverage is at most `1 − d/p`, compliance at most `d/p` (O8).
+
+use ranking::Requirement;
+use sweep::InvalidDefinition;
+use sweep::number;
+
+use super::refusal::not_accepted;
+use super::section::GoalSection;
+use crate::space::{DesignSpace, SpacePoint};
+use crate::tooth::{COMPLIANCES, open_share};
+
+/// Intervals whose corners are all looked at, at most.
+const CORNERED: usize = 12;
+
+/// Why requirements on coverage and compliance cannot be met.
+pub(super) fn out_of_bounds(goal: &GoalSection, space: &DesignSpace) -> Vec<InvalidDefinition> {
+    let Some((least, most)) = open_shares(space) else { return Vec::new() };
+    let mut refused = Vec::new();
+    let asked = |r: &Requirement, columns: &[&str]| {
+        columns.contains(&r.column.as_str()) && r.direction() > 0.0
+    };
+    let covering = |r: &Requirement| asked(r, &["coverage"]);
+    let bending = |r: &Requirement| asked(r, &COMPLIANCES);
+    for (requirement, place) in &goal.requirements {
+        let (bound, why) = if covering(requirement) {
+            (1.0 - least, "coverage is at most 1 - d/p, the part of the pitch that scales take")
+        } else if bending(requirement) {
+            (most, "compliance is at most d/p, the part of the pitch that gaps take")
+        } else {
+            continue;
+        };
+        let beside =
+            goal.requirements.iter().map(|(other, _)| other).filter(|other| bending(other));
+        let mut beside = beside.filter(|other| requirement.limit + other.limit > 1.0);
+        let expected = if !requirement.is_met(bound) {
+            format!("at most {} between these ends of the variables: {why}", number::text(bound))
+        } else if let Some(other) = beside
+            .next()
+            .filter(|other| covering(requirement) && !requirement.is_met(1.0 - other.limit))
+        {
+            let room = number::text(rounded(1.0 - other.limit));
+            format!(
+                "at most {room} beside {other}: scales take 1 - d/p of the pitch, which bounds coverage, and gaps d/p, which bounds compliance"
+            )
+        } else {
+            continue;
+        };
+        refused.push(not_accepted(place, "goal.require", requirement, expected));
+    }
+    refused
+}
+
+/// A difference of limits as a person writes it.
+fn rounded(value: f64) -> f64 {
+    (value * 1e12).round() * 1e-12
+}
+
+/// The least and the largest `d/p` of the space: at corners, since gap and length move it one way each. `None` if they are too many.
+fn open_shares(space: &DesignSpace) -> Option<(f64, f64)> {
+    let intervals = space.intervals().len();
+    if intervals > CORNERED {
+        return None;
+    }
+    let shares = (0..space.combinations().min(1 << CORNERED)).flat_map(|combination| {
+        (0..1_usize << intervals).filter_map(move |corner| {
+            let share = |j: usize| if corner >> j & 1 == 1 { 1.0 } else { 0.0 };
+            let shares = (0..intervals).map(share).collect();
+            open_share(&space.case(&SpacePoint { shares, chosen: space.combination(combination) }))
+        })
+    });
+    shares.map(|share| (share, share)).reduce(|(a, b), (c, d)| (a.min(c), b.max(d)))
+}

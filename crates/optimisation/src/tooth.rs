@@ -1,0 +1,164 @@
+//! The teeth of coverage: pieces of the space in which it is smooth.
+//!
+//! With the reach `S = tan α`, the pitch `p` and the gap `d`, all over `t`, the coverage rises to the peak `k` of its teeth and falls
+//! behind it,
+//!
+//! ```text
+//! λ = 1 − k d/S,   (k − 1) p + d ≤ S ≤ k p;        λ = k (p − d)/S,   k p ≤ S ≤ k p + d                 (O8)
+//! ```
+//!
+//! so `λ ≤ 1 − d/p`, with equality at the peaks alone. A requirement on coverage cuts the space into slivers round the peaks, a few per
+//! cent apart, and a search along derivatives stays in the one where it begins.
+
+use results::DesignRow;
+use sweep::{Case, Parameter};
+
+use crate::slopes::Slopes;
+
+/// A place on the border of two pieces, but for round-off of a step that was to end there, counts as part of both.
+const BORDER: f64 = 1e-7;
+
+/// Columns that are at most `d/p`: a strip that bends is never less stiff than at rest, where its gaps alone bend.
+pub(crate) const COMPLIANCES: [&str; 2] = ["compliance", "initial_compliance"];
+
+/// One side of a peak of coverage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tooth {
+    /// The number `k` of the peak.
+    pub peak: u32,
+    /// Whether coverage rises with the slant here.
+    rising: bool,
+}
+
+/// Reach, gap and pitch of a row, over the thickness.
+#[derive(Clone, Copy)]
+struct Lengths {
+    reach: f64,
+    gap: f64,
+    pitch: f64,
+}
+
+impl Lengths {
+    fn of(case: &Case) -> Option<Self> {
+        let row = case.design.row().ok()?;
+        Some(Self { reach: row.scale().shift(), gap: row.gap(), pitch: row.pitch() })
+    }
+
+    /// `S/p`, a whole number at the peaks.
+    fn place(self) -> f64 {
+        self.reach / self.pitch
+    }
+}
+
+impl Tooth {
+    /// The pieces that a design belongs to: one, or those on both sides of a border.
+    pub fn beside(case: &Case) -> Vec<Self> {
+        let Some(lengths) = Lengths::of(case) else { return Vec::new() };
+        let whole = lengths.place().floor() as u32;
+        let sides = |peak| [true, false].map(|rising| Self { peak, rising });
+        let near = [whole, whole + 1].into_iter().flat_map(sides);
+        let holds = |tooth: &Self| tooth.borders(lengths).iter().all(|beyond| *beyond <= BORDER);
+        near.filter(holds).collect()
+    }
+
+    /// How far a design is beyond the two borders; not above 0 within.
+    fn borders(self, lengths: Lengths) -> [f64; 2] {
+        let (place, open) = (lengths.place(), lengths.gap / lengths.pitch);
+        let peak = f64::from(self.peak);
+        let [from, to] = if self.rising { [peak - 1.0 + open, peak] } else { [peak, peak + open] };
+        [from - place, place - to]
+    }
+
+    /// The number of its borders.
+    pub const BORDERS: usize = 2;
+
+    /// How far a design is beyond a border.
+    pub fn beyond(self, border: usize, case: &Case) -> Option<f64> {
+        Lengths::of(case).map(|lengths| self.borders(lengths)[border])
+    }
+
+    /// The derivatives of how far a design is within a border.
+    pub fn border_slopes(self, border: usize, case: &Case, parameter: &Parameter) -> Slopes {
+        let at = |by, _| Some(-self.beyond(border, &parameter.moved(case, by)?)?);
+        Slopes::between(parameter.size(case), at)
+    }
+
+    /// The coverage of this piece, continued beyond its borders (O8).
+    fn coverage(self, case: &Case) -> Option<f64> {
+        let Lengths { reach, gap, pitch } = Lengths::of(case)?;
+        let peak = f64::from(self.peak);
+        Some(if self.rising { 1.0 - peak * gap / reach } else { peak * (pitch - gap) / reach })
+    }
+
+    /// Continues the coverage of a row and its derivatives smoothly beyond the borders.
+    pub fn continue_coverage(self, row: &mut DesignRow) {
+        row.result.coverage = self.coverage(&row.case);
+        differentiate(row, "coverage", |case| self.coverage(case));
+    }
+}
+
+/// The place `S/p` of a design among the peaks of coverage, a whole number on each.
+pub(crate) fn place(case: &Case) -> Option<f64> {
+    Lengths::of(case).map(Lengths::place)
+}
+
+/// The part `d/p` of the pitch that the gap takes; `None` of a row that cannot be.
+pub(crate) fn open_share(case: &Case) -> Option<f64> {
+    Lengths::of(case).map(|lengths| lengths.gap / lengths.pitch)
+}
+
+/// Continues the compliance of strips that do not touch, `d/p`, beyond where they do.
+pub(crate) fn continue_compliance(row: &mut DesignRow) {
+    if let Some(flexure) = &mut row.result.flexure {
+        flexure.measures.compliance = open_share(&row.case);
+    }
+    differentiate(row, "compliance", open_share);
+}
+
+/// Puts a smooth function of the case in the place of a measure with derivatives.
+fn differentiate(row: &mut DesignRow, measure: &str, value: impl Fn(&Case) -> Option<f64>) {
+    let Some(here) = value(&row.case) else { return };
+    for of in row.result.sensitivity.iter_mut().filter(|of| of.measure == measure) {
+        let Some(parameter) = Parameter::named(of.parameter) else { continue };
+        let at = |by, _| value(&parameter.moved(&row.case, by)?);
+        let slopes = Slopes::between(parameter.size(&row.case), at);
+        (of.left, of.right, of.value, of.kink) = (slopes.left, slopes.right, here, None);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sweep::Sweep;
+
+    fn case(gap: f64, length: f64, slant: f64) -> Case {
+        let text = format!(
+            "name = 'x'\n[designs]\ngap_over_t = {gap}\nlength_over_t = {length}\nslant_deg = {slant}"
+        );
+        Sweep::parse(&text, "x.toml", &[]).expect("a sweep").grid().case(0)
+    }
+
+    #[test]
+    fn a_piece_has_the_coverage_of_its_designs() {
+        let mut peaks = Vec::new();
+        for slant in 1..75 {
+            let case = case(0.13, 0.31, f64::from(slant));
+            let coverage = case.design.row().expect("a row").coverage();
+            let pieces = Tooth::beside(&case);
+            assert_eq!(pieces.len(), 1, "{slant}");
+            let of_piece = pieces[0].coverage(&case).expect("a coverage");
+            assert!((of_piece - coverage).abs() < 1e-12, "{slant}: {of_piece} {coverage}");
+            peaks.push(pieces[0].peak);
+        }
+        peaks.dedup();
+        assert_eq!(peaks, [0, 1, 2, 3, 4, 5, 6, 7, 8]);
+    }
+
+    #[test]
+    fn a_peak_belongs_to_both_of_its_sides() {
+        let slant = 0.88_f64.atan().to_degrees();
+        let sides = Tooth::beside(&case(0.13, 0.31, slant));
+        assert_eq!(sides.iter().map(|side| side.peak).collect::<Vec<_>>(), [2, 2]);
+        assert_ne!(sides[0].rising, sides[1].rising);
+    }
+}

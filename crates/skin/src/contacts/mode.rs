@@ -1,0 +1,28 @@
+//! The mode of a skin: what contacts and needle do.
+
+use std::ops::{Deref, DerefMut};
+
+use contact::CornerContact;
+
+use crate::puncture::NeedleMode;
+
+/// The mode of a skin: the state of every contact, as which it is read, and that of a guided needle.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct SkinMode {
+    pub(crate) contacts: Vec<CornerContact>,
+    pub(crate) needle: NeedleMode,
+}
+
+impl Deref for SkinMode {
+    type Target = Vec<CornerContact>;
+
+    fn deref(&self) -> &Vec<CornerContact> {
+        &self.contacts
+    }
+}
+
+impl DerefMut for SkinMode {
+    fn deref_mut(&mut self) -> &mut Vec<CornerContact> {
+        &mut self.contacts
+    }
+}

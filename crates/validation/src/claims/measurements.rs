@@ -1,0 +1,87 @@
+//! What is measured of each statement.
+
+use critical_force::{FORCE, INITIAL_STIFFNESS, LARGEST_STIFFNESS};
+use puncture::trend;
+
+use super::evidence::{Evidence, PunctureCurve};
+use super::statement::Measured;
+use super::statement::Measurement::{self, Best, Number};
+use super::statistics::{GAP, LENGTH, SLANT, TrendSteps};
+use super::words::{any, covered, in_figures};
+use super::{coverage, critical_force, domino, flexure, named, puncture};
+
+/// Returns what is measured of a statement, by its number.
+pub(super) fn measurement(id: &str) -> Option<Measurement> {
+    Some(match id {
+        "C01" => Number(|e| Some(e.best(|d| d.slant == 0.0, |d| d.coverage)?.value.into())),
+        "C02a" => Best(|e| e.best(any, |d| d.coverage)),
+        "C02b" => Number(coverage::smallest_gap_largest_length),
+        "C03" => Number(|e| Some(puncture::first_contact(e, 0.0)?.into())),
+        "C04" => Number(|e| Some(puncture::first_contact(e, 45.0)?.into())),
+        "C05" => Number(puncture::steep_scales_touch_first),
+        "C06" => Number(|e| trend(&e.by_slant, |c| c.initial_slope, TrendSteps::falling)),
+        "C07a" => {
+            Number(|e| trend(&e.by_slant, PunctureCurve::slope_after_contact, TrendSteps::rising))
+        }
+        "C07b" => Number(puncture::stiffening_by_slant),
+        "C08a" => Number(puncture::stiffening_by_contact),
+        "C08b" => Number(|e| Some(puncture::at_slant(e, 0.0)?.contact_angle_deg?.into())),
+        "C09a" => {
+            Number(|e| trend(&e.by_length, |c| Some(c.end?.penetration), TrendSteps::falling))
+        }
+        "C09b" => Number(|e| trend(&e.by_length, |c| Some(c.end?.tilt_deg), TrendSteps::rising)),
+        "C09c" => Number(|e| trend(&e.by_length, |c| c.initial_slope, TrendSteps::falling)),
+        "C09d" => {
+            Number(|e| trend(&e.by_length, PunctureCurve::slope_after_contact, TrendSteps::falling))
+        }
+        "C10a" => Number(|e| puncture::spread(&e.by_gap, |curve| curve.initial_slope)),
+        "C10b" => Number(|e| puncture::spread(&e.by_gap, PunctureCurve::slope_after_contact)),
+        "C10c" => Number(puncture::contact_is_delayed),
+        "C11" => Number(|e| {
+            let lines = e.lines(in_figures, GAP, [LENGTH, SLANT], FORCE);
+            Measured::steps(TrendSteps::falling(&lines))
+        }),
+        "C12" => Best(|e| e.best(in_figures, FORCE)),
+        "C13" => Number(|e| Some(FORCE(e.design(0.1, 0.1, 75.0)?)?.into())),
+        // The paper does not say which stiffness it means: "initial" and "post-contact" are both called puncture stiffness.
+        "C14a" => Number(|e| critical_force::correlation(e, LARGEST_STIFFNESS)),
+        "C14b" => Number(|e| critical_force::correlation(e, INITIAL_STIFFNESS)),
+        "C15a" => Best(|e| e.best(in_figures, LARGEST_STIFFNESS)),
+        "C15b" => Best(|e| e.best(in_figures, INITIAL_STIFFNESS)),
+        "C16a" => Number(|e| critical_force::shares(e, in_figures, FORCE)),
+        "C16b" => Number(|e| critical_force::shares(e, in_figures, LARGEST_STIFFNESS)),
+        "C16c" => Number(|e| critical_force::shares(e, in_figures, INITIAL_STIFFNESS)),
+        "C16d" => Number(|e| critical_force::shares(e, any, FORCE)),
+        "C17" => Number(|e| domino::row(e, 0, |row| row.carrying)),
+        "C18a" => Number(|e| domino::row(e, 1, |row| row.carrying)),
+        "C18b" => Number(|e| domino::row(e, 1, |row| row.touching)),
+        "C19a" => Number(flexure::axial_before_contact),
+        "C19b" => Number(|e| Some(flexure::strip(e, 0.0)?.axial_at_end.into())),
+        "C20a" => Number(flexure::slanted_scales_soften),
+        "C20b" => Number(|e| Some(flexure::strip(e, 0.0)?.softening?.into())),
+        "C20c" => Number(|e| Some(e.short_strip?.softening?.into())),
+        "C21" => Number(flexure::loss_of_compliance),
+        "C22a" => Best(|e| flexure::touching(e, 0.0)),
+        "C22b" => Best(|e| flexure::touching(e, 30.0)),
+        "C23a" => Best(|e| flexure::touching(e, 60.0)),
+        "C23b" => Best(|e| flexure::touching(e, 75.0)),
+        "C24" => Number(|e| {
+            let lines = e.lines(in_figures, LENGTH, [GAP, SLANT], |d| d.compliance);
+            Measured::steps(TrendSteps::falling(&lines))
+        }),
+        "C25" => Best(|e| e.best(covered, |d| d.penetration.map(f64::recip))),
+        "C26" => Best(|e| e.best(covered, |d| d.compliance)),
+        "C27" => Best(|e| e.best(covered, FORCE)),
+        "C28" => Best(|e| Some(e.balanced?.into())),
+        "C29" => Number(share_of_printed),
+        "C30" => Number(|e| Some(e.kink?.into())),
+        _ => return None,
+    })
+}
+
+fn share_of_printed(evidence: &Evidence) -> Option<Measured> {
+    let balanced = evidence.balanced?;
+    let ours = format!("{}, wins {:.1} %", named(&balanced.best), balanced.share);
+    let value = balanced.share_of_printed;
+    Some(Measured { value, shown: format!("{value:.1} %; ours, {ours}") })
+}
