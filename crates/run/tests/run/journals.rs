@@ -95,8 +95,9 @@ fn damaged_at_any_place_it_is_refused_or_makes_the_same_tables() {
                 let error = error.to_string();
                 let name = format!("/{JOURNAL}:{line}: ");
                 assert!(error.contains(&name), "{what} in line {line}: {error}");
-                let tells =
-                    ["expected", "restore the line", "restore it"].iter().any(|what| error.contains(what));
+                let tells = ["expected", "restore the line", "restore it"]
+                    .iter()
+                    .any(|what| error.contains(what));
                 assert!(error.lines().count() == 1 && tells, "{error}");
                 let left = fs::read(place.path().join(JOURNAL)).expect("a journal");
                 assert!(left == damaged, "{what}: what is refused is not touched");

@@ -275,13 +275,10 @@ fn derivatives_of_a_needle_that_slides() {
             change(&mut input, step);
             input
         };
-        let variations = changes.map(|(change, step)| crate::Variation {
-            neighbours: crate::Neighbours {
-                below: moved(change, -step),
-                above: moved(change, step),
-                step,
-            },
-            right: None,
+        let variations = changes.map(|(change, step)| crate::Neighbours {
+            below: moved(change, -step),
+            above: moved(change, step),
+            step,
         });
         let (_, derivatives) = puncture::differentiate(&input, &variations).unwrap();
         for (parameter, (change, step)) in changes.into_iter().enumerate() {
