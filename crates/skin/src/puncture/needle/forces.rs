@@ -259,9 +259,11 @@ fn add_law(
         }
         Rub::Stick { .. } | Rub::Passing { .. } => {
             let at = if let Rub::Stick { at } = touch.rub { at } else { 0.0 };
-            residual.add(row, tip.way);
-            residual.add(row, -at);
-            add_row(row, rows, 1.0, tip.way_slopes(), matrix);
+            // With this sign the determinant keeps its own where a tip that slides comes to rest. With the other one the path would
+            // take the equilibria behind that place for another branch, and stop there.
+            residual.add(row, at);
+            residual.add(row, -tip.way);
+            add_row(row, rows, -1.0, tip.way_slopes(), matrix);
         }
     }
 }

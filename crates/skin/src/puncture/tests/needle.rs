@@ -117,6 +117,43 @@ fn a_needle_passes_into_the_notch() {
     }
 }
 
+/// Ten values of an independent program with rigid contacts, active sets and steps of 2e-4 in depth, rows of 41: the force where the needle
+/// passes or else at 10°, the depth of the needle there, and how far it has moved inward.
+#[test]
+fn ten_values_of_an_independent_program() {
+    let ten: [([f64; 3], f64, f64, [f64; 3]); 10] = [
+        ([0.2, 0.5, 30.0], 0.3, 0.05, [0.085_635, 0.174_785, 0.176_906]),
+        ([0.1, 0.2, 0.0], 0.3, 0.05, [1.914_79, 0.624_262, 0.05]),
+        ([0.2, 0.3, 60.0], 0.3, 0.05, [0.069_753, 0.326_839, 0.171_75]),
+        ([0.4, 0.8, 15.0], 0.1, 0.0, [0.080_290, 0.166_937, 0.141_219]),
+        ([0.3, 0.7, 60.0], 0.3, 0.05, [0.280_929, 0.417_332, 0.132_162]),
+        ([0.2, 1.0, 60.0], 0.0, 0.0, [0.211_452, 0.318_856, 0.0]),
+        ([0.3, 0.3, 75.0], 0.3, 0.05, [5.5719, 0.838_531, 0.034_574]),
+        ([0.2, 0.6, 45.0], 0.3, 0.05, [0.099_419, 0.261_184, 0.154_083]),
+        ([0.5, 0.4, 30.0], 0.2, 0.0, [0.035_299, 0.141_638, 0.154_333]),
+        ([0.1, 0.4, 30.0], 0.1, 0.1, [0.135_583, 0.167_713, 0.229_73]),
+    ];
+    for ([gap, length, slant], friction, inside, [force, depth, inward]) in ten {
+        let design = design(gap, length, slant);
+        let parameters = PunctureParameters {
+            scales: RowLength::Scales(41),
+            ..parameters(&design, friction, inside)
+        };
+        let solved = puncture::solve(&design, &springs(&design), &Common::default(), &parameters);
+        let measures = solved.unwrap().measures;
+        let passage = measures.passage;
+        let found = [
+            passage.passing_force.or(measures.critical_force),
+            passage.passing_displacement.or(measures.critical_displacement),
+            passage.needle_shift.map(|shift| shift + inside),
+        ];
+        let [our_force, our_depth, our_inward] = found.map(Option::unwrap);
+        assert_relative_eq!(our_force, force, max_relative = 1e-4);
+        assert_relative_eq!(our_depth, depth, max_relative = 1e-4);
+        assert_relative_eq!(our_inward, inward, epsilon = 1e-5);
+    }
+}
+
 #[test]
 fn the_tangent_agrees_with_finite_differences() {
     for (gap, length, slant, friction, inside) in CASES {
