@@ -24,7 +24,7 @@ use contact::ContactLaw;
 use fold::FoldWatch;
 use geometry::{OutOfRange, Row};
 use growing::GrowingPath;
-use needle::{NEEDLE_UNKNOWNS, PassageWatch};
+use needle::NEEDLE_UNKNOWNS;
 use point::scales;
 use solver::{Path, Settings, Stop};
 use substrate::{FarField, RowStiffness, SubstrateLaw};
@@ -333,15 +333,13 @@ impl<'a> Problem<'a> {
     ) -> Result<Followed, OutOfRange> {
         let mut growing = GrowingPath::new(self, chain, longest);
         let mut watch = PathWatch::new(&growing.path, self.parameters.tilts_deg, functions, places);
-        let mut passage = PassageWatch::default();
         while let Some(segment) = growing.next()? {
             watch.follow(&mut growing.path, &segment);
-            passage.follow(growing.path.system(), &segment);
         }
         // What was kept of shorter rows is looked at, from here on, on the row as it is in the end.
         watch.lengthen(&growing);
         let path = growing.path;
-        let passage = passage.finish(path.system(), &path.point().state);
+        let mut passage = watch.passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
         // A scale that is pushed in its middle may go either way from some load on: there its path branches.
         let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
@@ -353,6 +351,8 @@ impl<'a> Problem<'a> {
             }
             status => ending::judged(status, &watch.record.path),
         };
+        // A load that comes back to zero at the foot of a face ends the path before the needle is through.
+        passage.critical_event = passage.critical_event.filter(|_| status == Status::Complete);
         Ok(Followed { watch, passage, path, status })
     }
 

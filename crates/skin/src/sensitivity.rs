@@ -13,7 +13,7 @@ use crate::ContactChange;
 use crate::contacts::{Contacts, SkinState};
 use crate::record::Skin;
 
-pub(crate) use places::{end, first_contact, is_held, rest, summit, turn};
+pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
 
 /// The derivative of a measure with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,8 +10,10 @@
 //! | `forces.rs` | equations, tangent, and the conditions under which they hold |
 //! | `transition.rs` | what comes next where a condition ceases to hold |
 //! | `passage.rs` | measures of a path: where the needle leaves its face, how its path ends |
+//! | `history.rs` | what it keeps of its way, and how that changes with a parameter |
 
 mod forces;
+mod history;
 mod mode;
 mod outline;
 mod passage;
@@ -24,6 +26,7 @@ use solver::{Condition, Newton};
 use super::system::Chain;
 use crate::contacts::{Contacts, SkinState};
 
+pub(super) use history::{HistoryWatch, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
 use mode::{Place, Rub, Touch};
 use outline::{Face, Tip};
@@ -84,6 +87,9 @@ pub(crate) struct GuidedNeedle {
     contacts: usize,
     /// Numbers of the constraints that only grow.
     pub(super) growing: [usize; 4],
+    /// Touches that keep something else of the way to a neighbour of a row than that row does, for a parameter that differs, and by how
+    /// much.
+    moved: [Option<(Touch, f64)>; 2],
 }
 
 impl GuidedNeedle {
@@ -96,7 +102,7 @@ impl GuidedNeedle {
     ) -> Self {
         let growing = [FORWARD, BACKWARD, CONSTRAINTS + FORWARD, CONSTRAINTS + BACKWARD];
         let growing = growing.map(|number| contacts + number);
-        Self { friction, tip, critical_tilt, depth, contacts, growing }
+        Self { friction, tip, critical_tilt, depth, contacts, growing, moved: [None; 2] }
     }
 
     /// The unknowns of its constraints, in their order.
@@ -166,11 +172,6 @@ impl Chain {
             }
         }
         rest
-    }
-
-    /// Whether the equations of a state keep something of the way to it.
-    pub(super) fn has_history(state: &SkinState) -> bool {
-        state.mode.needle.touches.iter().flatten().any(Touch::has_history)
     }
 
     /// The tip at a place of a scale; `None` of a free needle, and of a scale that is not solved for or too far away.

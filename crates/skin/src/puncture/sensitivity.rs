@@ -5,6 +5,7 @@ use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
+use super::needle::{NeedleMode, anchors, event_before, history, with};
 use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
@@ -63,22 +64,34 @@ impl Problem<'_> {
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
-        let (spots, sticking): (Vec<_>, Vec<_>) =
-            self.spots(watch, path).into_iter().partition(is_known);
-        let system = path.system();
-        let missing = missing(system, &sticking, variations.len());
-        let chain = |input: &PunctureInput| input.chain(system.layout);
+        let layout = path.system().layout;
+        let chain = |input: &PunctureInput| input.chain(layout);
         let variations: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(chain)).collect();
-        let mut derivatives = derivatives(system, spots, &variations?, &self.settings);
-        derivatives.extend(missing);
-        Ok(derivatives)
+        let variations = variations?;
+        let anchors = anchors(path, &watch.history.segments, &variations);
+        let mut found = Vec::new();
+        for spots in by_history(self.spots(watch, path)) {
+            let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
+            let kept = state.map(history).unwrap_or_default();
+            let system = path.system();
+            found.extend(if kept == NeedleMode::default() {
+                derivatives(system, spots, &variations, &self.settings)
+            } else {
+                // Neighbours come to these places on ways of their own.
+                match state.and_then(|state| with(&anchors, state, &variations)) {
+                    Some(varied) => derivatives(system, spots, &varied, &self.settings),
+                    None => missing(system, &spots, variations.len()),
+                }
+            });
+        }
+        Ok(found)
     }
 
     /// The places of the path at which measures are taken.
     fn spots(
         &self,
-        PathWatch { record, needle, folds: FoldWatch { folds, first }, .. }: &PathWatch,
+        PathWatch { record, needle, passage, folds: FoldWatch { folds, first }, .. }: &PathWatch,
         path: &mut Path<Chain>,
     ) -> Vec<MeasuredPoint<Chain>> {
         let settings = &self.settings;
@@ -88,6 +101,8 @@ impl Problem<'_> {
         let highest = record.highest_point(LOAD);
         let highest =
             highest.and_then(|summit| sensitivity::summit(path, &summit, FOLLOWED[LOAD], settings));
+        let passed = passage.passed.as_ref();
+        let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
         let chain = path.system();
         let peak = highest.as_ref().map(|place| chain.extremum(place));
         let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
@@ -98,12 +113,21 @@ impl Problem<'_> {
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
-        let (end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        let mut passing =
+            vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
+        if chain.needle.is_some() {
+            let left = if passage.passed.is_some() { &mut passing } else { &mut end_quantities };
+            left.push(quantity("needle_shift", |chain, state, _, _| {
+                chain.shift(state).unwrap_or(f64::NAN)
+            }));
+        }
         let mut at_rest = rest(chain);
         at_rest.state = chain.at_rest();
         vec![
             spot(Some(chain.end_of(end(path))), end_quantities),
             spot(folded, fold_quantities),
+            spot(passed, passing),
             spot(highest, vec![force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),
@@ -126,10 +150,17 @@ impl PunctureInput {
     }
 }
 
-/// Whether the place of a measure depends on the parameters alone. Where a needle sticks, the place at which it does is a matter of the
-/// way to it.
-fn is_known(spot: &MeasuredPoint<Chain>) -> bool {
-    spot.place.as_ref().is_none_or(|place| !Chain::has_history(&place.state))
+/// The spots, together where the equations keep the same of the way to them.
+fn by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
+    let mut groups: Vec<(NeedleMode, Vec<MeasuredPoint<Chain>>)> = Vec::new();
+    for spot in spots {
+        let kept = spot.place.as_ref().map(|place| history(&place.state)).unwrap_or_default();
+        match groups.iter_mut().find(|(other, _)| *other == kept) {
+            Some((_, group)) => group.push(spot),
+            None => groups.push((kept, vec![spot])),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
 }
 
 /// Derivatives that are not known, each with the reason.
@@ -138,7 +169,7 @@ fn missing(chain: &Chain, spots: &[MeasuredPoint<Chain>], parameters: usize) -> 
     for MeasuredPoint { place, quantities } in spots {
         for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
             let value = place.as_ref().map_or(0.0, |place| quantity.at(chain, place));
-            let kink = "the needle sticks: it depends on the way to this place";
+            let kink = "the needle sticks where something else changes, too";
             derivatives.extend((0..parameters).map(|parameter| Derivative {
                 measure: quantity.measure,
                 parameter,

@@ -5,7 +5,7 @@ use solver::{Bracket, Event, Path};
 use super::stability::Instability;
 use super::system::Chain;
 use super::{At, PunctureMeasures, PuncturePoint};
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::SkinPoint;
 use crate::record::Skin;
 
 /// The largest depth is found where the rate of the depth is this part of that at the ends, or after so many equilibria.
@@ -59,21 +59,28 @@ impl SnapWatch {
 
     /// At an extremum of the load the stiffness is singular, and what holds behind it is found half-way to the next point.
     fn count(&mut self, path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) {
-        if !self.has_unloaded || path.system().needle.is_some() {
+        if !self.has_unloaded {
             return self.instability.push(Instability::default());
         }
         let is_singular = from.event == Some(Event::LoadExtremum);
         let between = if is_singular { path.between(from, to, 0.5) } else { None };
-        let state = between.as_ref().map_or(&from.state, |point| &point.state);
-        let instability = self.at(path.system(), state);
+        let instability = self.at(path.system(), between.as_ref().unwrap_or(from));
         self.instability.push(instability);
         if instability.load > 0 {
             self.load_limit.get_or_insert_with(|| from.clone());
         }
     }
 
-    /// The instability of a state; that of the last one where its stiffness is singular.
-    fn at(&self, chain: &Chain, state: &SkinState) -> Instability {
+    /// The instability of a point; that of the last one where its stiffness is singular.
+    fn at(&self, chain: &Chain, point: &SkinPoint) -> Instability {
+        let SkinPoint { state, leaving, .. } = point;
+        if chain.rubs(state) {
+            // What rubs has no symmetric stiffness: that something gives way shows where load or depth fall, and nowhere else.
+            let falls = |rate: f64| usize::from(rate < 0.0);
+            let [load, depth] =
+                [leaving[chain.layout.load()], chain.depth_slope(&state.z, leaving)];
+            return Instability { load: falls(load), depth: falls(depth), tilt: 0 };
+        }
         let last = || self.instability.last().copied().unwrap_or_default();
         chain.instability(state).unwrap_or_else(last)
     }
@@ -108,15 +115,16 @@ impl SnapWatch {
         path: &Path<Chain>,
         measures: &mut PunctureMeasures,
     ) -> (Vec<Instability>, Vec<Snap>) {
-        let is_guided = path.system().needle.is_some();
-        let end = if self.has_unloaded && !is_guided {
-            self.at(path.system(), &path.point().state)
+        let end = if self.has_unloaded {
+            self.at(path.system(), path.point())
         } else {
             Instability::default()
         };
         self.instability.push(end);
-        // The stiffness under a guided needle is not that of a dead load, and with friction not symmetric.
-        measures.stable_under_load = (!is_guided).then_some(end.load == 0);
+        // Behind a fall of the load a load that rises says nothing where the needle rubs: two motions may give way.
+        let is_known =
+            !self.has_unloaded || end.load > 0 || !path.system().rubs(&path.point().state);
+        measures.stable_under_load = is_known.then_some(end.load == 0);
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));

@@ -2,6 +2,7 @@
 
 use solver::SkylineMatrix;
 
+use super::needle::FARTHEST;
 use super::system::Chain;
 use crate::contacts::SkinState;
 
@@ -21,43 +22,52 @@ pub struct Instability {
 }
 
 impl Chain {
-    /// The instability of an equilibrium; `None` where its stiffness is singular to the last digit.
+    /// The instability of an equilibrium; `None` where its stiffness is singular to the last digit, or not symmetric, because a needle
+    /// slides with friction.
     ///
     /// With the stiffness `K` of the row under its load and the load vector `p`, which is the gradient of the depth, a held depth takes
     /// away a negative eigenvalue if `pᵀ K⁻¹ p < 0`, that is `du/dF < 0`, and a held tilt one if its compliance
     /// `eᵀ K⁻¹ e` is negative (P5). Corners that meet on a ridge of the energy are held together by their contact, but not by the energy, and count as
     /// one more.
     pub(super) fn instability(&self, state: &SkinState) -> Option<Instability> {
+        if self.rubs(state) {
+            return None;
+        }
         let kept = self.kept(state);
         let mut places = vec![LEFT_OUT; self.layout.size()];
         for (place, &unknown) in kept.iter().enumerate() {
             places[unknown] = place;
         }
         let factors = self.stiffness_matrix(state, &kept, &places).factorise().ok()?;
-        let at = places[self.layout.scale(self.layout.left)];
-        let compliance = |load: [f64; 3]| {
+        let compliance = |loads: &[(usize, f64)]| {
             let mut x = vec![0.0; kept.len()];
-            x[at..at + 3].copy_from_slice(&load);
+            for &(unknown, load) in loads {
+                x[places[unknown]] = load;
+            }
             factors.solve(&mut x);
-            load.iter().zip(&x[at..]).map(|(load, x)| load * x).sum::<f64>()
+            loads.iter().map(|&(unknown, load)| load * x[places[unknown]]).sum::<f64>()
         };
-        let forces = kept.len() - 3 * self.layout.scales();
+        let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
+        let forces = kept.len() - motions;
         let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
         let load = held_together + self.contacts.ridges(state);
         let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));
+        let at = self.layout.scale(self.layout.left);
         let arm = self.loaded_arm(&state.z);
-        Some(Instability {
-            load,
-            depth: held(compliance([0.0, 1.0, arm.x])),
-            tilt: held(compliance([0.0, 0.0, 1.0])),
-        })
+        let depth = match &self.needle {
+            Some(needle) => compliance(&[(needle.depth, 1.0)]),
+            None => compliance(&[(at + 1, 1.0), (at + 2, arm.x)]),
+        };
+        let tilt = compliance(&[(at + 2, 1.0)]);
+        Some(Instability { load, depth: held(depth), tilt: held(tilt) })
     }
 
-    /// The unknowns that the stiffness holds, in order: displacements, and contact forces that may be rigid.
+    /// The unknowns that the stiffness holds, in order: displacements, and forces of contacts and of a guided needle that may be rigid.
     fn kept(&self, state: &SkinState) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
         let mut kept: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
         kept.extend(self.contacts.forces_in_stiffness(state));
+        kept.extend(self.needle_in_stiffness(state));
         kept.sort_unstable();
         kept
     }
@@ -70,9 +80,18 @@ impl Chain {
     ) -> SkylineMatrix {
         // A scale is coupled with as many before it, a force with the scales on both sides.
         let before = self.coupled_scales();
+        let of_needle = self.layout.load()..=self.layout.load() + self.layout.needle;
         let first = |&unknown: &usize| {
-            let scale = self.layout.scale_of(unknown);
-            places[self.layout.scale(scale.saturating_sub(before))]
+            // A needle is coupled with all scales that it touches.
+            let scale = if of_needle.contains(&unknown) {
+                self.layout.left.saturating_sub(before.max(FARTHEST.unsigned_abs() as usize))
+            } else {
+                let scale = self.layout.scale_of(unknown);
+                let is_touched = scale > self.layout.left && self.touches_scale(state, scale);
+                let scale = if is_touched { scale.min(self.layout.left + 1) } else { scale };
+                scale.saturating_sub(before)
+            };
+            places[self.layout.scale(scale)]
         };
         let mut matrix = SkylineMatrix::new(kept.iter().map(first).collect());
         let mut entry = |row: usize, column: usize, value| {
@@ -80,8 +99,12 @@ impl Chain {
         };
         self.for_springs(&mut entry);
         self.for_bar_stiffness(&state.z, &mut entry);
-        let turn = self.layout.scale(self.layout.left) + 2;
-        entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
+        if self.needle.is_some() {
+            self.for_needle_stiffness(state, &mut entry);
+        } else {
+            let turn = self.layout.scale(self.layout.left) + 2;
+            entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
+        }
         self.contacts.for_stiffness(state, entry);
         matrix
     }

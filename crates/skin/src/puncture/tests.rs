@@ -376,11 +376,21 @@ fn dense_stiffness(chain: &Chain, state: &SkinState) -> DMatrix<f64> {
         if tangent.columns(row).contains(&column) { tangent.get(row, column) } else { 0.0 }
     };
     let scales = (0..chain.layout.scales()).map(|scale| chain.layout.scale(scale));
-    let coordinates: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
+    let mut coordinates: Vec<usize> = scales.flat_map(|at| at..at + 3).collect();
     let constraints = chain.constraints().iter().zip(&state.active);
-    let forces: Vec<usize> = constraints.filter(|(_, active)| **active).map(|(&f, _)| f).collect();
+    let mut forces: Vec<usize> =
+        constraints.filter(|(_, active)| **active).map(|(&f, _)| f).collect();
+    // The depth of a guided needle, and the force that keeps a tip from sliding.
+    let depth = chain.needle.as_ref().map(|needle| needle.depth);
+    coordinates.extend(depth);
+    let of_needle = chain.needle_in_stiffness(state).into_iter();
+    forces.extend(of_needle.filter(|f| Some(*f) != depth && !chain.constraints().contains(f)));
     let part = |rows: &[usize], columns: &[usize]| {
-        DMatrix::from_fn(rows.len(), columns.len(), |i, j| entry(rows[i], columns[j]))
+        // The balance of the needle itself has the other sign.
+        let sign = |row: usize| if Some(row) == depth { -1.0 } else { 1.0 };
+        DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+            sign(rows[i]) * entry(rows[i], columns[j])
+        })
     };
     let mut compliance = part(&forces, &forces);
     for k in 0..forces.len() {

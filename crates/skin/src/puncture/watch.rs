@@ -4,6 +4,7 @@ use solver::Path;
 
 use super::fold::FoldWatch;
 use super::growing::{GrowingPath, Segment};
+use super::needle::{HistoryWatch, PassageWatch};
 use super::snap::SnapWatch;
 use super::system::Chain;
 use super::{At, NumberList};
@@ -16,6 +17,8 @@ pub(super) struct PathWatch {
     pub(super) record: Record<Chain>,
     pub(super) needle: SnapWatch,
     pub(super) folds: FoldWatch,
+    pub(super) history: HistoryWatch,
+    pub(super) passage: PassageWatch,
     pub(super) tilts: PlaceWatch<Chain>,
     /// Of snapshots.
     pub(super) places: PlaceWatch<Chain>,
@@ -33,13 +36,18 @@ impl PathWatch {
             record: Record::new(path, functions),
             needle: SnapWatch::default(),
             folds: FoldWatch::default(),
+            history: HistoryWatch::default(),
+            passage: PassageWatch::default(),
             tilts: PlaceWatch::new(path, tilts),
             places: PlaceWatch::new(path, places.iter().map(|place| place.crossing())),
         }
     }
 
     /// Follows the path over a segment.
-    pub(super) fn follow(&mut self, path: &mut Path<Chain>, Segment { from, to, left }: &Segment) {
+    pub(super) fn follow(&mut self, path: &mut Path<Chain>, segment: &Segment) {
+        let Segment { from, to, left } = segment;
+        self.history.follow(segment);
+        self.passage.follow(segment);
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
@@ -54,7 +62,9 @@ impl PathWatch {
         let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let places = self.tilts.found.iter_mut().chain(&mut self.places.found);
-        for point in single.into_iter().chain(places).flatten() {
+        let points = single.into_iter().chain(places).flatten();
+        let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);
+        for point in points.chain(segments.flatten()) {
             *point = longer(point);
         }
         self.record.replace_points(longer);

@@ -109,7 +109,11 @@ pub(crate) fn is_held<S: Skin>(system: &S, place: &AnchoredPoint<S::Mode>) -> bo
 }
 
 /// The constraint whose guard vanishes at an event, of those of the contacts that change.
-fn vanished<S: Skin>(system: &S, state: &SkinState, changes: &[Change]) -> Option<usize> {
+pub(crate) fn vanished<S: Skin>(
+    system: &S,
+    state: &SkinState,
+    changes: &[Change],
+) -> Option<usize> {
     let guards = Newton::guards(system, state);
     let changed = |constraint: &usize| {
         let contact = constraint / FORCES;

@@ -45,7 +45,7 @@ impl Chain {
             add_balance(&tip, rows, push, &state.z, residual, matrix);
             residual.add(push, tip.gap);
             add_row(push, rows, 1.0, tip.gap_slopes(), matrix);
-            add_law(needle.friction, touch, &tip, (rows, push), &state.z, residual, matrix);
+            add_law(needle, (number, touch), &tip, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // How far the tip has slid: it only counts, and tells the path where it turns back.
                 let (Rub::Slip { from, .. }, true) =
@@ -187,6 +187,70 @@ impl Chain {
         slopes.extend(before.iter().zip(after).map(|(a, b)| (b - a) / (2.0 * step)));
     }
 
+    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row: its forces have no
+    /// energy then.
+    pub(in crate::puncture) fn rubs(&self, state: &SkinState) -> bool {
+        let Some(needle) = &self.needle else { return false };
+        state.mode.needle.touches.iter().flatten().any(|touch| match touch.rub {
+            Rub::Slip { sign, .. } => sign * needle.friction != 0.0,
+            Rub::Held { ratio } => ratio != 0.0,
+            Rub::Stick { .. } | Rub::Passing { .. } => false,
+        })
+    }
+
+    /// Whether the needle touches a scale, by its index.
+    pub(in crate::puncture) fn touches_scale(&self, state: &SkinState, scale: usize) -> bool {
+        let touches = state.mode.needle.touches.iter().flatten();
+        touches.into_iter().any(|touch| self.scale_numbered(touch.scale) == Some(scale))
+    }
+
+    /// The unknowns of a guided needle in its stiffness: its depth, and the forces that keep it on faces and in places.
+    pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
+        let Some(needle) = &self.needle else { return Vec::new() };
+        let mut unknowns = vec![needle.depth];
+        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
+            let Some(touch) = touch else { continue };
+            unknowns.push(needle.push(number));
+            if matches!(touch.rub, Rub::Stick { .. } | Rub::Passing { .. }) {
+                unknowns.push(needle.push(number) + 1);
+            }
+        }
+        unknowns
+    }
+
+    /// Shows every entry of the symmetric stiffness of a needle that does not rub: second derivatives of `−N g + T ξ`, with `N` and, where
+    /// the tip sticks, `T` as unknowns.
+    pub(in crate::puncture) fn for_needle_stiffness(
+        &self,
+        state: &SkinState,
+        mut entry: impl FnMut(usize, usize, f64),
+    ) {
+        let Some(needle) = &self.needle else { return };
+        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
+            let Some(touch) = touch else { continue };
+            let Some(scale) = self.scale_numbered(touch.scale) else { continue };
+            let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { continue };
+            let at = self.layout.scale(scale);
+            let unknowns = [at, at + 1, at + 2, needle.depth];
+            let push = needle.push(number);
+            let curvature = tip.curvature([state.z[push], state.z[push + 1]]);
+            for (row, curvature) in unknowns.into_iter().zip(curvature) {
+                for (column, value) in unknowns.into_iter().zip(curvature) {
+                    entry(row, column, value);
+                }
+            }
+            let sticks = matches!(touch.rub, Rub::Stick { .. } | Rub::Passing { .. });
+            let gap = (push, tip.gap_slopes().map(|slope| -slope));
+            let way = sticks.then(|| (push + 1, tip.way_slopes()));
+            for (force, slopes) in std::iter::once(gap).chain(way) {
+                for (unknown, slope) in unknowns.into_iter().zip(slopes) {
+                    entry(unknown, force, slope);
+                    entry(force, unknown, slope);
+                }
+            }
+        }
+    }
+
     /// Force of the needle on the scales along the row, to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
@@ -236,20 +300,21 @@ fn add_balance(
 
 /// The law of the tangential force, in its row.
 fn add_law(
-    friction: f64,
-    touch: &Touch,
+    needle: &GuidedNeedle,
+    (number, touch): (usize, &Touch),
     tip: &Tip,
-    (rows, push): ([usize; COORDINATES], usize),
+    rows: [usize; COORDINATES],
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
+    let push = needle.push(number);
     let row = push + 1;
     match touch.rub {
         Rub::Slip { .. } | Rub::Held { .. } => {
             let ratio = match touch.rub {
-                Rub::Slip { sign, .. } => sign * friction,
-                Rub::Held { ratio } => ratio,
+                Rub::Slip { sign, .. } => sign * needle.friction,
+                Rub::Held { ratio } => needle.keeps(number, touch, ratio),
                 Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
             };
             residual.add(row, z[row]);
@@ -258,7 +323,10 @@ fn add_law(
             matrix.add(row, push, -ratio);
         }
         Rub::Stick { .. } | Rub::Passing { .. } => {
-            let at = if let Rub::Stick { at } = touch.rub { at } else { 0.0 };
+            let at = match touch.rub {
+                Rub::Stick { at } => needle.keeps(number, touch, at),
+                _ => 0.0,
+            };
             // With this sign the determinant keeps its own where a tip that slides comes to rest. With the other one the path would
             // take the equilibria behind that place for another branch, and stop there.
             residual.add(row, at);

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::mode::{Place, Rub, Touch};
-use crate::contacts::SkinState;
-use crate::puncture::PuncturePoint;
+use crate::contacts::{SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
 use crate::record::Skin;
@@ -54,36 +53,31 @@ impl Passage {
 /// Watches a path for the place at which the needle leaves its face.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageWatch {
-    passed: Option<(PuncturePoint, f64)>,
+    /// The segment at whose end it does.
+    pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 
 impl PassageWatch {
-    pub(in crate::puncture) fn follow(
-        &mut self,
-        chain: &Chain,
-        Segment { from, to, .. }: &Segment,
-    ) {
+    pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
         if self.passed.is_none() && !is_on_its_face(&to.state) {
-            let mut state = from.state.clone();
-            state.z.clone_from(&to.state.z);
-            let shift = chain.shift(&state).unwrap_or(0.0);
-            self.passed = Some((chain.path_point(to), shift));
+            self.passed = Some([(**from).clone(), to.clone()]);
         }
     }
 
     pub(in crate::puncture) fn finish(&self, chain: &Chain, end: &SkinState) -> Passage {
         let Some(needle) = &chain.needle else { return Passage::default() };
         let ended = needle.ended_at(chain, end);
-        let passed = self.passed.as_ref();
+        let passed = self.passed.as_ref().map(|[_, at]| chain.path_point(at));
+        let left = self.passed.as_ref().map_or(end, |[_, at]| &at.state);
         Passage {
             critical_event: ended.map(|constraint| {
                 let is_through = constraint == needle.contacts + super::THROUGH;
                 if is_through { CriticalEvent::Through } else { CriticalEvent::Tilt }
             }),
-            passing_force: passed.map(|(point, _)| point.force),
-            passing_displacement: passed.map(|(point, _)| point.displacement),
-            passing_tilt_deg: passed.map(|(point, _)| point.tilt_deg),
-            needle_shift: passed.map(|(_, shift)| *shift).or_else(|| chain.shift(end)),
+            passing_force: passed.map(|point| point.force),
+            passing_displacement: passed.map(|point| point.displacement),
+            passing_tilt_deg: passed.map(|point| point.tilt_deg),
+            needle_shift: chain.shift(left),
         }
     }
 }
@@ -98,7 +92,7 @@ fn is_on_its_face(state: &SkinState) -> bool {
 
 impl Chain {
     /// How far the tip has moved inward on the top of the punctured scale.
-    fn shift(&self, state: &SkinState) -> Option<f64> {
+    pub(in crate::puncture) fn shift(&self, state: &SkinState) -> Option<f64> {
         let at = |z: &[f64]| Some(self.tip(z, 0, Place::Top)?.way);
         Some(at(&vec![0.0; state.z.len()])? - at(&state.z)?)
     }
