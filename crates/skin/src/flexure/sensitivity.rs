@@ -89,7 +89,7 @@ impl FlexureProblem<'_> {
     fn mark_touching(
         &self,
         derivatives: &mut [Derivative],
-        variations: &[Variation<FlexureInput>],
+        variations: &[Neighbours<FlexureInput>],
     ) -> Result<(), OutOfRange> {
         // Far from the end no step of a difference brings scales into contact, and looking for it would take as long as bending.
         let share = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
@@ -97,7 +97,7 @@ impl FlexureProblem<'_> {
             return Ok(());
         }
         for derivative in derivatives.iter_mut().filter(|of| of.measure == "compliance") {
-            let Neighbours { below, above, .. } = &variations[derivative.parameter].neighbours;
+            let Neighbours { below, above, .. } = &variations[derivative.parameter];
             if touches(below)? || touches(above)? {
                 (derivative.left, derivative.right) = (None, None);
                 derivative.kink.get_or_insert_with(|| "scales touch".to_owned());
