@@ -374,12 +374,15 @@ impl<S: System> Path<S> {
             let before = self.newton.history.len();
             let attempt = self.attempt(distance);
             let iterations = self.newton.history.len() - before;
-            match attempt {
-                Ok(candidate) => {
-                    self.adapt(iterations, candidate.event.is_none());
-                    return self.accept(candidate);
+            let is_smooth = attempt.as_ref().is_ok_and(|candidate| candidate.event.is_none());
+            // An event from which no direction leads on is come to as near as steps may be short: whoever asks why the path ends
+            // there sees the state in which it does.
+            match attempt.map_err(Stop::from).and_then(|candidate| self.accept(candidate)) {
+                Ok(point) => {
+                    self.adapt(iterations, is_smooth);
+                    return Ok(point);
                 }
-                Err(failure) => self.shorten(distance, failure)?,
+                Err(stop) => self.shorten(distance, stop)?,
             }
         }
     }
@@ -391,9 +394,9 @@ impl<S: System> Path<S> {
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
-    fn shorten(&mut self, distance: f64, failure: NewtonFailure) -> Result<(), Stop> {
+    fn shorten(&mut self, distance: f64, stop: Stop) -> Result<(), Stop> {
         self.step = distance / 3.0;
-        if self.step < self.settings.min_step { Err(failure.into()) } else { Ok(()) }
+        if self.step < self.settings.min_step { Err(stop) } else { Ok(()) }
     }
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
@@ -456,7 +459,11 @@ impl<S: System> Path<S> {
             event = Some(Event::Target);
         }
         let leaving = match &mut event {
-            Some(Event::Changed(changes)) => self.resolve_event(&mut state, &arriving, changes)?,
+            Some(Event::Changed(changes)) => {
+                let is_positive = self.is_positive;
+                let resolved = self.resolve_event(&mut state, &arriving, changes);
+                resolved.inspect_err(|_| self.is_positive = is_positive)?
+            }
             _ => arriving.clone(),
         };
         if event.is_none() && self.at_target(&state) {

@@ -6,6 +6,7 @@ use contact::{CornerEdge, Corners, Level, Pair, Pose};
 use geometry::{OutOfRange, Row};
 use solver::Neighbours;
 
+use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
 use crate::sensitivity::SidedDerivative;
 use crate::{Derivative, Design, Variation};
@@ -37,6 +38,13 @@ pub fn contact_curvature(
 ) -> Result<Option<f64>, OutOfRange> {
     let gap = BareGap::new(design.row()?, parameters);
     Ok(gap.closing_rotation().map(|rotation| rotation / gap.row.pitch()))
+}
+
+/// Whether the scales of a strip touch before its bending ends.
+pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
+    let (gap, FlexureInput { design, common, parameters }) = (BareGap::of(input)?, input);
+    let end = FlexureProblem::of_row(gap.row, design, common, parameters)?.end_curvature();
+    Ok(gap.closing_rotation().is_some_and(|rotation| rotation / gap.row.pitch() <= end))
 }
 
 /// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
