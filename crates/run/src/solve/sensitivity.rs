@@ -123,7 +123,8 @@ pub(super) fn named(
 
 /// The puncture of `case` on a substrate of that stiffness.
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
-    let Case { design, common, puncture: parameters, .. } = *case;
+    let Case { design, common, .. } = *case;
+    let parameters = case.punctured();
     PunctureInput { design, stiffness, common, parameters, odd: None }
 }
 
