@@ -68,7 +68,7 @@ fn the_state_that_is_drawn_lies_on_the_path() {
 fn the_closest_design_and_the_command_of_one_between() {
     let set = json!({ "gap_over_t": 0.17, "slant_deg": 50, "width_over_t": 2 });
     let answer = ask(&json!({ "definition": DEFINITION, "set": set }));
-    assert_eq!(answer["closest"]["design"], "04");
+    assert_eq!(answer["closest"]["design"], "0004");
     let settings: Vec<_> =
         answer["settings"].as_array().into_iter().flatten().filter_map(Value::as_str).collect();
     assert_eq!(
@@ -108,5 +108,5 @@ fn slopes_say_which_way_is_better() {
         slope.expect("a slope")["better"].as_i64()
     };
     assert_eq!(better("coverage", "gap_over_t"), Some(-1));
-    assert_eq!(better("first_contact_curvature", "gap_over_t"), Some(1));
+    assert_eq!(better("contact_curvature", "gap_over_t"), Some(1));
 }

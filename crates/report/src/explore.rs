@@ -139,7 +139,7 @@ const SHOWN: [Shown; 6] = [
         words: "1: the membrane alone bends as easily",
     },
     Shown {
-        name: "first_contact_curvature",
+        name: "contact_curvature",
         label: "Bends freely to",
         physical: "bend_radius_mm",
         words: "until scales touch",
