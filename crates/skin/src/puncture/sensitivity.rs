@@ -1,7 +1,7 @@
 //! Derivatives of the measures of a puncture.
 
 use geometry::OutOfRange;
-use solver::{AnchoredPoint, Path, PathAnchor};
+use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
@@ -12,8 +12,8 @@ use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
-    first_contact, rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -43,7 +43,7 @@ const LOAD: usize = 0;
 /// As [`solve`](super::solve).
 pub fn differentiate(
     input: &PunctureInput,
-    variations: &[Variation<PunctureInput>],
+    variations: &[Neighbours<PunctureInput>],
 ) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
     let PunctureInput { design, stiffness, common, parameters, .. } = input;
     let rows = Rows::Even(design.row()?);
@@ -61,7 +61,7 @@ impl Problem<'_> {
     fn derivatives(
         &self,
         followed: &mut Followed,
-        variations: &[Variation<PunctureInput>],
+        variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
         let layout = path.system().layout;

@@ -427,13 +427,10 @@ fn derivatives_with_a_way_behind_them() {
             change(&mut input, step);
             input
         };
-        let variations = changes.map(|(change, step)| crate::Variation {
-            neighbours: crate::Neighbours {
-                below: moved(change, -step),
-                above: moved(change, step),
-                step,
-            },
-            right: None,
+        let variations = changes.map(|(change, step)| crate::Neighbours {
+            below: moved(change, -step),
+            above: moved(change, step),
+            step,
         });
         let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
         ends.insert(puncture.measures.passage.passing_force.is_some());
