@@ -17,7 +17,8 @@ const after = async (page, act) => {
 };
 /** A number from 0 to 1, the same at every call. */
 const random = (seed) => { let state = seed; return () => { state = (1664525 * state + 1013904223) % 4294967296; return state / 4294967296; }; };
-const sixDigits = (value) => Number(value).toPrecision(6);
+/** Six digits; round-off about zero has none. */
+const sixDigits = (value) => (Math.abs(value) < 1e-12 ? "0" : Number(value).toPrecision(6));
 
 export default ({ openFile, open, place, results, run }) => {
   const out = mkdtempSync(join(tmpdir(), "squama-explore-"));

@@ -50,7 +50,7 @@ impl Solver {
         // Samples of imperfect rows take hundreds of times as long as the design that is under the hand.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
-        let own = sweep.at(&case);
+        let own = written::alone(&sweep, &base, &case)?;
         let requirements = request.require.iter().map(|text| text.parse());
         let requirements: Vec<Requirement> = requirements
             .collect::<Result<_, ranking::InvalidRequirement>>()

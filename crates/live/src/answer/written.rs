@@ -1,6 +1,6 @@
 //! A design in the words of commands and definitions.
 
-use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Sweep};
+use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
 
 use super::Closest;
 
@@ -15,15 +15,36 @@ pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
         let value = Parameter::named(key).map(|parameter| parameter.get(case));
         words.extend(value.map(|value| format!("{option} {value}")));
     }
-    let others = PARAMETERS.iter().filter(|one| OPTIONS.iter().all(|(key, _)| one.key != *key));
-    for parameter in others {
-        let is_axis = sweep.grid().axis(parameter.key).is_some();
-        if is_axis || parameter.get(case) != parameter.get(base) {
-            let section = if is_axis { "designs" } else { parameter.section };
-            words.push(format!("--set {section}.{}={}", parameter.key, parameter.get(case)));
-        }
-    }
+    let axes = sweep.grid().axes().iter().map(Axis::parameter);
+    let axes = axes.filter(|one| OPTIONS.iter().all(|(key, _)| one.key != *key));
+    words.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
+    words.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
     words
+}
+
+/// The sweep of `case` alone.
+///
+/// # Errors
+/// If it is refused: with the text that commands have for it.
+pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, String> {
+    let settings: Result<Vec<_>, _> =
+        others(sweep, base, case).map(|text| Setting::parse(&text)).collect();
+    let settings = settings.map_err(|error| error.to_string())?;
+    let on_axes = sweep.at(case);
+    if settings.is_empty() {
+        return Ok(on_axes);
+    }
+    Sweep::parse(&on_axes.to_toml(), "definition", &settings).map_err(|error| error.to_string())
+}
+
+/// The settings of what is no axis and differs from the definition.
+fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
+    let differs = |one: &&Parameter| {
+        let is_axis =
+            sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
+        !is_axis && one.get(case) != one.get(base)
+    };
+    PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
 }
 
 /// The design of `sweep` whose value on every axis is closest to that of `case`; none of a definition of one design.
