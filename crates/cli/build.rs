@@ -54,7 +54,9 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         let name = entry.file_name();
-        if path.is_dir() && !["tests", "benches", "target"].iter().any(|other| name == **other) {
+        if path.is_dir()
+            && !["tests", "benches", "target", "python"].iter().any(|other| name == **other)
+        {
             collect(&path, files);
         } else if path.is_file() {
             files.push(path);
