@@ -19,7 +19,7 @@ pub enum Status {
     Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
-    /// A contact carries beyond the end of its edge.
+    /// A contact carries beyond the end of its edge, or a corner passes round that end.
     OffEdge,
 }
 
@@ -31,6 +31,11 @@ impl Status {
             Stop::Reached if skin.interpenetrates(end) => Self::Interpenetration,
             Stop::Reached if skin.contacts().off_edge(end) => Self::OffEdge,
             Stop::Reached => Self::Complete,
+            Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
+                if skin.contacts().off_edge(end) || skin.contacts().passes_an_end(path.point()) =>
+            {
+                Self::OffEdge
+            }
             stop => Self::Stopped(stop),
         }
     }

@@ -209,6 +209,7 @@ impl<S: System> Path<S> {
         condition.value += distance;
         let iterations = self.newton.history.len();
         let found = self.trial_at(near, &condition);
+        // What is looked at between points belongs to no step, and the record of iterations is one of steps.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = found.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
@@ -374,12 +375,16 @@ impl<S: System> Path<S> {
             let before = self.newton.history.len();
             let attempt = self.attempt(distance);
             let iterations = self.newton.history.len() - before;
-            match attempt {
-                Ok(candidate) => {
-                    self.adapt(iterations, candidate.event.is_none());
-                    return self.accept(candidate);
+            let is_smooth = attempt.as_ref().is_ok_and(|candidate| candidate.event.is_none());
+            // An event from which no direction leads on is come to as near as steps may be short: whoever asks why the path ends
+            // there sees the state in which it does.
+            match attempt.map_err(Stop::from).and_then(|candidate| self.accept(candidate)) {
+                Ok(point) => {
+                    self.adapt(iterations, is_smooth);
+                    return Ok(point);
                 }
-                Err(failure) => self.shorten(distance, failure)?,
+                // Nothing has moved: the path still stands at its point, and tries again from there.
+                Err(stop) => self.shorten(distance, stop)?,
             }
         }
     }
@@ -391,13 +396,15 @@ impl<S: System> Path<S> {
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
-    fn shorten(&mut self, distance: f64, failure: NewtonFailure) -> Result<(), Stop> {
+    fn shorten(&mut self, distance: f64, stop: Stop) -> Result<(), Stop> {
         self.step = distance / 3.0;
-        if self.step < self.settings.min_step { Err(failure.into()) } else { Ok(()) }
+        if self.step < self.settings.min_step { Err(stop) } else { Ok(()) }
     }
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
+            // Newton's method doubles its digits with each iteration: five are what a start needs that was two digits
+            // good. Of a step that an event cut short, neither length nor iterations tell how far the next one may go.
             self.step = (self.step * 1.7).min(self.settings.max_step);
         }
     }
@@ -406,6 +413,7 @@ impl<S: System> Path<S> {
     /// step of this distance, cut short at the first event within it.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
+        // Aiming at the event saves the equilibrium beyond it and the search between.
         let mut candidate = match self.predicted_event(&from, distance) {
             Some(candidate) if !self.strays(&from, &candidate) => candidate,
             _ => self.plain_step(&from, distance)?,
@@ -416,6 +424,7 @@ impl<S: System> Path<S> {
         } else if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
         }
+        // Asked once more, since turns and unloading have moved the end of the step.
         if self.strays(&from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
@@ -442,6 +451,8 @@ impl<S: System> Path<S> {
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
+        // The control parameter itself, even if the step was measured by the arc length: the target is met to the last
+        // bit.
         let (target, control) = (self.system.target(), self.control_parameter());
         let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
@@ -451,12 +462,17 @@ impl<S: System> Path<S> {
     fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
+            // What ends the path is not let go or closed: there is no direction in which it would go on.
             && changes.iter().any(|change| self.system.ends(change.constraint))
         {
             event = Some(Event::Target);
         }
         let leaving = match &mut event {
-            Some(Event::Changed(changes)) => self.resolve_event(&mut state, &arriving, changes)?,
+            Some(Event::Changed(changes)) => {
+                let is_positive = self.is_positive;
+                let resolved = self.resolve_event(&mut state, &arriving, changes);
+                resolved.inspect_err(|_| self.is_positive = is_positive)?
+            }
             _ => arriving.clone(),
         };
         if event.is_none() && self.at_target(&state) {
@@ -481,6 +497,7 @@ impl<S: System> Iterator for Path<S> {
             self.stop = Some(Stop::TooManyPoints);
             return None;
         }
+        // Counted before the step, so that a path that finds event upon event in one place ends, too.
         self.points += 1;
         match self.advance() {
             Ok(point) => {

@@ -237,7 +237,8 @@ impl<M> State<M> {
 
 impl<M: Clone> State<M> {
     /// The state whose unknowns differ by `factor` times `direction`.
-    pub(crate) fn moved(&self, factor: f64, direction: &[f64]) -> Self {
+    #[must_use]
+    pub fn moved(&self, factor: f64, direction: &[f64]) -> Self {
         let z = self.z.iter().zip(direction).map(|(z, d)| z + factor * d).collect();
         Self { z, active: self.active.clone(), mode: self.mode.clone() }
     }

@@ -92,7 +92,9 @@ impl Outcome {
             Self::NotFinite => "a value is not a finite number",
             Self::RowLimit => "a row needs more scales than it may take",
             Self::Interpenetration => "two scales overlap by more than their contact law allows",
-            Self::OffEdge => "a contact carries beyond the end of its edge",
+            Self::OffEdge => {
+                "a contact carries beyond the end of its edge, or a corner passes round that end"
+            }
             Self::Calibration => "the springs of the substrate could not be found",
             Self::Internal => "the program is at fault; please report the design",
             Self::Unloaded => {

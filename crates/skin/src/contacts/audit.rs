@@ -3,7 +3,7 @@
 use contact::{CornerContact, Overlap, Pose, overlaps};
 use geometry::Vec2;
 
-use super::{Contacts, SkinState};
+use super::{Contacts, SkinPoint, SkinState};
 
 /// Overlap (over `t`) by which the audit may differ from the contact law: round-off of the
 /// collision query.
@@ -11,6 +11,12 @@ const AUDIT_TOLERANCE: f64 = 1e-8;
 
 /// Part of an edge by which a foot may lie beyond its end: round-off of the path.
 const OFF_EDGE: f64 = 1e-6;
+
+/// How far ahead a path that has ended is looked at, in units of it: steps were cut down to 1e-9 before it ended.
+const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
+
+/// A corner farther behind an edge than this (over `t`) has not come there within such a step: its gap has jumped.
+const BEHIND: f64 = 1e-3;
 
 impl Contacts {
     /// Forces of a contact on the left scale of its pair: of its corners, and of its flush contact.
@@ -53,6 +59,27 @@ impl Contacts {
             let pair = self.pair(Self::left(contact));
             let feet = edges.into_iter().flatten().map(|edge| pair.gap(edge, &left, &right).foot);
             feet.into_iter().any(|foot| !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot))
+        })
+    }
+
+    /// Whether a corner passes round the end of an edge as the path goes on from `point`: it comes to face the edge from behind, and
+    /// the model has no contact for the edge that it went through, or for what lies below the bases.
+    pub(crate) fn passes_an_end(&self, point: &SkinPoint) -> bool {
+        let facing = |state: &SkinState| {
+            let mut gaps = vec![None; state.mode.len()];
+            self.for_each(state, |contact, corners| {
+                let is_open = state.mode[contact] == CornerContact::Open;
+                gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
+            });
+            gaps
+        };
+        let here = facing(&point.state);
+        AHEAD.iter().any(|&step| {
+            let ahead = facing(&point.state.moved(step, &point.leaving));
+            let comes_from_behind = |(here, ahead): (&Option<f64>, &Option<f64>)| {
+                ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
+            };
+            here.iter().zip(&ahead).any(comes_from_behind)
         })
     }
 

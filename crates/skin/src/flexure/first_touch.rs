@@ -6,9 +6,10 @@ use contact::{CornerEdge, Corners, Level, Pair, Pose};
 use geometry::{OutOfRange, Row};
 use solver::Neighbours;
 
+use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
 use crate::sensitivity::SidedDerivative;
-use crate::{Derivative, Design, Variation};
+use crate::{Derivative, Design};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
 const LOOKS: u32 = 512;
@@ -39,6 +40,13 @@ pub fn contact_curvature(
     Ok(gap.closing_rotation().map(|rotation| rotation / gap.row.pitch()))
 }
 
+/// Whether the scales of a strip touch before its bending ends.
+pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
+    let (gap, FlexureInput { design, common, parameters }) = (BareGap::of(input)?, input);
+    let end = FlexureProblem::of_row(gap.row, design, common, parameters)?.end_curvature();
+    Ok(gap.closing_rotation().is_some_and(|rotation| rotation / gap.row.pitch() <= end))
+}
+
 /// Returns the derivatives of [`contact_curvature`], which follow from the gap `g(θ, q)` that vanishes there:
 ///
 /// ```text
@@ -48,12 +56,12 @@ pub fn contact_curvature(
 /// where of several corners the one counts that is the nearest to its edge on that side of the parameter.
 pub(super) fn curvature_derivatives(
     input: &FlexureInput,
-    variations: &[Variation<FlexureInput>],
+    variations: &[Neighbours<FlexureInput>],
 ) -> Result<Vec<Derivative>, OutOfRange> {
     let gap = BareGap::of(input)?;
     let Some(rotation) = gap.closing_rotation() else { return Ok(Vec::new()) };
-    let derivative = |(parameter, variation): (usize, &Variation<FlexureInput>)| {
-        let Neighbours { below, above, step } = &variation.neighbours;
+    let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
+        let Neighbours { below, above, step } = variation;
         let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
         // The corners of upright scales meet, and neither may face an edge.
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);

@@ -52,7 +52,7 @@ pub(crate) struct FlexureProblem<'a> {
     /// Gaps that are solved for.
     solved: usize,
     /// The curvature of first contact of a design whose measures are asked for.
-    contact_curvature: Option<f64>,
+    pub(super) contact_curvature: Option<f64>,
 }
 
 impl<'a> FlexureProblem<'a> {
@@ -115,6 +115,12 @@ impl<'a> FlexureProblem<'a> {
             solved,
             contact_curvature: None,
         })
+    }
+
+    /// The mean curvature at the end of bending.
+    pub(super) fn end_curvature(&self) -> f64 {
+        let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
+        whole / (self.gaps * self.row.mean_pitch())
     }
 
     /// The strip with this resolution.

@@ -1,9 +1,9 @@
 //! Derivatives of the measures of bending.
 
 use geometry::OutOfRange;
-use solver::Path;
+use solver::{Neighbours, Path};
 
-use super::first_touch::curvature_derivatives;
+use super::first_touch::{curvature_derivatives, touches};
 use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
@@ -11,8 +11,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
-    first_contact, rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -35,6 +35,10 @@ pub(super) const FOLLOWED: [PathFunction<Strip>; 2] = [
 const MOMENT: usize = 0;
 const STRAIN: usize = 1;
 
+/// A strip that touches farther than this share before or behind its end does not touch otherwise within the step of a difference, some
+/// millionths of a parameter.
+const NEARLY: f64 = 1e-3;
+
 /// Bends a strip as [`solve`](super::solve) does, and returns the derivatives of its measures with respect to the parameter of
 /// each variation as well. There are none where the path did not come to its end.
 ///
@@ -42,7 +46,7 @@ const STRAIN: usize = 1;
 /// As [`solve`](super::solve).
 pub fn differentiate(
     input: &FlexureInput,
-    variations: &[Variation<FlexureInput>],
+    variations: &[Neighbours<FlexureInput>],
 ) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
@@ -63,7 +67,7 @@ impl FlexureProblem<'_> {
         &self,
         bent: &mut Bent,
         resolution: Resolution,
-        variations: &[Variation<FlexureInput>],
+        variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| {
@@ -71,9 +75,35 @@ impl FlexureProblem<'_> {
             let row = design.leaning_row()?;
             FlexureProblem::of_row(row, design, common, parameters)?.strip(resolution)
         };
-        let variations: Result<Vec<_>, _> =
+        let strips: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(strip)).collect();
-        Ok(derivatives(bent.path.system(), spots, &variations?, &self.common.solver))
+        let mut derivatives = derivatives(bent.path.system(), spots, &strips?, &self.common.solver);
+        if bent.record.touching().is_none() {
+            self.mark_touching(&mut derivatives, variations)?;
+        }
+        Ok(derivatives)
+    }
+
+    /// Takes the derivatives of the compliance away where scales are about to touch at the end of bending: it jumps where they do,
+    /// and a place at rest shows nothing of it.
+    fn mark_touching(
+        &self,
+        derivatives: &mut [Derivative],
+        variations: &[Neighbours<FlexureInput>],
+    ) -> Result<(), OutOfRange> {
+        // Far from the end no step of a difference brings scales into contact, and looking for it would take as long as bending.
+        let share = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
+        if !share.is_some_and(|share| (share - 1.0).abs() < NEARLY) {
+            return Ok(());
+        }
+        for derivative in derivatives.iter_mut().filter(|of| of.measure == "compliance") {
+            let Neighbours { below, above, .. } = &variations[derivative.parameter];
+            if touches(below)? || touches(above)? {
+                (derivative.left, derivative.right) = (None, None);
+                derivative.kink.get_or_insert_with(|| "scales touch".to_owned());
+            }
+        }
+        Ok(())
     }
 
     /// The places of the path at which measures are taken.

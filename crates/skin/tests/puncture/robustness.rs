@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use skin::Design;
 use skin::Status;
 use skin::puncture::{Puncture, PunctureParameters};
+use solver::Stop;
 use substrate::Calibrations;
 
 use crate::end;
@@ -89,6 +90,32 @@ fn random_designs_are_solved() {
             assert!((end(puncture).tilt_deg - 10.0).abs() < 1e-9);
         }
     }
+}
+
+/// At large tilts tips slide off the far ends of edges, or pass below the bases of their neighbours. Nothing follows then that the model
+/// knows, and the path says so: no reason is that of a number. A hundred designs; a thousand in a long campaign.
+#[test]
+fn paths_to_large_tilts_end_for_reasons_of_mechanics() {
+    let known = Calibrations::default();
+    let mut designs = random(if long_campaigns() { 1000 } else { 100 }, 2);
+    designs.push(design(2.6, 1.6, 48.0, BASES[1]));
+    let mut off_edge = 0;
+    for tilt in [35.0, 60.0, 85.0] {
+        let parameters = PunctureParameters { critical_tilt_deg: tilt, ..Default::default() };
+        for (design, puncture) in
+            designs.iter().zip(solve_all(&designs, Law::PRINTED, &parameters, &known))
+        {
+            let is_mechanical = !matches!(
+                puncture.status,
+                Status::Stopped(
+                    Stop::NoConvergence | Stop::Singular | Stop::NotFinite | Stop::Cycling
+                )
+            );
+            assert!(is_mechanical, "{:?} at {tilt}: {design:?}", puncture.status);
+            off_edge += usize::from(puncture.status == Status::OffEdge);
+        }
+    }
+    assert!(off_edge > designs.len() / 3, "{off_edge}");
 }
 
 /// Where tips slide along bases and tops, to their ends and round the corners there.
