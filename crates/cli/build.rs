@@ -30,7 +30,7 @@ fn revision() -> String {
 /// The commit, and whether the sources are as it has them.
 fn commit() -> Option<(String, bool)> {
     // A copy of the source inside of another repository has no revision of its own.
-    git(&["ls-files", "--error-unmatch", "build.rs"])?;
+    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;
     Some((revision, changes.is_empty()))

@@ -381,3 +381,18 @@ def test_pandas_and_matplotlib_if_they_are_there():
     assert frame["coverage"].tolist() == [SKIN.solve()["coverage"]] * 2
     pytest.importorskip("matplotlib").use("Agg")
     assert len(SKIN.solve().plot()) == 2
+
+
+@pytest.mark.parametrize("file", sorted((Path(__file__).parents[1] / "examples").glob("*.py")), ids=lambda file: file.stem)
+def test_the_examples_run(file):
+    module = {"scipy_slsqp": "scipy", "openmdao_component": "openmdao", "pymoo_front": "pymoo", "jax_function": "jax"}
+    pytest.importorskip(module[file.stem])
+    subprocess.run([sys.executable, file], check=True, capture_output=True)
+
+
+def test_the_notebook_runs():
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    pytest.importorskip("matplotlib")
+    file = Path(__file__).parents[1] / "examples" / "paper.ipynb"
+    notebook = nbformat.read(file, as_version=4)
+    nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": file.parent}}).execute()
