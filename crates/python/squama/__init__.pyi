@@ -138,9 +138,12 @@ class Skin:
         c2: float | None = None,
         scales: int | str | None = None,
         load_position: float | None = None,
+        load_inset_over_t: float | None = None,
         needle: str | None = None,
         critical_tilt_deg: float | Sequence[float] | None = None,
         needle_friction: float | Sequence[float] | str | None = None,
+        depth_over_t: float | None = None,
+        depth_mm: float | None = None,
         contact_modulus_over_substrate: float | None = None,
         method: str | None = None,
         membrane_length_over_t: float | None = None,
@@ -168,6 +171,8 @@ class Skin:
         gap_mm: float | None = None,
         length_mm: float | None = None,
         width_mm: float | None = None,
+        load_inset_mm: float | None = None,
+        depth_mm: float | None = None,
         membrane_length_mm: float | None = None,
         membrane_thickness_mm: float | None = None,
         membrane_axis_offset_mm: float | None = None,
@@ -197,11 +202,17 @@ class Skin:
     @property
     def load_position(self) -> float: ...
     @property
+    def load_inset_over_t(self) -> float | None: ...
+    @property
     def needle(self) -> str: ...
     @property
     def critical_tilt_deg(self) -> float | Sequence[float]: ...
     @property
     def needle_friction(self) -> float | Sequence[float] | str: ...
+    @property
+    def depth_over_t(self) -> float | None: ...
+    @property
+    def depth_mm(self) -> float | None: ...
     @property
     def contact_modulus_over_substrate(self) -> float: ...
     @property
