@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
         designs: impl Iterator<Item = u64> + Send + Clone,
         mut progress: impl FnMut(Progress),
     ) -> Result<(), RunError> {
-        let Options { threads, stop, .. } = *self.options;
+        let Options { threads, stop, fail_fast, .. } = *self.options;
         self.journal.append(Line::Session(SessionStart::now(threads, self.format)))?;
         task.measure(designs.clone());
         let groups = Groups::new(task.grid(), designs);
@@ -104,7 +104,14 @@ impl<'a> Run<'a> {
             threads,
             stop,
             groups,
-            |design| task.solve(design),
+            |design| {
+                let entry = task.solve(design);
+                if fail_fast && entry.result.failed() {
+                    // By the thread that sees it: the one that notes designs may be far behind. Designs in hand are finished, as after a signal.
+                    stop.store(true, Ordering::Relaxed);
+                }
+                entry
+            },
             |entry| self.take(entry, &mut progress),
         )
     }
@@ -119,10 +126,6 @@ impl<'a> Run<'a> {
         // In the journal first: what is told as done survives a kill.
         self.journal.append(Line::Design(Box::new(entry)))?;
         progress(Progress::Done { failed });
-        if failed && self.options.fail_fast {
-            // Designs in hand are finished, as after a signal.
-            self.options.stop.store(true, Ordering::Relaxed);
-        }
         if self.tables.are_due() {
             self.tables.write(&mut self.journal)?;
         }

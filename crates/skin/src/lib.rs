@@ -26,7 +26,7 @@
 //! | [`flexure::Flexure`], [`flexure::FlexureMeasures`] | its path, events and measures |
 //! | [`flexure::contact_curvature`] | the curvature at which scales touch, in closed form |
 //! | [`puncture::differentiate`], [`flexure::differentiate`] | the same with the derivatives of all measures |
-//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Variation`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
+//! | [`puncture::PunctureInput`], [`flexure::FlexureInput`], [`Neighbours`], [`Derivative`] | all that a path depends on, near a value of a parameter, and what comes of it |
 //! | [`Imperfection`], [`Sample`] | random gaps and slants, and one row that has them |
 //! | [`puncture::solve_sample`], [`flexure::solve_sample`] | puncture and bending of an imperfect row |
 //! | [`Status`], [`Iteration`] | how a path ended; one Newton iteration of it |
@@ -66,6 +66,6 @@ pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};
 pub use record::{ContactEvent, Iteration};
-pub use sensitivity::{Derivative, Variation};
+pub use sensitivity::Derivative;
 pub use solver::Neighbours;
 pub use status::Status;

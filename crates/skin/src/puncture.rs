@@ -86,6 +86,8 @@ pub struct PunctureParameters {
     pub tilts_deg: NumberList,
     /// How the needle is held.
     pub needle: Needle,
+    /// Depth `u*` at which the force is measured besides.
+    pub depth: Option<f64>,
 }
 
 impl Default for PunctureParameters {
@@ -100,6 +102,7 @@ impl Default for PunctureParameters {
             substrate_law: SubstrateLaw::Linear,
             tilts_deg: NumberList::default(),
             needle: Needle::Free,
+            depth: None,
         }
     }
 }
@@ -185,10 +188,12 @@ impl PunctureParameters {
         };
         let tilt = self.critical_tilt_deg;
         let (ratio, position) = (self.poisson_ratio, self.load_position);
+        let depth = self.depth.unwrap_or(1.0);
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
             (position.is_finite(), "load position", position, "a number"),
+            (depth > 0.0, "depth", depth, "a length above 0"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
         match rules.into_iter().find(|(holds, ..)| !holds) {
@@ -210,10 +215,15 @@ impl Followed {
     /// The result of the puncture.
     fn puncture(self) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, .. } = watch;
+        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, depth, .. } = watch;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
+        let deep = depth.found.first().map(|found| found.as_ref().map(|deep| &deep.state));
+        // A skin that gives way before it is so deep bears no more than it does there.
+        let end = || (status == Status::Complete).then(|| &path.point().state);
+        measures.force_at_depth =
+            deep.and_then(|deep| Some(path.system().force(deep.or_else(end)?)));
         let (instability, snaps) = needle.finish(path, &mut measures);
         let measures = match status {
             Status::Complete => measures,
@@ -332,7 +342,7 @@ impl<'a> Problem<'a> {
         places: &[At],
     ) -> Result<Followed, OutOfRange> {
         let mut growing = GrowingPath::new(self, chain, longest);
-        let mut watch = PathWatch::new(&growing.path, self.parameters.tilts_deg, functions, places);
+        let mut watch = PathWatch::new(&growing.path, self.parameters, functions, places);
         while let Some(segment) = growing.next()? {
             watch.follow(&mut growing.path, &segment);
         }

@@ -15,15 +15,6 @@ use crate::record::Skin;
 
 pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
 
-/// A problem for values of a parameter near its own.
-#[derive(Clone, Debug)]
-pub struct Variation<P> {
-    /// The problem for the neighbouring values, or for those on the left if `right` has others.
-    pub neighbours: Neighbours<P>,
-    /// The problem as it is seen from the right, and the name of the kink in it.
-    pub right: Option<(Neighbours<P>, &'static str)>,
-}
-
 /// The derivative of a measure with respect to a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivative {
@@ -117,7 +108,7 @@ const MOST_CHANGES: usize = 8;
 pub(crate) fn derivatives<S: Skin>(
     system: &S,
     spots: Vec<MeasuredPoint<S>>,
-    variations: &[Variation<S>],
+    variations: &[Neighbours<S>],
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
@@ -182,16 +173,9 @@ struct SideMotion<M> {
 
 impl<S: Skin> Linearised<'_, S> {
     /// How the place moves on both sides of a parameter.
-    fn sides(&mut self, Variation { neighbours, right }: &Variation<S>) -> Sides<S::Mode> {
+    fn sides(&mut self, neighbours: &Neighbours<S>) -> Sides<S::Mode> {
         let moved = self.here.moved(self.system, neighbours, self.turns);
         let on_left = self.here.violated(&neighbours.below, &moved[0]);
-        if let Some((beyond, _)) = right {
-            // The problem itself has a kink here: the right side has neighbours of its own.
-            let moved_beyond = self.here.moved(self.system, beyond, self.turns);
-            let on_right = self.here.violated(&beyond.above, &moved_beyond[1]);
-            let right = self.side(beyond, 1, moved_beyond, on_right);
-            return Sides { left: self.side(neighbours, 0, moved, on_left), right: Some(right) };
-        }
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
         if (on_left, on_right) == (None, None) {
             return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
@@ -267,29 +251,23 @@ impl<S: Skin> MeasuredQuantity<S> {
     /// The derivatives on both sides of a parameter.
     fn derivative(
         &self,
-        variation: &Variation<S>,
+        neighbours: &Neighbours<S>,
         Sides { left, right }: &Sides<S::Mode>,
         Contenders { value, numbers }: &Contenders,
     ) -> SidedDerivative {
-        let Variation { neighbours, right: beyond } = variation;
         let left_rate = self.rate(neighbours, left, 0, numbers);
-        let right_rate = if right.is_none() && numbers.len() == 1 {
-            left_rate
-        } else {
-            let neighbours = beyond.as_ref().map_or(neighbours, |(neighbours, _)| neighbours);
-            self.rate(neighbours, right.as_ref().unwrap_or(left), 1, numbers)
+        let right_rate = match right {
+            None if numbers.len() == 1 => left_rate,
+            right => self.rate(neighbours, right.as_ref().unwrap_or(left), 1, numbers),
         };
         let change =
             right.as_ref().and_then(|right| right.change.as_ref()).or(left.change.as_ref());
+        let kink = || change.cloned().unwrap_or_else(|| "another scale takes over".to_owned());
         // What depends on the direction of the path jumps where a contact changes, and the place of a maximum with it.
         let jumps = self.turns && change.is_some();
         let known = |rate: Option<f64>| rate.filter(|rate| rate.is_finite() && !jumps);
         let rates = [left_rate, right_rate].map(known);
-        SidedDerivative::new(rates, *value, neighbours.step, || match (change, beyond) {
-            (Some(change), _) => change.clone(),
-            (None, Some((_, name))) => (*name).to_owned(),
-            (None, None) => "another scale takes over".to_owned(),
-        })
+        SidedDerivative::new(rates, *value, neighbours.step, kink)
     }
 
     /// The derivative on one side, of the one of the contenders that is the extreme one there.
@@ -314,23 +292,5 @@ impl<S: Skin> MeasuredQuantity<S> {
         let there = value(1 - side, number);
         let rise = if side == 1 { here - there } else { there - here };
         Some(rise / (2.0 * neighbours.step))
-    }
-}
-
-impl<P> Variation<P> {
-    /// The variation of what a function makes of the problem.
-    ///
-    /// # Errors
-    /// Those of the function.
-    pub(crate) fn map<Q, E>(&self, f: impl Fn(&P) -> Result<Q, E>) -> Result<Variation<Q>, E> {
-        let map = |neighbours: &Neighbours<P>| -> Result<Neighbours<Q>, E> {
-            let Neighbours { below, above, step } = neighbours;
-            Ok(Neighbours { below: f(below)?, above: f(above)?, step: *step })
-        };
-        let right = match &self.right {
-            Some((right, kink)) => Some((map(right)?, *kink)),
-            None => None,
-        };
-        Ok(Variation { neighbours: map(&self.neighbours)?, right })
     }
 }

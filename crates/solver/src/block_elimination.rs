@@ -76,6 +76,8 @@ impl BlockElimination {
     pub fn factorise(&mut self, matrix: &BlockMatrix) -> Result<(), UnsafeBlock> {
         self.reshape(matrix);
         let (root, blocks) = (self.root, matrix.blocks());
+        // From both ends inwards: the load acts in the root, and a right-hand side that is zero elsewhere need not be
+        // carried there.
         let mut taken = [Taken::default(); 2];
         for block in 0..root {
             taken[0] = self.eliminate(matrix, block, &taken[0])?;
@@ -103,6 +105,7 @@ impl BlockElimination {
             let size = self.size(block);
             stored += size * (size + 2 * LINK);
         }
+        // Old numbers may stay: all of them are overwritten block by block.
         self.values.resize(stored, 0.0);
         self.exchanges.resize(self.kept.len(), 0);
         self.work.resize(self.kept.len(), 0.0);
@@ -135,6 +138,7 @@ impl BlockElimination {
         let start = self.starts[block];
         let link = self.links[block] - start;
         let mut d = rows::<N, N>(matrix, start, start);
+        // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
         let least = least_pivots(&d);
         for (row, taken) in d[link..link + LINK].iter_mut().zip(taken) {
             for (entry, taken) in row[link..link + LINK].iter_mut().zip(taken) {
@@ -146,6 +150,7 @@ impl BlockElimination {
         let stored = &mut self.values[self.at[block]..][..N * (N + 2 * LINK)];
         let (factors, coupling) = stored.split_at_mut(N * N);
         factors.copy_from_slice(d.as_flattened());
+        // The root has nothing inward of it to be eliminated into.
         let Some(inner) = matrix.inner(block) else { return Some(Taken::default()) };
         let inner = self.links[inner];
         let mut c = rows::<LINK, N>(matrix, start, inner);
@@ -298,6 +303,7 @@ fn factorise<const N: usize>(
                 (largest, pivot) = (row[k].abs(), i);
             }
         }
+        // The comparison is false for what is not a number, too.
         if !(largest > least[k] && largest.is_finite()) {
             return None;
         }
@@ -309,6 +315,7 @@ fn factorise<const N: usize>(
         let (head, tail) = d.split_at_mut(k + 1);
         let pivot = &mut head[k];
         negative ^= pivot[k] < 0.0;
+        // Kept inverted, since every substitution needs it and a product is quicker than a quotient.
         pivot[k] = pivot[k].recip();
         for row in tail {
             let factor = row[k] * pivot[k];

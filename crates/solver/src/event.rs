@@ -56,6 +56,7 @@ impl<S: System> Path<S> {
         distance: f64,
     ) -> Option<Candidate<S::Mode>> {
         let rate = self.condition(from).of(&from.leaving);
+        // Only the first one is aimed at: what happens behind it happens with another active set.
         let (constraint, along) = self.first_predicted()?;
         if along * rate > distance {
             return None;
@@ -66,11 +67,14 @@ impl<S: System> Path<S> {
         let reached = condition.of(&located.state.z) - condition.value;
         let within = (0.0..=FARTHER * distance).contains(&reached)
             && self.progress(&located.state.z) <= self.system.target();
+        // The prediction is of first order. Where the guard bends, its zero may lie far beyond, or Newton's method may
+        // have come to another one.
         if !within || self.turns_sharply(from, &located) {
             return None;
         }
         let guards = Newton::guards(&self.system, &located.state);
         match self.first_violated(&guards) {
+            // A guard that falls ever faster may get to zero before the one that was predicted.
             Some(earlier) if earlier != constraint => self.event(from, located, earlier).ok(),
             _ => Some(self.changed(located, constraint, &guards)),
         }
@@ -95,6 +99,8 @@ impl<S: System> Path<S> {
         if let Some(constraint) = self.first_violated(&guards) {
             return self.event(from, candidate, constraint);
         }
+        // A contact may close and open again within a step, or a force come to zero and grow anew: then all guards at
+        // its end are sound.
         for fraction in self.dips(from, &candidate, &guards) {
             let condition = self.condition(from);
             let distance = condition.of(&candidate.state.z) - condition.value;
@@ -112,6 +118,7 @@ impl<S: System> Path<S> {
         let mut first = (f64::INFINITY, None);
         for (c, (&before, &after)) in self.guards.iter().zip(after).enumerate() {
             if after < -FLOOR {
+                // By the secant. It only sets an order: whether one lies before the other is asked again at the event.
                 let fraction = before.max(0.0) / (before.max(0.0) - after);
                 if fraction < first.0 {
                     first = (fraction, Some(c));
@@ -186,6 +193,7 @@ impl<S: System> Path<S> {
         let located = self.locate_from(from, state, constraint)?;
         let span = condition.of(&beyond.state.z) - condition.value;
         let reached = condition.of(&located.state.z) - condition.value;
+        // A zero outside of the step belongs to another part of the path: the step was too long for its guard.
         if !(-BACKWARD..=span + BACKWARD).contains(&reached) {
             return Err(NewtonFailure::TooManyIterations);
         }
@@ -217,6 +225,7 @@ impl<S: System> Path<S> {
         let closing = |c: usize| {
             guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
+        // A guard that is zero and rises has just changed sides, and stays.
         let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
         let changes = std::iter::once(constraint)
             .chain(others)
@@ -232,6 +241,8 @@ impl<S: System> Path<S> {
         mut candidate: Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
+        // An extremum that has been found is a point of the path; from there the load must turn, and is not looked for
+        // again.
         let turns = from.leaving[load] * candidate.direction[load] < 0.0;
         if turns && from.event != Some(Event::LoadExtremum) {
             candidate = self.extremum(from, &candidate, load)?;
@@ -266,6 +277,7 @@ impl<S: System> Path<S> {
             let distance = bracket.secant();
             let candidate = self.trial(from, distance)?;
             let rate = candidate.direction[unknown];
+            // Either will do: near a flat top the place is hard to tell, at a sharp one the rate is.
             if bracket.width() <= CLOSE * span || rate.abs() <= CLOSE * start.abs() {
                 return Ok(candidate);
             }

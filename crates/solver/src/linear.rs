@@ -106,6 +106,7 @@ impl BandMatrix {
 impl Tangent for BandMatrix {
     fn clear_row(&mut self, row: usize) {
         let start = row * self.width();
+        // Only what was written to is cleared: rows of open contacts are nearly empty.
         let [first, end] = std::mem::replace(&mut self.used[row], [2 * self.half + 1, 0]);
         if first < end {
             self.rows[start + first..start + end].fill(0.0);
@@ -196,6 +197,7 @@ impl BandLu {
     ) -> Result<(), SingularMatrix> {
         debug_assert!(matrix.size == self.size && matrix.half == self.half);
         let mut zero = zero.iter().copied().peekable();
+        // Most unknowns of a row are forces of open contacts; without them the band is narrower, too.
         self.kept.clear();
         self.kept.extend((0..self.size).filter(|&i| zero.next_if_eq(&i).is_none()));
         self.load(matrix)?;
@@ -231,6 +233,7 @@ impl BandLu {
         for k in 0..x.len() {
             x.swap(k, self.pivots[k]);
             let factor = x[k];
+            // The right-hand side is mostly that of the load: zeros before it need no work.
             if factor != 0.0 {
                 let multipliers = &self.lower[k * self.half..][..self.reach[k] - k];
                 subtract(&mut x[k + 1..], factor, multipliers);
@@ -270,6 +273,7 @@ impl BandLu {
             *entry = matrix.row(row)[column + self.half - row];
         }
         let largest = entries.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
+        // Equations of forces and of gaps differ by the ratio of the moduli: unscaled, pivots would be chosen by units.
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {
             return Err(self.singular(i));
@@ -304,6 +308,7 @@ impl BandLu {
                 (row, value) = (i, x);
             }
         }
+        // Only an exact zero is refused: how near to singular a tangent may be is judged by what the step does with it.
         if value == 0.0 || !value.is_finite() {
             return Err(self.singular(k));
         }

@@ -94,9 +94,12 @@ impl Newton {
         rest(system, state);
         for _ in 0..=settings.max_iterations {
             let norm = self.evaluate(system, state, condition)?;
+            // The norm is that before this step: a state that is good enough already is made better by one more.
             self.solver.solve(&mut self.step);
             add(&mut state.z, 1.0, &self.step);
             if condition.stand_in.is_some() {
+                // The step has kept the left-hand side of the stand-in; what the condition itself lacks is made up
+                // along the path.
                 let direction = self.direction(system, condition);
                 let left = condition.value - condition.of(&state.z);
                 add(&mut state.z, left, &direction);
@@ -125,12 +128,14 @@ impl Newton {
         let mut condition = condition.clone();
         rest(system, state);
         for _ in 0..=settings.max_iterations {
+            // The condition holds the state where it is, so that the guard alone says how far it has to go.
             condition.value = condition.of(&state.z);
             let norm = self.evaluate(system, state, &condition)?;
             let guard = guard(system, state, constraint);
             self.solver.solve(&mut self.step);
             let direction = self.direction(system, &condition);
             let along = |step: &[f64]| guard_slope(system, state, constraint, step);
+            // The first-order zero of the guard, seen from the path and not from this iterate, which lies beside it.
             let distance = -(guard + along(&self.step)) / along(&direction);
             if !distance.is_finite() {
                 return Err(NewtonFailure::NotFinite);
@@ -167,6 +172,7 @@ impl Newton {
     /// Whether the determinant of the last tangent is positive once the row of its condition is such that it grows along a
     /// direction of the path: the orientation of the path, which is the same all along it.
     pub(crate) fn is_positive(&self, condition: &Condition, direction: &[f64]) -> bool {
+        // A row and its negative are the same condition but for the sign of the determinant.
         let row = condition.row_in_tangent().iter();
         let growth: f64 = row.map(|&(index, coefficient)| coefficient * direction[index]).sum();
         (growth > 0.0) != self.solver.is_negative()
@@ -205,6 +211,7 @@ impl Newton {
     ) -> Result<f64, NewtonFailure> {
         let residual = &mut self.residual;
         let row = condition.row_in_tangent();
+        // That there are no factors is told last: an equation without a finite value is the cause where both happen.
         let factorised = self.solver.factorise(system, state, row, residual);
         let load = system.load();
         residual.value[load] = condition.of(&state.z) - condition.value;
@@ -222,6 +229,7 @@ impl Newton {
             norm = norm.max(ratio);
         }
         if condition.stand_in.is_some() {
+            // The row in the tangent is the stand-in's, whose left-hand side is not to change.
             self.step[load] = 0.0;
         }
         self.history.push(norm);
@@ -236,6 +244,7 @@ impl Newton {
         if condition.stand_in.is_some() {
             let growth = condition.of(&direction);
             for x in &mut direction {
+                // The entry of the right-hand side was 1 for the stand-in.
                 *x /= growth;
             }
         }

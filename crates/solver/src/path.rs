@@ -209,6 +209,7 @@ impl<S: System> Path<S> {
         condition.value += distance;
         let iterations = self.newton.history.len();
         let found = self.trial_at(near, &condition);
+        // What is looked at between points belongs to no step, and the record of iterations is one of steps.
         self.newton.history.truncate(iterations);
         let Candidate { state, direction, .. } = found.ok()?;
         let (arriving, leaving) = (direction.clone(), direction);
@@ -382,6 +383,7 @@ impl<S: System> Path<S> {
                     self.adapt(iterations, is_smooth);
                     return Ok(point);
                 }
+                // Nothing has moved: the path still stands at its point, and tries again from there.
                 Err(stop) => self.shorten(distance, stop)?,
             }
         }
@@ -401,6 +403,8 @@ impl<S: System> Path<S> {
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
         if smooth && iterations <= 5 {
+            // Newton's method doubles its digits with each iteration: five are what a start needs that was two digits
+            // good. Of a step that an event cut short, neither length nor iterations tell how far the next one may go.
             self.step = (self.step * 1.7).min(self.settings.max_step);
         }
     }
@@ -409,6 +413,7 @@ impl<S: System> Path<S> {
     /// step of this distance, cut short at the first event within it.
     fn attempt(&mut self, distance: f64) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let from = Arc::clone(&self.point);
+        // Aiming at the event saves the equilibrium beyond it and the search between.
         let mut candidate = match self.predicted_event(&from, distance) {
             Some(candidate) if !self.strays(&from, &candidate) => candidate,
             _ => self.plain_step(&from, distance)?,
@@ -419,6 +424,7 @@ impl<S: System> Path<S> {
         } else if self.pulls(&candidate) {
             candidate = self.unloaded(&from, &candidate)?;
         }
+        // Asked once more, since turns and unloading have moved the end of the step.
         if self.strays(&from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }
@@ -445,6 +451,8 @@ impl<S: System> Path<S> {
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let (start, end) = (self.progress(&from.state.z), self.progress(&beyond.state.z));
+        // The control parameter itself, even if the step was measured by the arc length: the target is met to the last
+        // bit.
         let (target, control) = (self.system.target(), self.control_parameter());
         let state = from.state.interpolated(&beyond.state, (target - start) / (end - start));
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], target);
@@ -454,6 +462,7 @@ impl<S: System> Path<S> {
     fn accept(&mut self, candidate: Candidate<S::Mode>) -> Result<Point<S::Mode>, Stop> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
+            // What ends the path is not let go or closed: there is no direction in which it would go on.
             && changes.iter().any(|change| self.system.ends(change.constraint))
         {
             event = Some(Event::Target);
@@ -488,6 +497,7 @@ impl<S: System> Iterator for Path<S> {
             self.stop = Some(Stop::TooManyPoints);
             return None;
         }
+        // Counted before the step, so that a path that finds event upon event in one place ends, too.
         self.points += 1;
         match self.advance() {
             Ok(point) => {

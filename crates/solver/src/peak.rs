@@ -71,6 +71,8 @@ impl<M> Peak<M> {
     {
         let here = Arc::clone(&path.point);
         let at = |direction: &[f64]| f(&path.system, &here.state, direction);
+        // At a kink the larger of both counts: a stiffness is largest just before a contact opens, or just after one
+        // closes.
         let value = at(&here.arriving).max(at(&here.leaving));
         let kink = from.filter(|from| from.event.is_some() || here.event.is_some());
         if let Some(from) = kink.map(Arc::clone) {
@@ -182,6 +184,7 @@ where
         f: &'a F,
     ) -> Self {
         // The end with the active set and the mode of the segment.
+        // At an event the point holds what the path goes on with, which is not what it came with.
         let State { active, mode, .. } = from.state.clone();
         let state = State { z: to.state.z.clone(), active, mode };
         let (arriving, leaving) = (to.arriving.clone(), to.arriving.clone());
@@ -213,8 +216,10 @@ where
     /// Looks for the maximum within a bracket. `None` where Newton's method does not get to a place.
     fn search(&mut self, [mut low, mut high]: [Sample; 2], least: f64) -> Option<()> {
         for _ in 0..ROUNDS {
+            // No top inside: the larger end is the maximum, and it has been visited.
             let Some(top) = low.top(&high) else { break };
             let reached = self.highest.map_or(f64::NEG_INFINITY, |(value, _)| value);
+            // The cubic promises little: either another segment is higher, or this one has given what it has.
             if top.value < PROMISING * least || top.value - reached <= FLAT * top.value.abs() {
                 break;
             }
@@ -278,6 +283,7 @@ where
     fn at_end(&mut self, place: f64, state: &State<S::Mode>, direction: &[f64]) -> Option<Sample> {
         let condition = self.path.condition(self.from);
         let Path { newton, system, .. } = &mut *self.path;
+        // The slope needs the factors of the tangent at this very point.
         newton.tangent(system, state, &condition).ok()?;
         Some(self.sample(place, state, direction))
     }
@@ -288,6 +294,8 @@ where
         let nearest = self.known.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
         let near = nearest.map_or(self.from, |(_, point)| point);
         let point = self.path.between_from(self.from, self.to, place, near);
+        // From a near point Newton's method is quick, but a point beside a kink may lead it to the other side; the
+        // beginning of the segment does not.
         let point = point.or_else(|| self.path.between(self.from, self.to, place))?;
         let sample = self.sample(place, &point.state, &point.arriving);
         if self.highest.is_none_or(|(value, _)| sample.value > value) {
@@ -315,6 +323,7 @@ impl Sample {
         let (square, cube) = (3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise);
         let root = (square * square - 3.0 * cube * start).sqrt();
         let x =
+            // Of two forms of the root the one without a difference of near numbers.
             if square > 0.0 { -(square + root) / (3.0 * cube) } else { start / (root - square) };
         let value = self.value + x * (start + x * (square + x * cube));
         let place = self.place + x * width;

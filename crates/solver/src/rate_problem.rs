@@ -43,6 +43,8 @@ impl<S: System> Path<S> {
         {
             return self.stop_growing(state, arriving, change);
         }
+        // Symmetric rows close two contacts at once. One after the other would leave the symmetric path at its first
+        // event.
         if changes.len() > 1
             && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
         {
@@ -60,6 +62,7 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         change: Change,
     ) -> Result<Vec<f64>, Stop> {
+        // No complementarity problem is left to solve: a rate of zero satisfies both sides.
         self.pivot(state, change).ok_or(Stop::Singular)?;
         let controls = self.system.controls();
         let row = controls.iter().map(|c| (c.index, arriving[c.index] / c.scale.powi(2))).collect();
@@ -96,6 +99,7 @@ impl<S: System> Path<S> {
         changes.clear();
         for _ in 0..self.most_changes() {
             let valid = self.pivot(state, next).ok_or(Stop::Singular)?;
+            // A transition may hand the condition on, from a corner to the edge behind it, say.
             if !meeting.contains(&valid) {
                 meeting.push(valid);
             }
@@ -125,18 +129,22 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         valid: usize,
     ) -> Result<Vec<f64>, Stop> {
+        // A corner that closes may turn the path so far that it goes on at right angles to the direction in which it
+        // came; then one of the controls alone still grows.
         for condition in self.measures(state, arriving) {
             let mut trial = state.clone();
             let solved = self.newton.solve(&self.system, &mut trial, &condition, &self.settings);
             let Ok(direction) = solved else { continue };
             let mut direction = self.normalised(direction);
             let slope = guard_slope(&self.system, &trial, valid, &direction);
+            // At a slope of zero neither sign of the direction is the valid one.
             if slope == 0.0 || !direction.iter().all(|x| x.is_finite()) {
                 continue;
             }
             if slope < 0.0 {
                 direction = direction.into_iter().map(|x| -x).collect();
             }
+            // Here alone the sign of (N7) may be another: the equations behind the event are others.
             self.is_positive = self.newton.is_positive(&condition, &direction);
             *state = trial;
             return Ok(direction);
@@ -174,6 +182,7 @@ impl<S: System> Path<S> {
 
     /// More pivots than this do not happen at one place.
     fn most_changes(&self) -> usize {
+        // Each constraint may change and change back; the rest is for rows of a few scales.
         2 * self.guards.len() + 8
     }
 }

@@ -24,6 +24,16 @@ pub struct Neighbours<S> {
     pub step: f64,
 }
 
+impl<S> Neighbours<S> {
+    /// What a function makes of both.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn map<T, E>(&self, f: impl Fn(&S) -> Result<T, E>) -> Result<Neighbours<T>, E> {
+        Ok(Neighbours { below: f(&self.below)?, above: f(&self.above)?, step: self.step })
+    }
+}
+
 /// A place for a neighbouring value of a parameter, to first order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved<M> {
@@ -92,6 +102,7 @@ impl<M: Clone> Linearisation<M> {
         neighbours: &Neighbours<S>,
         turns: bool,
     ) -> [Moved<M>; 2] {
+        // First in the section, where the place is held along the path, then along it to where its anchor is met again.
         let mut unknowns = self.unknowns_in_section(system, neighbours);
         let along = self.distance(system, neighbours, &unknowns);
         for (unknown, direction) in unknowns.iter_mut().zip(&self.place.direction) {
@@ -109,6 +120,7 @@ impl<M: Clone> Linearisation<M> {
         unknowns: &[f64],
         turns: bool,
     ) -> [Moved<M>; 2] {
+        // Both sides are first-order predictions from one factorisation; nothing is solved for again.
         let states = [-step, step].map(|step| self.place.state.moved(step, unknowns));
         let direction = &self.place.direction;
         let turning = turns.then(|| turning(&mut self.newton, sides, &states, direction, step));
@@ -155,6 +167,7 @@ impl<M: Clone> Linearisation<M> {
         let step = neighbours.step;
         match *anchor {
             PathAnchor::Still => 0.0,
+            // The guard of an active constraint is its unknown, of which no difference is needed.
             PathAnchor::Guard(constraint) if state.active[constraint] => {
                 let index = system.constraints()[constraint];
                 -unknowns[index] / direction[index]
@@ -187,6 +200,7 @@ impl<M: Clone> Linearisation<M> {
     /// sign is violated most in the state that has `moved` there. `None` if the active set holds.
     pub fn violated<S: System<Mode = M>>(&self, system: &S, moved: &Moved<M>) -> Option<Change> {
         let active = &self.place.state.active;
+        // The guard that anchors the place is zero there by definition, and would be violated by round-off.
         let held = |constraint: usize| self.place.anchor == PathAnchor::Guard(constraint);
         // How far something has slid since an event is counted from a place of the path, not of the parameter.
         let loaded = (0..active.len()).filter(|c| active[*c] && !system.growing().contains(c));
@@ -204,6 +218,8 @@ impl<M: Clone> Linearisation<M> {
         change: Change,
         settings: &Settings,
     ) -> Option<Self> {
+        // A contact that is about to open or close at the place does so on one side of the parameter alone: there the
+        // measure has another derivative.
         let mut state = self.place.state.clone();
         state.active[change.constraint] = change.activated;
         state.z[system.constraints()[change.constraint]] = 0.0;

@@ -59,6 +59,7 @@ impl TangentSolver {
     ) -> Result<(), SingularMatrix> {
         self.inactive.clear();
         self.inactive.extend(inactive(system, state));
+        // In most systems forces are numbered along the row, and sorted already.
         if !self.inactive.is_sorted() {
             self.inactive.sort_unstable();
         }
@@ -67,11 +68,13 @@ impl TangentSolver {
         if let (Some(in_blocks), Some(blocks)) = (&mut self.blocks, blocks) {
             in_blocks.begin(system, blocks, &self.inactive);
             assemble(system, state, condition, residual, &mut in_blocks.matrix);
+            // A pivot that is too small is no failure yet: the band may exchange rows across blocks.
             self.is_in_blocks = in_blocks.elimination.factorise(&in_blocks.matrix).is_ok();
         }
         if self.is_in_blocks {
             return Ok(());
         }
+        // Made when first needed: most paths never leave the blocks.
         let InBand { matrix, constant, lu } = self.band.get_or_insert_with(|| InBand::new(system));
         matrix.set(constant);
         assemble(system, state, condition, residual, matrix);
@@ -128,6 +131,7 @@ fn assemble<S: System>(
 impl InBlocks {
     /// Gives the matrix its constant part alone, without the unknowns that are `inactive`.
     fn begin(&mut self, system: &impl System, blocks: &Blocks, inactive: &[usize]) {
+        // Between events the shape stays, and the constant part is one copy instead of an assembly.
         if self.left_out.as_deref() == Some(inactive) {
             self.matrix.set(&self.constant);
         } else {

@@ -20,16 +20,10 @@
 
 use faer::{ColRef, Mat};
 
-mod moving;
-mod rates;
-
-pub use rates::{FootprintChange, row_reactions_and_rates};
-
 use crate::Footprint;
 use crate::dense_lu::DenseLu;
 use crate::half_space::{CornerLine, Influence};
 use crate::mesh::{GradedAxis, Mesh};
-use moving::SeenLines;
 
 /// A row of rectangles that double precision cannot tell apart.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -44,17 +38,6 @@ pub struct Unresolved {
     pub cells: usize,
 }
 
-/// Reactions on one mesh, for `E* = a = 1`; signs as in Eq. (1).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reactions {
-    /// The direct reactions `α_x`, `α_y`, `α_φ`.
-    pub direct: [f64; 3],
-    /// The coupling reactions `β_x`, `β_y`, `β_φ`.
-    pub coupling: [f64; 3],
-    /// Coupling of the rotation of the middle rectangle and the normal displacement of the right neighbour.
-    pub cross: CrossTerms,
-}
-
 /// The two cross terms of a pair of rectangles, equal by Betti's theorem as far as the mesh is fine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrossTerms {
@@ -62,14 +45,6 @@ pub struct CrossTerms {
     pub force: f64,
     /// Moment on the middle rectangle from a unit normal displacement of the neighbour.
     pub moment: f64,
-}
-
-impl Reactions {
-    /// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ`.
-    pub fn coefficients(&self) -> [f64; 6] {
-        let ([a, b, c], [d, e, f]) = (self.direct, self.coupling);
-        [a, b, c, d, e, f]
-    }
 }
 
 /// Reactions of a row of rectangles on one mesh, for `E* = a = 1`, when the middle one is displaced by a
@@ -84,8 +59,8 @@ pub struct RowReactions {
     pub cross: Vec<CrossTerms>,
 }
 
-/// Displaces the middle one of three rectangles with its neighbours held, on `n × n` cells a quarter
-/// (S5), and returns the reactions (S6).
+/// Displaces the middle one of a row with `neighbours ≥ 1` rectangles on each side, with the others held, on `n × n` cells a
+/// quarter (S5), and returns the reactions (S6) on all of them.
 ///
 /// Eqs. (2)–(3) of Shafiei et al. (doi 10.1016/j.jmps.2020.104176) treat normal and tangential tractions
 /// apart. At `ν = 0.5` that is exact, as neither moves the surface in the other's direction.
@@ -94,36 +69,44 @@ pub struct RowReactions {
 ///
 /// # Errors
 /// If the gap, or a cell, is lost in rounding.
-pub fn reactions(footprint: &Footprint, n: usize) -> Result<Reactions, Unresolved> {
-    let found = row_reactions(footprint, 1, n)?;
-    let (neighbour, cross) = (found.neighbours[0], found.cross[0]);
-    Ok(Reactions { direct: found.direct, coupling: neighbour.map(|force| -force), cross })
-}
-
-/// Displaces the middle one of a row with `neighbours ≥ 1` rectangles on each side, with the others held, and returns
-/// the reactions on all of them.
-///
-/// # Errors
-/// As [`reactions`].
 pub fn row_reactions(
     footprint: &Footprint,
     neighbours: usize,
     n: usize,
 ) -> Result<RowReactions, Unresolved> {
+    let found = row_reactions_at(footprint, &[footprint.poisson_ratio()], neighbours, n)?;
+    found.into_iter().next().ok_or(Unresolved { footprint: *footprint, cells: n })
+}
+
+/// As [`row_reactions`] for several Poisson's ratios in place of that of the footprint. Normal tractions do not depend on it, so
+/// that each ratio takes one matrix more, where each footprint takes three.
+///
+/// # Errors
+/// As [`row_reactions`].
+pub fn row_reactions_at(
+    footprint: &Footprint,
+    poisson_ratios: &[f64],
+    neighbours: usize,
+    n: usize,
+) -> Result<Vec<RowReactions>, Unresolved> {
     let mesh = Mesh::row(footprint, neighbours, n);
-    let found = mesh.is_resolved().then(|| mesh.reactions(footprint));
-    found.filter(RowReactions::is_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
+    let found = mesh.is_resolved().then(|| mesh.reactions(footprint, poisson_ratios));
+    let are_finite = |found: &Vec<RowReactions>| {
+        found.iter().flat_map(RowReactions::numbers).all(f64::is_finite)
+    };
+    found.filter(are_finite).ok_or(Unresolved { footprint: *footprint, cells: n })
 }
 
 impl RowReactions {
-    fn is_finite(&self) -> bool {
-        self.numbers().all(f64::is_finite)
-    }
-
-    /// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` of Eq. (1).
-    pub(crate) fn coefficients(&self) -> [f64; 6] {
-        let ([a, b, c], [d, e, f]) = (self.direct, self.neighbours[0]);
-        [a, b, c, -d, -e, -f]
+    /// Returns all numbers in a list: those of the middle rectangle, then of each neighbour its three reactions and the two cross
+    /// terms.
+    pub fn numbers(&self) -> Vec<f64> {
+        let of_neighbour = |(direct, cross): (&[f64; 3], &CrossTerms)| {
+            let [x, y, turn] = *direct;
+            [x, y, turn, cross.force, cross.moment]
+        };
+        let neighbours = self.neighbours.iter().zip(&self.cross).flat_map(of_neighbour);
+        self.direct.iter().copied().chain(neighbours).collect()
     }
 }
 
@@ -150,42 +133,33 @@ impl Load {
     }
 }
 
-/// The tractions of the three problems; `rotation` has further columns for displaced neighbours.
-struct Tractions {
-    shear: Mat<f64>,
-    normal: Mat<f64>,
-    rotation: Mat<f64>,
-}
-
-impl Tractions {
-    fn map(self, mut f: impl FnMut(Mat<f64>) -> Mat<f64>) -> Self {
-        Self { shear: f(self.shear), normal: f(self.normal), rotation: f(self.rotation) }
-    }
-}
-
 impl Mesh {
-    fn reactions(&self, footprint: &Footprint) -> RowReactions {
-        let equations = Equations::assemble(self, footprint.poisson_ratio(), None);
-        let factors = equations.factorised();
-        self.sums(footprint, &factors.solve(self.displacements()))
-    }
-
-    /// Returns the displacements that the loads impose.
-    fn displacements(&self) -> Tractions {
+    fn reactions(&self, footprint: &Footprint, poisson_ratios: &[f64]) -> Vec<RowReactions> {
+        let equations = Equations::assemble(self, poisson_ratios);
         let push = self.imposed(&[Load { middle: ONE, neighbour: None }]);
         // Besides the rotation, a neighbour and its mirror image displaced by 1 and −1: half of it is the
         // odd part of one displaced alone, and the even part leaves no moment on the middle rectangle.
         let turn = Load { middle: ARM, neighbour: None };
         let opposed = (0..self.neighbours.len()).map(|k| Load { middle: ZERO, neighbour: Some(k) });
         let loads: Vec<_> = [turn].into_iter().chain(opposed).collect();
-        Tractions { shear: push.clone(), normal: push, rotation: self.imposed(&loads) }
+        let normal = DenseLu::new(equations.normal).solve(push.clone());
+        let odd = DenseLu::new(equations.rotation).solve(self.imposed(&loads));
+        let sums = |shear| {
+            let shear = DenseLu::new(shear).solve(push.clone());
+            self.sums(footprint, shear.col(0), normal.col(0), &odd)
+        };
+        equations.shear.into_iter().map(sums).collect()
     }
 
-    /// Returns the reactions that tractions add up to; without the columns of displaced neighbours, without their moments.
-    fn sums(&self, footprint: &Footprint, tractions: &Tractions) -> RowReactions {
+    /// Returns the reactions that tractions add up to; `odd` has those of the rotation first, and of each displaced neighbour.
+    fn sums(
+        &self,
+        footprint: &Footprint,
+        shear: ColRef<'_, f64>,
+        normal: ColRef<'_, f64>,
+        odd: &Mat<f64>,
+    ) -> RowReactions {
         let count = self.neighbours.len();
-        let odd = &tractions.rotation;
-        let (shear, normal) = (tractions.shear.col(0), tractions.normal.col(0));
         let rotation = odd.col(0);
         let neighbour = |k: usize| {
             let centre = (k + 1) as f64 * footprint.pitch_over_a();
@@ -196,8 +170,7 @@ impl Mesh {
             ]
         };
         let cross = |k: usize| {
-            let displaced = odd.col_iter().nth(k + 1);
-            let moment = displaced.map_or(0.0, |column| 0.5 * self.middle_sum(column, ARM));
+            let moment = 0.5 * self.middle_sum(odd.col(k + 1), ARM);
             CrossTerms { force: self.neighbour_sum(k, rotation, ONE), moment }
         };
         RowReactions {
@@ -261,39 +234,46 @@ impl Mesh {
     }
 }
 
-/// The matrices `G` of (S5) for the three loads.
+/// The matrices `G` of (S5) for the three loads, for shear one for each Poisson's ratio.
 struct Equations {
-    shear: Mat<f64>,
+    shear: Vec<Mat<f64>>,
     normal: Mat<f64>,
     rotation: Mat<f64>,
 }
 
 impl Equations {
-    /// Assembles the matrices, and puts what each field point sees behind each other into `seen`.
-    fn assemble(mesh: &Mesh, poisson_ratio: f64, mut seen: Option<&mut SeenLines>) -> Self {
+    fn assemble(mesh: &Mesh, poisson_ratios: &[f64]) -> Self {
         let n = mesh.unknowns();
-        let mut equations =
-            Self { shear: Mat::zeros(n, n), normal: Mat::zeros(n, n), rotation: Mat::zeros(n, n) };
+        let zeros = Mat::zeros(n, n);
+        let shear = vec![zeros.clone(); poisson_ratios.len()];
+        let mut equations = Self { shear, normal: zeros.clone(), rotation: zeros };
         let depth = mesh.depth.cells();
         let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
+        // A line of corners serves all field points of a depth: its logarithms are taken once.
         for (k, &z) in mesh.depth.points().iter().enumerate() {
-            let line = CornerLine::new(mesh.depth.mirrored_edges(), z);
-            let mut columns = CellColumns::new(line, seen.as_deref_mut());
-            let mut sides = [Vec::with_capacity(n), Vec::with_capacity(n)];
+            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
             for (i, &x) in fields.iter().enumerate() {
-                columns.both_sides(mesh, x, &mut sides);
-                equations.fill_row(i * depth + k, &sides, poisson_ratio);
+                let [right, left] = [1.0, -1.0].map(|side| columns.on_side(mesh, x, side));
+                equations.fill_row(i * depth + k, &right, &left, poisson_ratios);
             }
         }
         equations
     }
 
     /// Sources on the right act with their mirror images on the left, even or odd in `x`.
-    fn fill_row(&mut self, row: usize, [right, left]: &[Vec<Influence>; 2], poisson_ratio: f64) {
+    fn fill_row(
+        &mut self,
+        row: usize,
+        right: &[Influence],
+        left: &[Influence],
+        poisson_ratios: &[f64],
+    ) {
         for (column, (&right, &left)) in right.iter().zip(left).enumerate() {
             // The edges of a mirror image descend, which turns its sign.
             let even = right - left;
-            self.shear[(row, column)] = even.tangential(poisson_ratio);
+            for (shear, ratio) in self.shear.iter_mut().zip(poisson_ratios) {
+                shear[(row, column)] = even.tangential(*ratio);
+            }
             self.normal[(row, column)] = even.normal();
             self.rotation[(row, column)] = (right + left).normal();
         }
@@ -301,43 +281,33 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct CellColumns<'s> {
+struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
-    seen: Option<&'s mut SeenLines>,
 }
 
-impl<'s> CellColumns<'s> {
+impl CellColumns {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
-    fn new(line: CornerLine, seen: Option<&'s mut SeenLines>) -> Self {
+    fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
-        Self { line, last: blank.clone(), next: blank, seen }
+        Self { line, last: blank.clone(), next: blank }
     }
 
-    /// The influence at `x` of the cells on the right and of their mirror images on the left.
-    fn both_sides(&mut self, mesh: &Mesh, x: f64, [right, left]: &mut [Vec<Influence>; 2]) {
-        right.clear();
-        left.clear();
+    /// The influence at `x`, column by column, of the cells on one `side` of the plane of symmetry: 1 right, −1 left, where edges
+    /// descend and the influence is negative.
+    fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
+        let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {
-            self.influence(axis.edges().iter().map(|edge| edge - x), right);
-            self.influence(axis.edges().iter().map(|edge| -edge - x), left);
-        }
-    }
-
-    /// Appends, column by column, the influence of the cells between the `offsets`; negative where
-    /// they descend.
-    fn influence(&mut self, offsets: impl Iterator<Item = f64>, into: &mut Vec<Influence>) {
-        for (column, offset) in offsets.enumerate() {
-            std::mem::swap(&mut self.last, &mut self.next);
-            self.line.evaluate(offset, &mut self.next);
-            if let Some(seen) = &mut self.seen {
-                seen.push(self.line.logarithms());
-            }
-            if column > 0 {
-                append_cells(&self.last, &self.next, into);
+            for (column, edge) in axis.edges().iter().enumerate() {
+                std::mem::swap(&mut self.last, &mut self.next);
+                self.line.evaluate(side * edge - x, &mut self.next);
+                if column > 0 {
+                    append_cells(&self.last, &self.next, &mut influence);
+                }
             }
         }
+        influence
     }
 }
 
@@ -350,21 +320,4 @@ fn append_cells(last: &[Influence], next: &[Influence], into: &mut Vec<Influence
         let image = strip(half - k) - strip(half - k - 1);
         cell + image
     }));
-}
-
-impl Equations {
-    fn factorised(self) -> Factors {
-        Factors([self.shear, self.normal, self.rotation].map(DenseLu::new))
-    }
-}
-
-/// LU factors of the three matrices.
-struct Factors([DenseLu; 3]);
-
-impl Factors {
-    /// Solves the three problems for their right-hand sides.
-    fn solve(&self, right: Tractions) -> Tractions {
-        let mut factors = self.0.iter();
-        right.map(|right| factors.next().map_or(right.clone(), |lu| lu.solve(right)))
-    }
 }

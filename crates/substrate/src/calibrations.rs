@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::boundary_element::Unresolved;
 use crate::cache::BoundedCache;
-use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, StiffnessSlopes, calibrate};
+use crate::{Coupling, Footprint, RowStiffness, Springs, StiffnessSlopes};
 
 /// Calibrations shared by every design and thread that needs them.
 ///
@@ -14,11 +14,12 @@ use crate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, Springs, StiffnessSlo
 /// nor on the footprints that the cache forgets when it is full.
 #[derive(Debug)]
 pub struct Calibrations {
-    springs: BoundedCache<Springs>,
-    rows: BoundedCache<Arc<RowStiffness>>,
-    slopes: BoundedCache<Arc<StiffnessSlopes>>,
-    full_slopes: BoundedCache<Arc<StiffnessSlopes>>,
+    rows: [BoundedCache<Arc<RowStiffness>>; COUPLINGS],
+    slopes: [BoundedCache<Arc<StiffnessSlopes>>; COUPLINGS],
 }
+
+/// Kinds of [`Coupling`], which number the caches.
+const COUPLINGS: usize = 2;
 
 /// The default capacity, in footprints: some 10 MB, and more than any sweep needs at a time.
 const CAPACITY: usize = 1 << 16;
@@ -27,19 +28,17 @@ impl Calibrations {
     /// Creates a cache of at most `capacity` footprints (at least two) for each coupling.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
-            springs: BoundedCache::with_capacity(capacity),
-            rows: BoundedCache::with_capacity(capacity),
-            slopes: BoundedCache::with_capacity(capacity),
-            full_slopes: BoundedCache::with_capacity(capacity),
+            rows: [(); COUPLINGS].map(|()| BoundedCache::with_capacity(capacity)),
+            slopes: [(); COUPLINGS].map(|()| BoundedCache::with_capacity(capacity)),
         }
     }
 
     /// Returns the springs of `footprint`, solved now if they are not known.
     ///
     /// # Errors
-    /// As [`calibrate`]; the error is remembered like a result.
+    /// As [`RowStiffness::solve`]; the error is remembered like a result.
     pub fn get(&self, footprint: &Footprint) -> Result<Springs, Unresolved> {
-        self.springs.get_or_solve(footprint, || calibrate(footprint))
+        self.row(footprint, Coupling::Nearest).map(|row| (&*row).into())
     }
 
     /// Returns the stiffness of a row of that `footprint` and `coupling`, solved now if it is not known.
@@ -51,12 +50,8 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<RowStiffness>, Unresolved> {
-        match coupling {
-            Coupling::Nearest => Ok(Arc::new((&self.get(footprint)?).into())),
-            Coupling::Full => self.rows.get_or_solve(footprint, || {
-                RowStiffness::solve(footprint, NEIGHBOURS).map(Arc::new)
-            }),
-        }
+        let solve = || RowStiffness::of(footprint, coupling).map(Arc::new);
+        self.rows[coupling as usize].get_or_solve(footprint, solve)
     }
 
     /// Returns the stiffness of a row of that `footprint` and `coupling` with its derivatives, solved now if it is not known.
@@ -68,11 +63,8 @@ impl Calibrations {
         footprint: &Footprint,
         coupling: Coupling,
     ) -> Result<Arc<StiffnessSlopes>, Unresolved> {
-        let cache = match coupling {
-            Coupling::Nearest => &self.slopes,
-            Coupling::Full => &self.full_slopes,
-        };
-        cache.get_or_solve(footprint, || StiffnessSlopes::of(footprint, coupling).map(Arc::new))
+        let solve = || StiffnessSlopes::of(footprint, coupling).map(Arc::new);
+        self.slopes[coupling as usize].get_or_solve(footprint, solve)
     }
 }
 

@@ -58,6 +58,16 @@ impl Footprint {
         2.0 + self.gap_over_a
     }
 
+    /// Returns the footprint with one of its three numbers larger by a small step. Its shear has a meaning for ratios beyond the
+    /// ends of their range too.
+    pub(crate) fn moved(&self, number: usize, step: f64) -> Self {
+        let Self { gap_over_a, width_over_a, poisson_ratio } = *self;
+        let mut numbers = [gap_over_a, width_over_a, poisson_ratio];
+        numbers[number] += step;
+        let [gap_over_a, width_over_a, poisson_ratio] = numbers;
+        Self { gap_over_a, width_over_a, poisson_ratio }
+    }
+
     fn bits(&self) -> [u64; 3] {
         [self.gap_over_a, self.width_over_a, self.poisson_ratio].map(f64::to_bits)
     }

@@ -22,8 +22,6 @@
 use std::f64::consts::PI;
 use std::ops::{Add, Sub};
 
-use pulp::{Arch, NullaryFnOnce};
-
 /// The integrals of (S3): what a unit traction on a cell does at a field point, before the elastic
 /// constants enter. At a corner, the corner functions themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,133 +80,40 @@ pub fn cell(x: [f64; 2], z: [f64; 2]) -> Influence {
 #[derive(Clone, Debug)]
 pub struct CornerLine {
     /// `Z` of each corner, and `ln|Z|`.
-    z: Vec<f64>,
-    ln: Vec<f64>,
-    /// `|Z| + r` of each corner, `|X| + r` of each, and ones that fill the last vector; their logarithms.
-    logarithms: Vec<f64>,
-    /// The widest vectors that the processor has.
-    arch: Arch,
+    corners: Vec<[f64; 2]>,
 }
-
-/// Numbers in a vector: as many as most processors take at a time.
-pub(crate) const LANES: usize = 4;
 
 impl CornerLine {
     /// Creates a line of corners at the depths `edges`, seen from the depth `field`.
     pub fn new(edges: impl IntoIterator<Item = f64>, field: f64) -> Self {
-        let z: Vec<f64> = edges.into_iter().map(|edge| edge - field).collect();
-        let ln = z.iter().map(|&z| ln_or_zero(z)).collect();
-        let logarithms = vec![1.0; (2 * z.len()).next_multiple_of(LANES)];
-        Self { logarithms, z, ln, arch: Arch::new() }
+        let corner = |edge| [edge - field, ln_or_zero(edge - field)];
+        Self { corners: edges.into_iter().map(corner).collect() }
     }
 
     /// Returns the number of corners.
     pub fn len(&self) -> usize {
-        self.z.len()
+        self.corners.len()
     }
 
     /// Returns whether there are no corners.
     pub fn is_empty(&self) -> bool {
-        self.z.is_empty()
+        self.corners.is_empty()
     }
 
     /// Returns the corner functions along the line at the offset `x`, into `corners`.
     ///
     /// The field point must not be a corner (a collocation point never is).
-    pub fn evaluate(&mut self, x: f64, corners: &mut [Influence]) {
-        self.arch.dispatch(Logarithms { x, z: &self.z, of: &mut self.logarithms });
-        let (across, along) = self.logarithms.split_at(self.z.len());
+    pub fn evaluate(&self, x: f64, corners: &mut [Influence]) {
         let ln_x = ln_or_zero(x);
-        let numbers = across.iter().zip(along).zip(self.z.iter().zip(&self.ln));
-        for (corner, ((across, along), (&z, ln_z))) in corners.iter_mut().zip(numbers) {
-            corner.across = x * (across - ln_x).copysign(z);
-            corner.along = z * (along - ln_z).copysign(x);
+        for (corner, &[z, ln_z]) in corners.iter_mut().zip(&self.corners) {
+            let r = (x * x + z * z).sqrt();
+            corner.across = x * ((z.abs() + r).ln() - ln_x).copysign(z);
+            corner.along = z * ((x.abs() + r).ln() - ln_z).copysign(x);
         }
-    }
-
-    /// Returns the line as it was evaluated last: `ln(|Z| + r)` of each corner, and `ln(|X| + r)` of each behind them.
-    pub(crate) fn logarithms(&self) -> &[f64] {
-        &self.logarithms[..2 * self.len()]
-    }
-
-    /// Returns `Z` of each corner, and `ln|Z|` of each.
-    pub(crate) fn depths(&self) -> [&[f64]; 2] {
-        [&self.z, &self.ln]
-    }
-}
-
-/// The logarithms of a line, evaluated in vectors as wide as the processor has them.
-struct Logarithms<'a> {
-    x: f64,
-    z: &'a [f64],
-    of: &'a mut [f64],
-}
-
-impl NullaryFnOnce for Logarithms<'_> {
-    type Output = ();
-
-    #[expect(clippy::inline_always, reason = "only what is inlined is compiled for wide vectors")]
-    #[inline(always)]
-    fn call(self) {
-        let (across, along) = self.of.split_at_mut(self.z.len());
-        for ((across, along), z) in across.iter_mut().zip(along).zip(self.z) {
-            let r = (self.x * self.x + z * z).sqrt();
-            *across = z.abs() + r;
-            *along = self.x.abs() + r;
-        }
-        take_logarithms(self.of);
     }
 }
 
 /// Returns `ln|s|`, or 0 where the corner function vanishes with its factor `s`.
-pub(crate) fn ln_or_zero(s: f64) -> f64 {
+fn ln_or_zero(s: f64) -> f64 {
     if s == 0.0 { 0.0 } else { s.abs().ln() }
-}
-
-/// `ln 2`, the first 33 bits and the rest.
-const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
-
-/// Replaces positive normal numbers by their logarithms, to within one unit of the last digit.
-///
-/// As in Sun's `fdlibm`: with `x = 2^k (1 + f)`, `1 + f` between `√½` and `√2`, and `s = f/(2 + f)`, a polynomial in `s²`
-/// stands for `ln (1 + f) = 2 artanh s`. Without branches and tables the compiler takes several at a time.
-#[inline(always)]
-fn take_logarithms(numbers: &mut [f64]) {
-    const SQRT_HALF: u64 = std::f64::consts::FRAC_1_SQRT_2.to_bits();
-    const ONE: u64 = 1.0_f64.to_bits();
-    const FRACTION: u64 = (1 << 52) - 1;
-    /// `2^52`, to the last digits of which a whole number is added.
-    const SHIFT: f64 = 4_503_599_627_370_496.0;
-    for x in numbers {
-        let bits = x.to_bits().wrapping_add(ONE - SQRT_HALF);
-        let k = f64::from_bits((bits >> 52) | SHIFT.to_bits()) - (SHIFT + 1023.0);
-        let f = f64::from_bits((bits & FRACTION).wrapping_add(SQRT_HALF)) - 1.0;
-        let s = f / (2.0 + f);
-        let z = s * s;
-        let w = z * z;
-        let even = 0.222_221_984_321_497_84 + w * 0.153_138_376_992_093_73;
-        let even = w * (0.399_999_999_994_094_2 + w * even);
-        let odd = 0.181_835_721_616_180_5 + w * 0.147_981_986_051_165_86;
-        let odd = z * (0.666_666_666_666_673_5 + w * (0.285_714_287_436_623_9 + w * odd));
-        let half = 0.5 * f * f;
-        *x = s * (half + (even + odd)) + k * LN_2[1] - half + f + k * LN_2[0];
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::take_logarithms;
-
-    #[test]
-    fn logarithms_are_those_of_the_standard_library() {
-        for i in 0..200_000 {
-            let x = (1.0 + 1e-5 * f64::from(i)) * 10_f64.powi(i % 600 - 300);
-            let mut ours = [x];
-            take_logarithms(&mut ours);
-            assert!((ours[0] - x.ln()).abs() <= 3e-16 * x.ln().abs().max(1e-3), "{x} {ours:?}");
-        }
-        let mut one = [1.0];
-        take_logarithms(&mut one);
-        assert_eq!(one, [0.0]);
-    }
 }

@@ -11,13 +11,13 @@
 //!
 //! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
 //! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
-//! (S1)–(S12) here and in `docs/theory.md`.
+//! (S1)–(S18) here and in `docs/theory.md`.
 //!
 //! | Type | Role |
 //! |---|---|
 //! | [`Footprint`] | what the springs depend on: `d/a`, `b/a`, `ν`, valid by construction |
 //! | [`Springs`] | the six coefficients and their estimated error |
-//! | [`calibrate`] | one footprint to its springs, 2 ms |
+//! | [`calibrate`] | one footprint to its springs: from a table, elsewhere solved in milliseconds |
 //! | [`RowStiffness`], [`Coupling`], [`Neighbour`] | the same with more neighbours and with force from rotation |
 //! | [`FarField`], [`Relief`] | how scales move beyond the last that touch, and how much softer they make it |
 //! | [`StiffnessSlopes`] | the stiffness of a row with its derivatives with respect to the footprint |
@@ -25,10 +25,11 @@
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
 //! | [`mesh`] | cells graded towards the edges and the gap |
+//! | [`table`] | the springs as polynomials |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
 //!
 //! Normal and tangential tractions are treated apart, which is exact at `ν = 0.5` and otherwise
-//! leaves out their coupling (see [`boundary_element::reactions`]).
+//! leaves out their coupling (see [`boundary_element::row_reactions`]).
 //!
 //! ```
 //! use substrate::{Calibrations, Footprint};
@@ -53,7 +54,9 @@ pub mod mesh;
 mod row_stiffness;
 mod springs;
 mod stiffness_slopes;
+
 mod strip;
+pub mod table;
 
 pub use boundary_element::Unresolved;
 pub use calibrations::Calibrations;
@@ -61,5 +64,6 @@ pub use far_field::{FarField, Relief};
 pub use footprint::Footprint;
 pub use row_stiffness::{Coupling, NEIGHBOURS, Neighbour, RowStiffness};
 pub use springs::{Springs, calibrate, extrapolated};
-pub use stiffness_slopes::{OneSided, StiffnessSlopes};
+pub use stiffness_slopes::StiffnessSlopes;
+
 pub use strip::{SubstrateLaw, SurfaceStrip, neo_hookean};

@@ -13,10 +13,6 @@
 
 use std::f64::consts::PI;
 
-mod motion;
-
-pub use motion::{AxisMotion, MeshChange, MeshMotion};
-
 use crate::Footprint;
 
 /// Cells along one side of a rectangle: edges, and the collocation points between them.
@@ -24,35 +20,30 @@ use crate::Footprint;
 pub struct GradedAxis {
     edges: Vec<f64>,
     points: Vec<f64>,
-    grading: Grading,
-    /// The part of the graded interval that has no cells.
-    start: f64,
 }
 
 impl GradedAxis {
     /// Creates `cells` cells over the interval `ends`, graded to the `layers` `ε` (S4) at its two ends.
     pub fn graded(ends: [f64; 2], layers: [f64; 2], cells: usize) -> Self {
-        Self::between(Grading::new(ends, layers), 0.0, cells)
+        Self::between(&Grading::new(ends, layers), 0.0, cells)
     }
 
     /// Creates `cells` cells over `0 … half_length`, the upper half of a graded axis of twice the length.
     pub fn upper_half(half_length: f64, layer: f64, cells: usize) -> Self {
         let grading = Grading::new([-half_length, half_length], [layer; 2]);
-        let mut axis = Self::between(grading, 0.5, cells);
+        let mut axis = Self::between(&grading, 0.5, cells);
         // The plane of symmetry, exactly.
         axis.edges[0] = 0.0;
         axis
     }
 
-    /// Creates the points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
+    /// Creates cells beyond the part `start` of the graded interval. Their points lie halfway in the mapped coordinate, as in cosine-spaced vortex lattices: halfway
     /// in length, the error would be ten times as large and of second order only.
-    fn between(grading: Grading, start: f64, cells: usize) -> Self {
+    fn between(grading: &Grading, start: f64, cells: usize) -> Self {
         let at = |k: f64| grading.at(start + (1.0 - start) * k / cells as f64);
         Self {
             edges: (0..=cells).map(|k| at(k as f64)).collect(),
             points: (0..cells).map(|k| at(k as f64 + 0.5)).collect(),
-            grading,
-            start,
         }
     }
 
@@ -102,12 +93,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Creates the mesh of three rectangles, `n` cells across each: half the middle one, its neighbour, half the depth.
-    pub fn new(footprint: &Footprint, n: usize) -> Self {
-        Self::row(footprint, 1, n)
-    }
-
-    /// Returns a rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
+    /// Creates the mesh of a rectangle with `neighbours` rectangles on each side, `n` cells across each: half the middle
     /// one, a neighbour, half the depth.
     pub fn row(footprint: &Footprint, neighbours: usize, n: usize) -> Self {
         let (gap, width) = (footprint.gap_over_a(), footprint.width_over_a());
@@ -140,7 +126,6 @@ impl Mesh {
 }
 
 /// The map from `0 … 1` to an interval on which the cells are equally wide, (S4) from both ends.
-#[derive(Clone, Debug, PartialEq)]
 struct Grading {
     ends: [f64; 2],
     /// `√(length/ε)` at the two ends.

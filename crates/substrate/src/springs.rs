@@ -1,7 +1,7 @@
 //! The springs: the coefficients of Eq. (1).
 
-use crate::Footprint;
-use crate::boundary_element::{Unresolved, reactions};
+use crate::boundary_element::{Unresolved, row_reactions};
+use crate::{Coupling, Footprint, RowStiffness};
 
 /// Direct (`α`) and coupling (`β`) stiffness of the bases of a row of scales on an elastic
 /// half-space, dimensionless (Eq. 1 of Shafiei et al., doi 10.1016/j.jmps.2020.104176).
@@ -18,7 +18,8 @@ pub struct Springs {
     pub error: f64,
 }
 
-/// Returns the springs of a footprint, from three meshes, extrapolated in the number of cells.
+/// Returns the springs of a footprint: from a table, to 1e-5 of `α`, for `b/a` from 0.25 to 80 and `d/a` from 0.0125 to 100;
+/// elsewhere from three meshes of `4`, `6` and `8` cells a side, extrapolated in the number of cells:
 ///
 /// ```text
 /// c = c_n + (c_n − c_m) / ((n/m)³ − 1)                                (S7)
@@ -26,73 +27,41 @@ pub struct Springs {
 /// ```
 ///
 /// where `c_mn` comes from `m` and `n` cells a side. The error falls as `n⁻³`. The second term of (S8)
-/// stands for extrapolations that agree by accident. For `b/a` from 0.25 to 80 and `d/a` from
-/// 0.0125 to 100 the actual error is below 0.03 % and the estimate below 0.1 %, mostly two to ten times
-/// the error.
+/// stands for extrapolations that agree by accident.
 ///
 /// # Errors
 /// If the gap is lost in rounding (`d/a` below about 1e-15). Small gaps before that are served with
 /// a growing `error`.
 pub fn calibrate(footprint: &Footprint) -> Result<Springs, Unresolved> {
-    let [coarse, medium, fine] = CELLS;
-    let meshes = [on(footprint, coarse)?, on(footprint, medium)?, on(footprint, fine)?];
-    Ok(Springs::from_meshes(meshes))
+    RowStiffness::of(footprint, Coupling::Nearest).map(|row| (&row).into())
 }
 
-impl Springs {
-    /// Extrapolates the coefficients of three meshes.
-    pub(crate) fn from_meshes([c4, c6, c8]: [[f64; 6]; 3]) -> Self {
-        let [coarse, medium, fine] = CELLS;
-        let check = extrapolate([coarse, medium], [&c4, &c6]);
-        let best = extrapolate([medium, fine], [&c6, &c8]);
-        let error = |i: usize| estimated_error([check[i], c8[i], best[i]]) / best[i % 3];
-        let [ax, ay, aphi, bx, by, bphi] = best;
-        Self {
-            direct: [ax, ay, aphi],
-            coupling: [bx, by, bphi],
-            error: (0..best.len()).map(error).fold(0.0, f64::max),
-        }
+impl From<&RowStiffness> for Springs {
+    /// Takes the scale itself and its nearest neighbours out of a row.
+    fn from(row: &RowStiffness) -> Self {
+        let coupling = row.neighbours.first().map_or([0.0; 3], |nearest| nearest.direct);
+        Self { direct: row.direct, coupling: coupling.map(|force| -force), error: row.error }
     }
 }
 
-/// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes, the coarser first: what
-/// [`calibrate`] does, with as many cells as one can afford.
+/// Returns `α_x, α_y, α_φ, β_x, β_y, β_φ` extrapolated (S7) from two meshes, the coarser first, with as many cells as one can
+/// afford.
 ///
 /// # Errors
 /// As [`calibrate`].
 pub fn extrapolated(footprint: &Footprint, cells: [usize; 2]) -> Result<[f64; 6], Unresolved> {
-    let [coarse, fine] = [on(footprint, cells[0])?, on(footprint, cells[1])?];
-    Ok(extrapolate(cells, [&coarse, &fine]))
+    let on = |n| row_reactions(footprint, 1, n).map(|found| found.numbers());
+    let [coarse, fine] = [on(cells[0])?, on(cells[1])?];
+    let numbers = extrapolation(cells, [&coarse, &fine]);
+    Ok(std::array::from_fn(|i| if i < 3 { numbers[i] } else { -numbers[i] }))
 }
-
-/// Cells a side of the meshes of [`calibrate`]: the coarsest that meet the errors stated there, in 2 ms.
-pub(crate) const CELLS: [usize; 3] = [4, 6, 8];
 
 /// Order of convergence of the reactions, as observed: that of piecewise constant tractions, since
 /// the grading takes care of the edges.
 const ORDER: i32 = 3;
 
-/// Share of the extrapolated step in the estimated error (S8): the least that bounds the actual error for all reference
-/// values of the tests.
-const CAUTION: f64 = 0.3;
-
-/// Returns the absolute error (S8) from the extrapolation of the coarser meshes, the finest mesh, and the best
-/// extrapolation.
-pub(crate) fn estimated_error([check, finest, best]: [f64; 3]) -> f64 {
-    (best - check).abs() + CAUTION * (best - finest).abs()
-}
-
 /// Extrapolates any list of numbers by (S7) from two meshes, the coarser first.
 pub(crate) fn extrapolation(cells: [usize; 2], [coarse, fine]: [&[f64]; 2]) -> Vec<f64> {
     let share = 1.0 / ((cells[1] as f64 / cells[0] as f64).powi(ORDER) - 1.0);
     coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
-}
-
-fn on(footprint: &Footprint, n: usize) -> Result<[f64; 6], Unresolved> {
-    reactions(footprint, n).map(|found| found.coefficients())
-}
-
-fn extrapolate(cells: [usize; 2], [coarse, fine]: [&[f64; 6]; 2]) -> [f64; 6] {
-    let numbers = extrapolation(cells, [coarse, fine]);
-    std::array::from_fn(|i| numbers[i])
 }

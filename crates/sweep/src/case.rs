@@ -22,6 +22,10 @@ pub struct Case {
     pub critical_tilt: Scalar,
     /// The friction between needle and scale: of a free needle the critical tilts follow from it.
     pub needle_friction: Option<Scalar>,
+    /// How far inside the top right corner the load stands, unless its place is given as a part of the top.
+    pub load_inset: Option<f64>,
+    /// The depth at which the force is measured besides, in mm, unless it is given over the thickness.
+    pub depth_mm: Option<f64>,
     /// The other parameters of bending.
     pub flexure: flexure::FlexureParameters,
     /// The neighbours of a scale that the substrate couples it with.
@@ -44,6 +48,18 @@ pub struct Samples {
 }
 
 impl Case {
+    /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it.
+    pub fn punctured(&self) -> puncture::PunctureParameters {
+        let depth = self.depth_mm.zip(self.material.thickness_mm).map(|(depth, t)| depth / t);
+        let top = 2.0 * self.design.half_base();
+        let inside = |inset: f64| (1.0 - inset / top).max(0.5);
+        puncture::PunctureParameters {
+            depth: self.puncture.depth.or(depth),
+            load_position: self.load_inset.map_or(self.puncture.load_position, inside),
+            ..self.puncture
+        }
+    }
+
     /// The ratios and Poisson's ratio that the springs of the substrate depend on.
     ///
     /// # Errors
@@ -64,6 +80,8 @@ impl Default for Case {
                 puncture::PunctureParameters::default().critical_tilt_deg,
             ),
             needle_friction: None,
+            load_inset: None,
+            depth_mm: None,
             flexure: flexure::FlexureParameters::default(),
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),

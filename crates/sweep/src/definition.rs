@@ -152,8 +152,8 @@ impl Sweep {
     /// Whether the definition gives this parameter, so that it leaves nothing to the other way to say the same.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
-        let leaves_it = parameter.takes_word() && matches!(value, Scalar::Word(_));
-        self.grid.axis(parameter.key).is_some() || (parameter.takes_word() && !leaves_it)
+        let is_number = !matches!(value, Scalar::Word(_));
+        self.grid.axis(parameter.key).is_some() || (parameter.is_optional() && is_number)
     }
 }
 

@@ -276,6 +276,11 @@ impl Parameter {
         )
     }
 
+    /// Whether a case may do without a number of it.
+    pub(crate) fn is_optional(&self) -> bool {
+        self.takes_word() || matches!(self.kind, ParameterKind::OptionalNumber { .. })
+    }
+
     /// Whether its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
         matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. })

@@ -122,7 +122,7 @@ impl Drawing<'_> {
         let drawing = drawings::PunctureDrawing {
             name: &name,
             design: &case.design,
-            load_position: case.puncture.load_position,
+            load_position: case.punctured().load_position,
             thickness_mm: case.material.thickness_mm,
             states: &states,
         };
@@ -153,7 +153,7 @@ impl Drawing<'_> {
         let case = &self.case;
         let substrate = substrate(case)?;
         let solved =
-            puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, at)?;
+            puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), at)?;
         let reached = |(at, state): (&puncture::At, Option<puncture::RowSnapshot>)| match state {
             Some(state) => Ok(state),
             None => bail!("design {}: the path does not reach {}", self.design.label(), place(*at)),

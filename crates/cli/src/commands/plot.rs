@@ -206,7 +206,7 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     common.solver.max_step = common.solver.max_step.min(CURVE_STEP);
     let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
     let mut puncture =
-        puncture::snapshots(&case.design, &substrate, &common, &case.puncture, &at)?.puncture;
+        puncture::snapshots(&case.design, &substrate, &common, &case.punctured(), &at)?.puncture;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         // One point beyond, so that the line reaches the end.

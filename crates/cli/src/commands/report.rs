@@ -176,13 +176,13 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
     let substrate = substrate(&case).ok()?;
     let at = [puncture::At::Tilt(case.puncture.critical_tilt_deg)];
     let solved =
-        puncture::snapshots(&case.design, &substrate, &case.common, &case.puncture, &at).ok()?;
+        puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
     let drawing = drawings::PunctureDrawing {
         name: &name,
         design: &case.design,
-        load_position: case.puncture.load_position,
+        load_position: case.punctured().load_position,
         thickness_mm: case.material.thickness_mm,
         states: &states,
     };

@@ -22,8 +22,9 @@ const STILL: f64 = 1e-7;
 /// Such steps in a row that end a climb.
 const STALLED: usize = 3;
 
-/// Room that is kept before scales touch in bending.
-const CLEAR: f64 = 1e-9;
+/// Room that is kept before scales touch in bending: a climb ends up to some 1e-9 beyond its limits, and beyond this one compliance is lost
+/// at once.
+const CLEAR: f64 = 1e-7;
 
 /// How an objective becomes a cost of about 1 in size.
 #[derive(Clone, Copy)]

@@ -33,6 +33,7 @@ pub(super) const BLANK: MeasuredValue = MeasuredValue {
     at_tilts: None,
     shown: Shown::Chosen,
     is_of_guided_needle: false,
+    needs: NONE,
 };
 
 type PunctureField = fn(&mut PunctureMeasures) -> &mut Option<f64>;
@@ -151,6 +152,11 @@ impl MeasuredValue {
     /// Only runs with a guided needle have it.
     pub(super) const fn guided(self) -> Self {
         Self { is_of_guided_needle: true, ..self }
+    }
+
+    /// Only runs that give one of these parameters have it.
+    pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
+        Self { needs, ..self }
     }
 
     /// Large values are good.

@@ -36,6 +36,8 @@ pub struct MeasuredValue {
     pub shown: Shown,
     /// Whether only runs with a guided needle have it.
     pub(super) is_of_guided_needle: bool,
+    /// The parameters, in two units, that say where it is measured: only runs that give one of them have it.
+    pub(super) needs: &'static [&'static str],
 }
 
 /// The value of a measure in a result.
@@ -216,7 +218,10 @@ impl MeasuredValue {
             _ => false,
         };
         let is_unit = quantity.is_none() && self.unit.contains("E_m I_m");
-        (ends && self.place.depends_on_end()) || (is_unit && parameter.has(Role::UnitOfBending))
+        let marks = self.needs.contains(&parameter.key);
+        marks
+            || (ends && self.place.depends_on_end())
+            || (is_unit && parameter.has(Role::UnitOfBending))
     }
 
     /// Whether it is what a table of its own is about.

@@ -3,6 +3,8 @@
 use skin::flexure::FlexureMeasures;
 use skin::puncture::{CriticalEvent, PunctureMeasures};
 
+use sweep::key;
+
 use super::cell::Cell;
 use super::entry::{
     BLANK, BOTH, COMPLIANCE, COVERAGE, DEPTH, FORCE, NONE, bending, depth, failed_samples, force,
@@ -310,6 +312,12 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
             "puncture force at the critical tilt or at the first fold, whichever comes first: the largest that the model can answer for",
             |m| &mut m.sound_force,
         ).large().first(),
+    force(
+        "force_at_depth",
+        Place::Anywhere,
+        "puncture force at the depth that is asked for, or at the critical tilt if that comes first: skins that sink are weak by it",
+        |m| &mut m.force_at_depth,
+    ).large().first().needing(&[key::DEPTH, key::DEPTH_MM]),
     bending(
             "contact_curvature",
             "1/t",

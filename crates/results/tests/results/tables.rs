@@ -28,11 +28,12 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     let value = |p: &sweep::Parameter| match p.section {
         // Nothing is given by default.
         "material" => "1".to_owned(),
+        _ if !p.is_given(&sweep::Case::default()) => "1".to_owned(),
         _ => p.default().to_toml(),
     };
     let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
-    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction.
-    let names_without = |others: [&str; 2]| {
+    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction, a depth one unit.
+    let names_without = |others: [&str; 4]| {
         let chosen = sweep::PARAMETERS.iter().filter(|p| !others.contains(&p.key));
         let axes: String = chosen.map(axis).collect();
         let sweep = sweep(&format!("name = 'x'\n[designs]\n{axes}"));
@@ -41,14 +42,31 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
             .map(|c| c.name.into_owned())
             .collect::<Vec<_>>()
     };
-    let mut names = names_without(["gaps", "needle_friction"]);
+    let mut names = names_without(["gaps", "needle_friction", "depth_mm", "load_inset_over_t"]);
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
-    let others = names_without(["membrane_length_over_t", "critical_tilt_deg"]);
+    let others = names_without([
+        "membrane_length_over_t",
+        "critical_tilt_deg",
+        "depth_over_t",
+        "load_position",
+    ]);
     assert!(["gaps_asked", "needle_friction"].iter().all(|name| others.iter().any(|n| n == name)));
     let count = names.len();
     names.sort_unstable();
     names.dedup();
     assert_eq!(names.len(), count);
+}
+
+/// The force at a depth is a column where a depth is given, in either unit, and in newtons with a material.
+#[test]
+fn a_depth_has_a_force() {
+    assert!(!headers("name = 'x'").contains("force_at_depth"));
+    assert!(headers("name = 'x'\n[puncture]\ndepth_over_t = 0.3").contains(",force_at_depth,"));
+    let material = "name = 'x'\n[puncture]\ndepth_mm = 0.3\n[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
+    assert!(headers(material).contains(",force_at_depth_N,"));
+    assert_eq!(results::yardsticks("force_at_depth").first(), Some(&"needle"));
+    assert!(results::yardsticks("force_at_depth").contains(&"depth_over_t"));
+    assert!(!results::yardsticks("critical_force").contains(&"depth_over_t"));
 }
 
 /// One path has columns for each of several critical tilts, or frictions, behind the others.

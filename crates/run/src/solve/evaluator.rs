@@ -144,8 +144,9 @@ impl Evaluator {
             return Ok((PunctureResult::new(&puncture, error), puncture));
         }
         let substrate = guarded(|| self.substrate(case)).flatten()?;
-        let Case { design, common, puncture: parameters, .. } = case;
-        let puncture = solved(|| puncture::solve(design, &*substrate, common, parameters))?;
+        let Case { design, common, .. } = case;
+        let parameters = case.punctured();
+        let puncture = solved(|| puncture::solve(design, &*substrate, common, &parameters))?;
         Ok((PunctureResult::new(&puncture, substrate.estimated_error()), puncture))
     }
 

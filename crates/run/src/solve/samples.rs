@@ -64,8 +64,9 @@ pub(super) fn punctured(
     substrate: &RowStiffness,
     row: &Sample,
 ) -> Option<PunctureResult> {
-    let Case { design, common, puncture, .. } = case;
-    let puncture = puncture::solve_sample(design, substrate, common, puncture, row).ok()?;
+    let Case { design, common, .. } = case;
+    let parameters = case.punctured();
+    let puncture = puncture::solve_sample(design, substrate, common, &parameters, row).ok()?;
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))
 }
 

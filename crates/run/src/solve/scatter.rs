@@ -2,9 +2,9 @@
 
 use geometry::OutOfRange;
 use results::ParameterDerivative;
+use skin::Neighbours;
 use skin::flexure::whole_gaps;
 use skin::puncture::{self, OddScale, PunctureInput};
-use skin::{Neighbours, Variation};
 use substrate::RowStiffness;
 use sweep::{Case, Parameter};
 
@@ -46,7 +46,7 @@ fn one_scale(
     input: &PunctureInput,
     parameter: &'static Parameter,
     place: i32,
-) -> Option<Variation<PunctureInput>> {
+) -> Option<Neighbours<PunctureInput>> {
     let step = STEP * parameter.size(case)?;
     let odd = |by: f64| match parameter.key {
         "gap_over_t" => OddScale { place, gap: by, slant_deg: 0.0 },
@@ -54,7 +54,7 @@ fn one_scale(
     };
     let [below, above] =
         [-step, step].map(|by| PunctureInput { odd: Some(odd(by)), ..input.clone() });
-    Some(Variation { neighbours: Neighbours { below, above, step }, right: None })
+    Some(Neighbours { below, above, step })
 }
 
 /// The derivatives of the measures of bending with respect to the gaps and slants, one for all scales: in pure bending every one of

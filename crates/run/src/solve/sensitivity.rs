@@ -4,16 +4,13 @@ use geometry::{OutOfRange, RowChange};
 use results::ParameterDerivative;
 use skin::flexure::{self, Flexure, FlexureInput};
 use skin::puncture::{self, Puncture, PunctureInput};
-use skin::{Derivative, Neighbours, Variation};
-use substrate::{OneSided, RowStiffness, StiffnessSlopes};
+use skin::{Derivative, Neighbours};
+use substrate::{RowStiffness, StiffnessSlopes};
 use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
 /// Step of the differences of explicit functions, as a part of the parameter.
 // The cube root of the rounding error, 6e-6, is best of central differences; a third of it stays clear of nearby kinks.
 pub(super) const STEP: f64 = 2e-6;
-
-/// The kink of a design whose footprint is at a place where the mesh of the substrate is graded anew.
-const MESH: &str = "the mesh of the substrate is graded by another length";
 
 /// The continuous parameters that a measure of `case` depends on.
 fn parameters(case: &Case, of: Measure) -> Vec<&'static Parameter> {
@@ -32,8 +29,8 @@ const MODULI: [&str; 2] = ["contact_modulus_over_substrate", "contact_modulus_ov
 fn variations<P>(
     case: &Case,
     of: Measure,
-    variation: impl Fn(&'static Parameter) -> Option<Variation<P>>,
-) -> (Vec<&'static Parameter>, Vec<Variation<P>>) {
+    variation: impl Fn(&'static Parameter) -> Option<Neighbours<P>>,
+) -> (Vec<&'static Parameter>, Vec<Neighbours<P>>) {
     let solved = parameters(case, of).into_iter().filter(|p| p.key != PREFACTOR);
     solved.filter_map(|parameter| Some((parameter, variation(parameter)?))).unzip()
 }
@@ -126,7 +123,8 @@ pub(super) fn named(
 
 /// The puncture of `case` on a substrate of that stiffness.
 pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
-    let Case { design, common, puncture: parameters, .. } = *case;
+    let Case { design, common, .. } = *case;
+    let parameters = case.punctured();
     PunctureInput { design, stiffness, common, parameters, odd: None }
 }
 
@@ -142,58 +140,37 @@ struct Varied<'a> {
     slopes: Option<&'a StiffnessSlopes>,
 }
 
-/// A side of a parameter.
-#[derive(Clone, Copy, PartialEq)]
-enum Side {
-    Left,
-    Right,
-}
-
 impl Varied<'_> {
-    /// The variation of what a function makes of the case for a larger value of the parameter, seen from one side.
-    fn variation<P>(&self, of: fn(&Self, f64, Side) -> Option<P>) -> Option<Variation<P>> {
+    /// The variation of what a function makes of the case for a larger value of the parameter.
+    fn variation<P>(&self, of: fn(&Self, f64) -> Option<P>) -> Option<Neighbours<P>> {
         let step = STEP * self.parameter.size(self.case)?;
-        let on = |side| {
-            let [below, above] = [-step, step].map(|by| of(self, by, side));
-            Some(Neighbours { below: below?, above: above?, step })
-        };
-        let right = self.has_kink().then(|| on(Side::Right)).flatten();
-        Some(Variation { neighbours: on(Side::Left)?, right: right.map(|right| (right, MESH)) })
+        let [below, above] = [-step, step].map(|by| of(self, by));
+        Some(Neighbours { below: below?, above: above?, step })
     }
 
-    /// Whether the stiffness of the substrate has other derivatives on the right than on the left.
-    fn has_kink(&self) -> bool {
-        self.stiffness_rate(Side::Left) != self.stiffness_rate(Side::Right)
-    }
-
-    fn punctured(&self, by: f64, side: Side) -> Option<PunctureInput> {
+    fn punctured(&self, by: f64) -> Option<PunctureInput> {
         let stiffness = self.slopes?.stiffness.clone();
-        let stiffness = match self.stiffness_rate(side) {
+        let stiffness = match self.stiffness_rate() {
             Some(rate) => stiffness + rate * by,
             None => stiffness,
         };
         Some(punctured(&self.parameter.moved(self.case, by)?, stiffness))
     }
 
-    fn bent(&self, by: f64, _side: Side) -> Option<FlexureInput> {
+    fn bent(&self, by: f64) -> Option<FlexureInput> {
         Some(bent(&self.parameter.moved(self.case, by)?))
     }
 
     /// The derivative of the stiffness with respect to the parameter; `None` if there is none.
-    fn stiffness_rate(&self, side: Side) -> Option<RowStiffness> {
+    fn stiffness_rate(&self) -> Option<RowStiffness> {
         let design = &self.case.design;
         let slopes = self.slopes?;
         let a = design.half_base();
-        let on = |slope: &OneSided, side| match side {
-            Side::Left => slope.left.clone(),
-            Side::Right => slope.right.clone(),
-        };
-        // A longer scale has a footprint of smaller ratios.
-        let opposite = if side == Side::Left { Side::Right } else { Side::Left };
         match self.parameter.key {
-            "gap_over_t" => Some(on(&slopes.by_gap, side) * a.recip()),
-            "width_over_t" => Some(on(&slopes.by_width, side) * a.recip()),
-            "length_over_t" => Some(on(&slopes.by_size, opposite) * -design.length.recip()),
+            "gap_over_t" => Some(slopes.by_gap.clone() * a.recip()),
+            "width_over_t" => Some(slopes.by_width.clone() * a.recip()),
+            // A longer scale has a footprint of smaller ratios.
+            "length_over_t" => Some(slopes.by_size.clone() * -design.length.recip()),
             "poisson_ratio" => Some(slopes.by_poisson_ratio.clone()),
             _ => None,
         }

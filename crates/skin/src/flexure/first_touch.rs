@@ -9,7 +9,7 @@ use solver::Neighbours;
 use super::problem::FlexureProblem;
 use super::{FlexureInput, FlexureParameters};
 use crate::sensitivity::SidedDerivative;
-use crate::{Derivative, Design, Variation};
+use crate::{Derivative, Design};
 
 /// Rotations at which a gap is looked at before the one at which it closes is narrowed down.
 const LOOKS: u32 = 512;
@@ -56,12 +56,12 @@ pub(super) fn touches(input: &FlexureInput) -> Result<bool, OutOfRange> {
 /// where of several corners the one counts that is the nearest to its edge on that side of the parameter.
 pub(super) fn curvature_derivatives(
     input: &FlexureInput,
-    variations: &[Variation<FlexureInput>],
+    variations: &[Neighbours<FlexureInput>],
 ) -> Result<Vec<Derivative>, OutOfRange> {
     let gap = BareGap::of(input)?;
     let Some(rotation) = gap.closing_rotation() else { return Ok(Vec::new()) };
-    let derivative = |(parameter, variation): (usize, &Variation<FlexureInput>)| {
-        let Neighbours { below, above, step } = &variation.neighbours;
+    let derivative = |(parameter, variation): (usize, &Neighbours<FlexureInput>)| {
+        let Neighbours { below, above, step } = variation;
         let neighbours = [BareGap::of(below)?, BareGap::of(above)?];
         // The corners of upright scales meet, and neither may face an edge.
         let own = gap.meeting(rotation).unwrap_or(CornerEdge::TopRightOnLeftEdge);

@@ -11,8 +11,8 @@ use super::{Flexure, FlexureParameters};
 use crate::contacts::SkinState;
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
-    first_contact, rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -46,7 +46,7 @@ const NEARLY: f64 = 1e-3;
 /// As [`solve`](super::solve).
 pub fn differentiate(
     input: &FlexureInput,
-    variations: &[Variation<FlexureInput>],
+    variations: &[Neighbours<FlexureInput>],
 ) -> Result<(Flexure, Vec<Derivative>), OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
@@ -67,7 +67,7 @@ impl FlexureProblem<'_> {
         &self,
         bent: &mut Bent,
         resolution: Resolution,
-        variations: &[Variation<FlexureInput>],
+        variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
         let strip = |input: &FlexureInput| {
@@ -89,7 +89,7 @@ impl FlexureProblem<'_> {
     fn mark_touching(
         &self,
         derivatives: &mut [Derivative],
-        variations: &[Variation<FlexureInput>],
+        variations: &[Neighbours<FlexureInput>],
     ) -> Result<(), OutOfRange> {
         // Far from the end no step of a difference brings scales into contact, and looking for it would take as long as bending.
         let share = self.contact_curvature.map(|curvature| curvature / self.end_curvature());
@@ -97,7 +97,7 @@ impl FlexureProblem<'_> {
             return Ok(());
         }
         for derivative in derivatives.iter_mut().filter(|of| of.measure == "compliance") {
-            let Neighbours { below, above, .. } = &variations[derivative.parameter].neighbours;
+            let Neighbours { below, above, .. } = &variations[derivative.parameter];
             if touches(below)? || touches(above)? {
                 (derivative.left, derivative.right) = (None, None);
                 derivative.kink.get_or_insert_with(|| "scales touch".to_owned());

@@ -63,6 +63,9 @@ pub struct PunctureMeasures {
     pub fold_tilt_deg: Option<f64>,
     /// `F*` at the critical tilt or at the first fold, whichever comes first: the largest force that the model can answer for.
     pub sound_force: Option<f64>,
+    /// `F*` at the depth that is asked for, or at the critical tilt if that comes first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub force_at_depth: Option<f64>,
     /// How a guided needle came through.
     #[serde(default, skip_serializing_if = "Passage::is_none")]
     pub passage: Passage,
@@ -118,6 +121,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
+            force_at_depth: self.force_at_depth,
             passage: self.passage,
             ..Self::default()
         }

@@ -1,19 +1,19 @@
 //! Derivatives of the measures of a puncture.
 
 use geometry::OutOfRange;
-use solver::{AnchoredPoint, Path, PathAnchor};
+use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
 use super::needle::{NeedleMode, anchors, event_before, history, with};
-use super::system::{Chain, DEPTH_RATE, LOAD_RATE, Layout};
+use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, Variation, derivatives, end,
-    first_contact, rest,
+    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
+    rest,
 };
 use crate::{Common, Design, Status};
 
@@ -43,7 +43,7 @@ const LOAD: usize = 0;
 /// As [`solve`](super::solve).
 pub fn differentiate(
     input: &PunctureInput,
-    variations: &[Variation<PunctureInput>],
+    variations: &[Neighbours<PunctureInput>],
 ) -> Result<(Puncture, Vec<Derivative>), OutOfRange> {
     let PunctureInput { design, stiffness, common, parameters, .. } = input;
     let rows = Rows::Even(design.row()?);
@@ -61,7 +61,7 @@ impl Problem<'_> {
     fn derivatives(
         &self,
         followed: &mut Followed,
-        variations: &[Variation<PunctureInput>],
+        variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
         let layout = path.system().layout;
@@ -89,11 +89,9 @@ impl Problem<'_> {
     }
 
     /// The places of the path at which measures are taken.
-    fn spots(
-        &self,
-        PathWatch { record, needle, passage, folds: FoldWatch { folds, first }, .. }: &PathWatch,
-        path: &mut Path<Chain>,
-    ) -> Vec<MeasuredPoint<Chain>> {
+    fn spots(&self, watch: &PathWatch, path: &mut Path<Chain>) -> Vec<MeasuredPoint<Chain>> {
+        let PathWatch { record, needle, passage, depth: marked, .. } = watch;
+        let FoldWatch { folds, first } = &watch.folds;
         let settings = &self.settings;
         let stiffest = record.stiffness_summit(path);
         let stiffest = stiffest
@@ -113,7 +111,16 @@ impl Problem<'_> {
         let spot = |place, quantities| MeasuredPoint { place, quantities };
         let folded = first.as_ref().zip(folds.first());
         let folded = folded.map(|(point, fold)| chain.folded_at(point, fold));
+        let deep = marked.found.iter().flatten().next();
+        let deep = deep.map(|point| AnchoredPoint {
+            state: point.state.clone(),
+            direction: point.arriving.clone(),
+            anchor: PathAnchor::Marker(DEPTH_MARK),
+        });
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        if !marked.found.is_empty() && deep.is_none() {
+            end_quantities.push(force("force_at_depth"));
+        }
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
@@ -128,6 +135,7 @@ impl Problem<'_> {
             spot(Some(chain.end_of(end(path))), end_quantities),
             spot(folded, fold_quantities),
             spot(passed, passing),
+            spot(deep, vec![force("force_at_depth")]),
             spot(highest, vec![force("peak_force")]),
             at_turn(peak, [depth("peak_displacement"), tilt("peak_tilt_deg")]),
             at_turn(load_limit, [force("load_stability_force")]),

@@ -22,6 +22,9 @@ const TOPS: f64 = 4.0;
 /// Depth at which the path of a guided needle ends if nothing else ends it.
 const DEEPEST: f64 = 2.0;
 
+/// Number of the marker that vanishes at the depth at which the force is measured, behind those of all gaps.
+pub(super) const DEPTH_MARK: usize = usize::MAX;
+
 /// Numbers of the rates that tell where load and depth turn back.
 pub(super) const LOAD_RATE: usize = 0;
 pub(super) const DEPTH_RATE: usize = 1;
@@ -131,6 +134,8 @@ pub(crate) struct Chain {
     pub(super) surroundings: Surroundings,
     /// From the node of the punctured scale to the loaded point.
     load_arm: Vec2,
+    /// Depth at which the force is measured besides.
+    marked_depth: Option<f64>,
     /// `None` of a free needle, which is a load.
     pub(super) needle: Option<GuidedNeedle>,
     /// The contact forces, and the constraints of a guided needle.
@@ -197,6 +202,7 @@ impl Chain {
             bars,
             surroundings,
             load_arm,
+            marked_depth: parameters.depth,
             needle,
             constraints,
             controls,
@@ -421,9 +427,13 @@ impl System for Chain {
         }
     }
 
-    /// The stretch of a gap, by its left scale: where it vanishes the surface folds over.
-    fn marker(&self, state: &SkinState, pair: usize) -> f64 {
-        self.gap_stretch(state, pair)
+    /// The stretch of a gap, by its left scale: where it vanishes the surface folds over. Or how far the depth is beyond that at which
+    /// the force is measured.
+    fn marker(&self, state: &SkinState, number: usize) -> f64 {
+        match number {
+            DEPTH_MARK => self.marked_depth.map_or(f64::NAN, |depth| self.depth(&state.z) - depth),
+            pair => self.gap_stretch(state, pair),
+        }
     }
 
     /// The rate of the load or of the depth.

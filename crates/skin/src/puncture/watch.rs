@@ -7,7 +7,7 @@ use super::growing::{GrowingPath, Segment};
 use super::needle::{HistoryWatch, PassageWatch};
 use super::snap::SnapWatch;
 use super::system::Chain;
-use super::{At, NumberList};
+use super::{At, PunctureParameters};
 use crate::contacts::SkinPoint;
 use crate::crossing::PlaceWatch;
 use crate::record::{PathFunction, Record};
@@ -20,6 +20,8 @@ pub(super) struct PathWatch {
     pub(super) history: HistoryWatch,
     pub(super) passage: PassageWatch,
     pub(super) tilts: PlaceWatch<Chain>,
+    /// The depth at which the force is measured besides, if there is one.
+    pub(super) depth: PlaceWatch<Chain>,
     /// Of snapshots.
     pub(super) places: PlaceWatch<Chain>,
 }
@@ -27,11 +29,13 @@ pub(super) struct PathWatch {
 impl PathWatch {
     pub(super) fn new(
         path: &Path<Chain>,
-        tilts: NumberList,
+        parameters: &PunctureParameters,
         functions: &[PathFunction<Chain>],
         places: &[At],
     ) -> Self {
+        let tilts = parameters.tilts_deg;
         let tilts = tilts.as_slice().iter().map(|&tilt| At::Tilt(tilt).crossing());
+        let depth = parameters.depth.map(|depth| At::Displacement(depth).crossing());
         Self {
             record: Record::new(path, functions),
             needle: SnapWatch::default(),
@@ -39,6 +43,7 @@ impl PathWatch {
             history: HistoryWatch::default(),
             passage: PassageWatch::default(),
             tilts: PlaceWatch::new(path, tilts),
+            depth: PlaceWatch::new(path, depth),
             places: PlaceWatch::new(path, places.iter().map(|place| place.crossing())),
         }
     }
@@ -51,6 +56,7 @@ impl PathWatch {
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
+        self.depth.follow(path, from, to);
         self.places.follow(path, from, to);
         self.folds.follow(path, [from, to], events_before);
         self.record.visit(path, left, to);
@@ -61,7 +67,8 @@ impl PathWatch {
         let longer = |point: &SkinPoint| path.lengthened(point);
         let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
-        let places = self.tilts.found.iter_mut().chain(&mut self.places.found);
+        let places = [&mut self.tilts, &mut self.depth, &mut self.places];
+        let places = places.into_iter().flat_map(|places| &mut places.found);
         let points = single.into_iter().chain(places).flatten();
         let segments = self.history.segments.iter_mut().chain(&mut self.passage.passed);
         for point in points.chain(segments.flatten()) {

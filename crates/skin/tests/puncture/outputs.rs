@@ -4,13 +4,13 @@ use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
 use contact::Law;
-use skin::puncture::{Puncture, PuncturePoint};
-use skin::{Common, ContactChange, ContactEvent, Status};
+use skin::puncture::{self, At, Needle, Puncture, PunctureParameters, PuncturePoint};
+use skin::{Base, Common, ContactChange, ContactEvent, Status};
 
 use solver::{Settings, Stop};
-use substrate::Calibrations;
+use substrate::{Calibrations, calibrate};
 
-use crate::samples::{domino, on_row, solve, solve_as, solve_with, spread};
+use crate::samples::{design, domino, on_row, solve, solve_as, solve_with, spread};
 use crate::{complete, end};
 
 fn solved() -> Vec<(skin::Design, Puncture)> {
@@ -130,4 +130,32 @@ fn a_path_that_stops_keeps_how_it_began() {
     assert_eq!(cut.critical_force.or(cut.critical_displacement), None);
     assert_eq!(cut.penetration.or(cut.sink).or(cut.max_stiffness).or(cut.secant_stiffness), None);
     assert_eq!(cut.contacts.or(cut.engaged_scales), None);
+}
+
+/// The force at a depth is that of a snapshot there; beyond the end of the path it is that at the end.
+#[test]
+fn the_force_at_a_depth_is_that_of_an_equilibrium_there() {
+    let design = design(0.2, 0.5, 60.0, Base::L);
+    let end = solve(&design, &PunctureParameters::default()).measures;
+    assert_eq!(end.force_at_depth, None);
+    let deepest = end.critical_displacement.unwrap();
+    for needle in [Needle::Free, Needle::Guided { friction: 0.3 }] {
+        let at = |depth| PunctureParameters { depth: Some(depth), needle, ..Default::default() };
+        let depth = 0.4 * deepest;
+        let springs = calibrate(&design.footprint(0.5).unwrap()).unwrap();
+        let snapshots = puncture::snapshots(
+            &design,
+            &springs,
+            &Common::default(),
+            &at(depth),
+            &[At::Displacement(depth)],
+        );
+        let snapshots = snapshots.unwrap();
+        let there = snapshots.at[0].as_ref().unwrap();
+        let measured = snapshots.puncture.measures.force_at_depth.unwrap();
+        assert_relative_eq!(measured, there.force, max_relative = 1e-12);
+        let beyond = solve(&design, &at(10.0)).measures;
+        assert_eq!(beyond.force_at_depth, beyond.critical_force);
+        assert!(measured < beyond.force_at_depth.unwrap());
+    }
 }

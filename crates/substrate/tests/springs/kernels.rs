@@ -79,7 +79,7 @@ fn centre_of_a_uniformly_loaded_square() {
 fn a_line_of_corners_is_its_corners() {
     let depths = [-3.0, -0.5, -1e-6, 0.0, 0.25, 1.0, 40.0];
     for field in [0.0, 0.2, -0.5] {
-        let mut line = CornerLine::new(depths, field);
+        let line = CornerLine::new(depths, field);
         for x in [-5.0, -1e-7, 0.3, 2.0] {
             let mut corners = vec![Influence::default(); line.len()];
             line.evaluate(x, &mut corners);

@@ -9,3 +9,4 @@ mod published;
 mod rows;
 mod shared;
 mod slopes;
+mod table;

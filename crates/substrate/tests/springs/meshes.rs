@@ -48,10 +48,10 @@ fn an_upper_half_is_half_of_the_whole() {
 /// The two meshes that face each other across a gap are mirror images close to it.
 #[test]
 fn facing_edges_are_graded_alike() {
-    let mesh = Mesh::new(&Footprint::new(1e-3, 2.0, 0.5).unwrap(), 32);
+    let mesh = Mesh::row(&Footprint::new(1e-3, 2.0, 0.5).unwrap(), 1, 32);
     let here = 1.0 - mesh.middle.edges()[31];
     let there = mesh.neighbours[0].edges()[1] - 1.001;
     assert!(here > 0.0 && here < 1e-3 && (here / there).ln().abs() < 1.0, "{here:e}, {there:e}");
     assert!(mesh.is_resolved());
-    assert!(!Mesh::new(&Footprint::new(1e-17, 2.0, 0.5).unwrap(), 4).is_resolved());
+    assert!(!Mesh::row(&Footprint::new(1e-17, 2.0, 0.5).unwrap(), 1, 4).is_resolved());
 }

@@ -3,7 +3,7 @@
 //! An error of half a unit of the last printed digit is theirs, `Springs::error` is ours.
 
 use analytical::half_space;
-use substrate::{Footprint, Springs, calibrate};
+use substrate::{Footprint, Springs, calibrate, extrapolated};
 
 /// So far apart that the coupling is below the last digit.
 const ALONE: f64 = 1e5;
@@ -89,13 +89,13 @@ fn coupling_vanishes_with_distance() {
 /// A lone rectangle is reached smoothly: what the gap still does at `d` falls as `(a/p)²`.
 #[test]
 fn isolated_limit() {
-    let alone = springs(ALONE, 2.0, 0.5);
-    let excess = |gap: f64, i: usize| springs(gap, 2.0, 0.5).direct[i] - alone.direct[i];
+    let alone = extrapolated(&Footprint::new(ALONE, 2.0, 0.5).unwrap(), [16, 24]).unwrap();
+    let excess = |gap: f64, i: usize| springs(gap, 2.0, 0.5).direct[i] - alone[i];
     for i in [0, 1] {
         let ratio = excess(40.0, i) / excess(82.0, i);
         assert!((ratio - 4.0).abs() < 0.3, "{ratio}");
     }
-    assert!(excess(40.0, 2).abs() < 1e-4 * alone.direct[2]);
+    assert!(excess(40.0, 2).abs() < 1e-4 * alone[2]);
 }
 
 /// Normal problems do not know `ν` once `E*` is divided out; shear does, and at `ν = 0` it is the
@@ -106,7 +106,9 @@ fn poisson_ratio_scaling() {
     for i in [1, 2] {
         assert_eq!((zero.direct[i], zero.coupling[i]), (half.direct[i], half.coupling[i]));
     }
-    assert_eq!((zero.direct[0], zero.coupling[0]), (zero.direct[1], zero.coupling[1]));
+    let error = zero.error * zero.direct[1];
+    assert!((zero.direct[0] - zero.direct[1]).abs() < 2.0 * error, "{zero:?}");
+    assert!((zero.coupling[0] - zero.coupling[1]).abs() < 2.0 * error, "{zero:?}");
     assert!(zero.direct[0] > some.direct[0] && some.direct[0] > half.direct[0]);
     // x²/r³ lies between 0 and 1/r, so α_x between α_y (1 − ν) and α_y.
     assert!(half.direct[0] > 0.5 * half.direct[1]);

@@ -143,6 +143,7 @@ impl Reader {
         self.refused.extend(without_unit);
         self.refused.extend(self.check_alternatives().err());
         self.refused.extend(self.check_needle().err());
+        self.refused.extend(self.check_depth().err());
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
         InvalidDefinition::of(self.refused)?;
@@ -230,6 +231,17 @@ impl Reader {
         let wrong =
             WrongValue::NotAccepted { found: friction.to_toml(), expected: expected.to_owned() };
         Err(refuse(place, &parameter.path(), Problem::from(wrong)))
+    }
+
+    /// Refuses a depth in mm of scales whose thickness is not given.
+    fn check_depth(&self) -> Result<(), InvalidDefinition> {
+        let Some(place) =
+            self.place(key::DEPTH_MM).filter(|_| self.place(key::THICKNESS).is_none())
+        else {
+            return Ok(());
+        };
+        let problem = Problem::Needs { other: format!("material.{}", key::THICKNESS) };
+        Err(refuse(place, &format!("puncture.{}", key::DEPTH_MM), problem))
     }
 
     /// Refuses a parameter that `gives` a value if its alternative does too.

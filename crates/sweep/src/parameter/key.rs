@@ -18,10 +18,18 @@ pub const POISSON_RATIO: &str = "poisson_ratio";
 /// The tilt at which a puncture ends.
 pub const CRITICAL_TILT: &str = "critical_tilt_deg";
 
+/// The place of the load, as a part of the top.
+pub const LOAD_POSITION: &str = "load_position";
+
 /// How the needle is held.
 pub const NEEDLE: &str = "needle";
 /// The friction between needle and scale.
 pub const NEEDLE_FRICTION: &str = "needle_friction";
+
+/// The depth at which the force is measured besides.
+pub const DEPTH: &str = "depth_over_t";
+/// The same in mm.
+pub const DEPTH_MM: &str = "depth_mm";
 
 /// The length of the membrane.
 pub const MEMBRANE_LENGTH: &str = "membrane_length_over_t";

@@ -167,7 +167,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "load_position",
+        key: key::LOAD_POSITION,
         section: "puncture",
         unit: "-",
         meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
@@ -176,6 +176,18 @@ pub static PARAMETERS: &[Parameter] = &[
             noun: "a number",
             range: Range { low: Included(0.0), high: Included(1.0) },
             field: |c| &mut c.puncture.load_position,
+        },
+    },
+    Parameter {
+        key: "load_inset_over_t",
+        section: "puncture",
+        unit: "t",
+        meaning: "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position",
+        roles: &[InsteadOf(key::LOAD_POSITION)],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: Range { low: Included(0.0), high: Included(1e6) },
+            field: |c| &mut c.load_inset,
         },
     },
     Parameter {
@@ -229,6 +241,30 @@ pub static PARAMETERS: &[Parameter] = &[
                 c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
                 settle_needle(c);
             },
+        },
+    },
+    Parameter {
+        key: key::DEPTH,
+        section: "puncture",
+        unit: "t",
+        meaning: "depth of the punctured point at which the force is measured besides, in force_at_depth",
+        roles: &[],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.puncture.depth,
+        },
+    },
+    Parameter {
+        key: key::DEPTH_MM,
+        section: "puncture",
+        unit: "mm",
+        meaning: "the same depth in mm, with the thickness of the scales in [material]",
+        roles: &[InsteadOf(key::DEPTH)],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: POSITIVE,
+            field: |c| &mut c.depth_mm,
         },
     },
     Parameter {

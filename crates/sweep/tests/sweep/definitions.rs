@@ -86,6 +86,26 @@ fn the_record_of_a_run_is_a_definition() {
     assert_eq!(sweep(text).grid().case(0).common.law.c1.to_bits(), 2.0_f64.to_bits());
 }
 
+/// Lengths of a puncture are those over the thickness, in whatever way they are said, and a definition is written as it was read.
+#[test]
+fn a_place_and_a_depth_in_two_ways() {
+    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
+    let text = "puncture = { load_inset_over_t = 0.05, depth_mm = 1 }\nmaterial.thickness_mm = 2\n\
+        designs.length_over_t = [0.08, 0.5]";
+    let sweep = read(text).unwrap();
+    let at = |index| sweep.grid().case(index).punctured();
+    assert_eq!((at(0).load_position, at(0).depth), (0.5, Some(0.5)));
+    let last = sweep.grid().len() - 1;
+    assert!((at(last).load_position - 0.9).abs() < 1e-15);
+    let again = Sweep::parse(&sweep.to_toml(), "again.toml", &[]).unwrap();
+    assert_eq!(again.grid().case(last), sweep.grid().case(last));
+    let refused = |text: &str| read(text).unwrap_err().to_string();
+    let text = refused("puncture.depth_mm = 1");
+    assert!(text.contains("puncture.depth_mm") && text.contains("material.thickness_mm"), "{text}");
+    let both = refused("puncture = { load_inset_over_t = 0.05, load_position = 0.5 }");
+    assert!(both.contains("cannot be combined"), "{both}");
+}
+
 /// Of a guided needle tilt and friction are two things, in whatever order they are said, and a friction of 0 is one.
 #[test]
 fn a_guided_needle_has_a_tilt_and_a_friction() {

@@ -60,7 +60,7 @@ fn substrate(case: &Case) -> Option<RowStiffness> {
 }
 
 fn snapshots(case: &Case, at: &[At]) -> Option<Snapshots> {
-    puncture::snapshots(&case.design, &substrate(case)?, &case.common, &case.puncture, at).ok()
+    puncture::snapshots(&case.design, &substrate(case)?, &case.common, &case.punctured(), at).ok()
 }
 
 /// Solves the curves of some designs of the study, in the order of a parameter.
@@ -149,7 +149,7 @@ fn two_blocks(study: &Study) -> Option<Puncture> {
     let mut case = case(study, 0.1, 1.0, 0.0);
     case.puncture.scales = RowLength::Scales(2);
     case.common.solver = Settings { first_step: 1e-3, max_step: 1e-3, ..Settings::default() };
-    puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.puncture).ok()
+    puncture::solve(&case.design, &substrate(&case)?, &case.common, &case.punctured()).ok()
 }
 
 /// Returns the mean stiffness of the step behind the first contact over that of the step before it.

@@ -13,7 +13,6 @@ use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::mode::{Place, Rub, Touch};
 use super::{GuidedNeedle, NeedleMode};
-use crate::Variation;
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -33,18 +32,17 @@ impl HistoryWatch {
     }
 }
 
-/// What a touch keeps of its way, and its rates of change with each parameter: of the problem as it is, and as it is seen from the
-/// right; `None` where that is not known.
+/// What a touch keeps of its way, and its rates of change with each parameter; `None` where that is not known.
 pub(in crate::puncture) struct Anchor {
     touch: Touch,
-    rates: Vec<[Option<f64>; 2]>,
+    rates: Vec<Option<f64>>,
 }
 
 /// The anchors of a path with their rates of change, in order.
 pub(in crate::puncture) fn anchors(
     path: &mut Path<Chain>,
     segments: &[[SkinPoint; 2]],
-    variations: &[Variation<Chain>],
+    variations: &[Neighbours<Chain>],
 ) -> Vec<Anchor> {
     let rest = path.system().at_rest();
     let mut anchors: Vec<Anchor> = Vec::new();
@@ -55,16 +53,17 @@ pub(in crate::puncture) fn anchors(
                 .map(|chain| Some(chain.tip(&rest.z, touch.scale, touch.place)?.way));
             Some((above? - below?) / (2.0 * neighbours.step))
         };
-        anchors.push(Anchor { touch, rates: rates(variations, of) });
+        anchors.push(Anchor { touch, rates: variations.iter().map(of).collect() });
     }
     for [from, to] in segments {
         let place = event_before(path, [from, to]);
         let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
         for (slot, touch) in kept(&to.state).filter(|(_, touch)| !is_in(touch, &from.state)) {
-            let unknown = || vec![[None; 2]; variations.len()];
+            let unknown = || vec![None; variations.len()];
             let known = place.as_ref().zip(varied.as_ref()).and_then(|(place, varied)| {
                 let mut here = Linearisation::new(path.system(), place.clone()).ok()?;
-                Some(rates(varied, |q| rate(path.system(), &mut here, q, slot, &touch)))
+                let rate = |q| rate(path.system(), &mut here, q, slot, &touch);
+                Some(varied.iter().map(rate).collect())
             });
             anchors.push(Anchor { touch, rates: known.unwrap_or_else(unknown) });
         }
@@ -76,21 +75,15 @@ pub(in crate::puncture) fn anchors(
 pub(in crate::puncture) fn with(
     anchors: &[Anchor],
     state: &SkinState,
-    variations: &[Variation<Chain>],
-) -> Option<Vec<Variation<Chain>>> {
+    variations: &[Neighbours<Chain>],
+) -> Option<Vec<Neighbours<Chain>>> {
     let mut varied = variations.to_vec();
     for (slot, touch) in kept(state) {
         let anchor = anchors.iter().rev().find(|anchor| anchor.touch == touch)?;
-        for (variation, rates) in varied.iter_mut().zip(&anchor.rates) {
-            let right = variation.right.as_mut().map(|(right, _)| right);
-            for (neighbours, rate) in
-                [Some(&mut variation.neighbours), right].into_iter().zip(rates)
-            {
-                let Some(neighbours) = neighbours else { continue };
-                let change = neighbours.step * (*rate)?;
-                neighbours.below.needle.as_mut()?.moved[slot] = Some((touch, -change));
-                neighbours.above.needle.as_mut()?.moved[slot] = Some((touch, change));
-            }
+        for (neighbours, rate) in varied.iter_mut().zip(&anchor.rates) {
+            let change = neighbours.step * (*rate)?;
+            neighbours.below.needle.as_mut()?.moved[slot] = Some((touch, -change));
+            neighbours.above.needle.as_mut()?.moved[slot] = Some((touch, change));
         }
     }
     Some(varied)
@@ -124,17 +117,6 @@ pub(in crate::puncture) fn event_before(
     // Where sliding turns back smoothly, to move along the path does not change how far the tip has slid.
     let anchor = guard.map_or(PathAnchor::Still, PathAnchor::Guard);
     Some(AnchoredPoint { state, direction, anchor })
-}
-
-fn rates(
-    variations: &[Variation<Chain>],
-    mut rate: impl FnMut(&Neighbours<Chain>) -> Option<f64>,
-) -> Vec<[Option<f64>; 2]> {
-    let both = |variation: &Variation<Chain>| {
-        let here = rate(&variation.neighbours);
-        [here, variation.right.as_ref().map_or(here, |(right, _)| rate(right))]
-    };
-    variations.iter().map(both).collect()
 }
 
 /// The rate of what a touch keeps from an event on; `None` where the event becomes another one with the parameter.

@@ -369,7 +369,8 @@ fn passing_does_not_depend_on_the_steps() {
 
 type Value = fn(&puncture::PunctureMeasures) -> Option<f64>;
 
-const MEASURES: [(&str, Value); 9] = [
+const MEASURES: [(&str, Value); 10] = [
+    ("force_at_depth", |m| m.force_at_depth),
     ("critical_force", |m| m.critical_force),
     ("critical_displacement", |m| m.critical_displacement),
     ("penetration", |m| m.penetration),
@@ -415,7 +416,10 @@ fn derivatives_with_a_way_behind_them() {
             design,
             stiffness: (&springs(&design)).into(),
             common: Common::default(),
-            parameters: parameters(&design, friction, inside),
+            parameters: PunctureParameters {
+                depth: Some(0.15),
+                ..parameters(&design, friction, inside)
+            },
             odd: None,
         };
         let moved = |change: Change, step: f64| {
@@ -423,13 +427,10 @@ fn derivatives_with_a_way_behind_them() {
             change(&mut input, step);
             input
         };
-        let variations = changes.map(|(change, step)| crate::Variation {
-            neighbours: crate::Neighbours {
-                below: moved(change, -step),
-                above: moved(change, step),
-                step,
-            },
-            right: None,
+        let variations = changes.map(|(change, step)| crate::Neighbours {
+            below: moved(change, -step),
+            above: moved(change, step),
+            step,
         });
         let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
         ends.insert(puncture.measures.passage.passing_force.is_some());

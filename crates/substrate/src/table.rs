@@ -1,0 +1,189 @@
+//! Springs from a table of Chebyshev polynomials, in place of boundary elements.
+//!
+//! At every Poisson's ratio the springs are smooth functions of `log(d/a)` and `log(b/a)`. With `u`, `v`, `w` the places of `d/a`, `b/a`
+//! and `1 − ν` in their ranges on a scale of logarithms, from −1 to 1, and Chebyshev polynomials `T`,
+//!
+//! ```text
+//! ln α_y, ln α_φ, β_y/α_y, β_φ/α_φ = Σ_ij c_ij T_i(u) T_j(v)
+//! ln α_x, β_x/α_x = Σ_ijk c_ijk T_i(u) T_j(v) T_k(w)                                 (S18)
+//! ```
+//!
+//! A row in which scales feel [`NEIGHBOURS`] neighbours has more polynomials of this kind: what it adds to `K_0` and `K_1`, its further
+//! `K_k` over `α`, and `c` over `√(α_y α_φ)`. Normal tractions do not know `ν`.
+//!
+//! `table.bin` holds the coefficients as 4-byte floats, the lowest byte first, `j` fastest; `examples/table.rs` makes it.
+
+use std::f64::consts::LN_2;
+use std::ops::{Add, Mul};
+
+use crate::{Coupling, Footprint, NEIGHBOURS};
+
+/// The range of `d/a`.
+pub const GAPS: [f64; 2] = [0.0125, 100.0];
+
+/// The range of `b/a`.
+pub const WIDTHS: [f64; 2] = [0.25, 80.0];
+
+/// Orders of the polynomials of Eq. (1) in each length.
+pub const NEAREST: usize = 24;
+
+/// Orders of the polynomials of long rows: these add little, and need fewer.
+pub const ROW: usize = 16;
+
+/// Orders of the polynomials in `log(1 − ν)`, in which `α_x` is smoother than in `ν`.
+pub const RATIOS: usize = 5;
+
+/// Bound of the error of Eq. (1) over `α`: tests solve again at places between the nodes.
+const ERROR: f64 = 1e-5;
+
+/// Bound of the error of long rows, which are made from coarser meshes: the neglected coupling is sixty times as large.
+const ROW_ERROR: f64 = 1e-4;
+
+/// Returns the bound of the error of a row, over the `K_0` of the direction.
+pub(crate) fn error(coupling: Coupling) -> f64 {
+    match coupling {
+        Coupling::Nearest => ERROR,
+        Coupling::Full => ROW_ERROR,
+    }
+}
+
+/// Returns Poisson's ratio at the place `w`: `log(1 − ν)` goes from 0 to `log ½`.
+pub fn poisson_ratio(w: f64) -> f64 {
+    1.0 - (-0.5 - 0.5 * w).exp2()
+}
+
+/// The table itself.
+static TABLE: &[u8] = include_bytes!("table.bin");
+
+/// A number with its derivatives with respect to `d/a`, `b/a` and `ν`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Differentiated(pub(crate) [f64; 4]);
+
+impl Differentiated {
+    /// A function of the number, by its value and its slope there.
+    fn map(self, value: f64, slope: f64) -> Self {
+        let [_, by_gap, by_width, by_ratio] = self.0;
+        Self([value, by_gap * slope, by_width * slope, by_ratio * slope])
+    }
+
+    fn exp(self) -> Self {
+        let exp = self.0[0].exp();
+        self.map(exp, exp)
+    }
+
+    fn sqrt(self) -> Self {
+        let root = self.0[0].sqrt();
+        self.map(root, 0.5 / root)
+    }
+}
+
+impl Add for Differentiated {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    }
+}
+
+impl Mul for Differentiated {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let (a, b) = (self.0, other.0);
+        Self(std::array::from_fn(|i| if i == 0 { a[0] * b[0] } else { a[i] * b[0] + a[0] * b[i] }))
+    }
+}
+
+/// Returns the numbers of a row with their derivatives: `K_0` in `x`, `y` and `φ`, then `K_x`, `K_y`, `K_φ` and `c` of each
+/// neighbour (S9). `None` out of the range of the table.
+pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Differentiated>> {
+    let mut reader = Reader::at(footprint)?;
+    let [ln_y, ln_turn, y_ratio, turn_ratio] = [(); 4].map(|()| reader.surface(NEAREST));
+    let [ln_x, x_ratio] = [(); 2].map(|()| reader.solid(NEAREST));
+    let alpha = [ln_x, ln_y, ln_turn].map(Differentiated::exp);
+    // K_0 and K_1 over α; a long row adds to these what its scales beyond the third feel of each other.
+    let mut ratios = vec![[Differentiated([1.0, 0.0, 0.0, 0.0]); 3]];
+    ratios.push([x_ratio, y_ratio, turn_ratio].map(|ratio| ratio.map(-ratio.0[0], -1.0)));
+    let mut cross = vec![Differentiated::default()];
+    if coupling == Coupling::Full {
+        ratios.resize(NEIGHBOURS + 1, [Differentiated::default(); 3]);
+        for direction in [1, 2] {
+            ratios.iter_mut().for_each(|k| k[direction] = k[direction] + reader.surface(ROW));
+        }
+        let size = (alpha[1] * alpha[2]).sqrt();
+        cross = (0..NEIGHBOURS).map(|_| reader.surface(ROW) * size).collect();
+        ratios.iter_mut().for_each(|k| k[0] = k[0] + reader.solid(ROW));
+    }
+    let mut stiffness =
+        ratios.into_iter().map(|k| [k[0] * alpha[0], k[1] * alpha[1], k[2] * alpha[2]]);
+    let own = stiffness.next()?;
+    let neighbours = stiffness.zip(cross).flat_map(|([x, y, turn], cross)| [x, y, turn, cross]);
+    Some(own.into_iter().chain(neighbours).collect())
+}
+
+/// Reads one polynomial after the other at a place.
+struct Reader {
+    /// `T_i` and its slope by `d/a`, by `b/a` and by `ν`.
+    gap: Vec<[f64; 2]>,
+    width: Vec<[f64; 2]>,
+    ratio: Vec<[f64; 2]>,
+    coefficients: std::slice::Iter<'static, [u8; 4]>,
+}
+
+impl Reader {
+    fn at(footprint: &Footprint) -> Option<Self> {
+        let on_log = |value: f64, [low, high]: [f64; 2]| {
+            let slope = 2.0 / (high / low).ln();
+            // Rounding may place an end of the range a little beyond ±1, which polynomials bear.
+            let place = (value / low).ln() * slope - 1.0;
+            (low..=high).contains(&value).then(|| chebyshev(place, slope / value, NEAREST))
+        };
+        let left = 1.0 - footprint.poisson_ratio();
+        Some(Self {
+            gap: on_log(footprint.gap_over_a(), GAPS)?,
+            width: on_log(footprint.width_over_a(), WIDTHS)?,
+            ratio: chebyshev(-1.0 - 2.0 * left.log2(), 2.0 / (LN_2 * left), RATIOS),
+            coefficients: TABLE.as_chunks().0.iter(),
+        })
+    }
+
+    /// The next polynomial in the two lengths.
+    fn surface(&mut self, orders: usize) -> Differentiated {
+        let mut sum = [0.0; 4];
+        for [t, t_slope] in &self.gap[..orders] {
+            let (mut value, mut slope) = (0.0, 0.0);
+            for ([t, t_slope], coefficient) in
+                self.width[..orders].iter().zip(&mut self.coefficients)
+            {
+                let coefficient = f64::from(f32::from_le_bytes(*coefficient));
+                value += coefficient * t;
+                slope += coefficient * t_slope;
+            }
+            sum[0] += t * value;
+            sum[1] += t_slope * value;
+            sum[2] += t * slope;
+        }
+        Differentiated(sum)
+    }
+
+    /// The next polynomial in the two lengths and `ν`.
+    fn solid(&mut self, orders: usize) -> Differentiated {
+        let parts: Vec<_> = (0..RATIOS).map(|_| self.surface(orders)).collect();
+        let terms = self.ratio.iter().zip(parts);
+        let term = |([t, t_slope], part): (&[f64; 2], Differentiated)| {
+            part * Differentiated([*t, 0.0, 0.0, *t_slope])
+        };
+        terms.map(term).fold(Differentiated::default(), Add::add)
+    }
+}
+
+/// Returns the first Chebyshev polynomials at `x` and their slopes by a number of which `x` has this `slope`.
+fn chebyshev(x: f64, slope: f64, count: usize) -> Vec<[f64; 2]> {
+    let mut found = vec![[1.0, 0.0], [x, slope]];
+    for k in 2..count {
+        let ([t, t_slope], [before, before_slope]) = (found[k - 1], found[k - 2]);
+        let next_slope = 2.0 * (slope * t + x * t_slope) - before_slope;
+        found.push([2.0 * x * t - before, next_slope]);
+    }
+    found
+}

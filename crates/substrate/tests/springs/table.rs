@@ -1,0 +1,88 @@
+//! The table against boundary elements at places of its own, between the nodes of the polynomials.
+
+use substrate::boundary_element::row_reactions;
+use substrate::table::{GAPS, WIDTHS};
+use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, calibrate};
+
+/// Footprints all over the range, by the multiples of three irrational numbers.
+fn footprints(count: usize) -> impl Iterator<Item = Footprint> {
+    (1..=count).map(|k| {
+        let part = |step: f64| (k as f64 * step).fract();
+        let within = |[low, high]: [f64; 2], part: f64| low * (high / low).powf(part);
+        let gap = within(GAPS, part(5_f64.sqrt()));
+        let width = within(WIDTHS, part(2_f64.sqrt()));
+        // Incompressible is what most rows are.
+        let ratio = if k % 2 == 0 { 0.5 } else { 0.5 * part(3_f64.sqrt()) };
+        Footprint::new(gap, width, ratio).unwrap()
+    })
+}
+
+/// The numbers of a row on three meshes, extrapolated twice.
+fn solved(footprint: &Footprint, neighbours: usize, cells: [usize; 3]) -> Vec<f64> {
+    let on = |n| row_reactions(footprint, neighbours, n).unwrap().numbers();
+    let limit = |[coarse, fine]: [&[f64]; 2], finer: f64, order: i32| -> Vec<f64> {
+        let share = 1.0 / (finer.powi(order) - 1.0);
+        coarse.iter().zip(fine).map(|(coarse, fine)| fine + (fine - coarse) * share).collect()
+    };
+    let [coarse, medium, fine] = cells.map(on);
+    let finer = [1, 2].map(|k| cells[k] as f64 / cells[k - 1] as f64);
+    let check = limit([&coarse, &medium], finer[0], 3);
+    let best = limit([&medium, &fine], finer[1], 3);
+    limit([&check, &best], finer[1], 4)
+}
+
+#[test]
+fn springs_are_those_of_fine_meshes() {
+    for footprint in footprints(12) {
+        let springs = calibrate(&footprint).unwrap();
+        let exact = solved(&footprint, 1, [10, 14, 20]);
+        for k in 0..3 {
+            let off = [springs.direct[k] - exact[k], springs.coupling[k] + exact[3 + k]];
+            for off in off.map(|off| (off / exact[k]).abs()) {
+                assert!(off < springs.error, "{off:.1e} in {k} for {footprint:?}");
+            }
+        }
+    }
+}
+
+/// Long rows are known less well than Eq. (1): what they leave out, the truncation, is sixty times as large.
+#[test]
+fn long_rows_are_those_of_boundary_elements() {
+    for footprint in footprints(3) {
+        let row = RowStiffness::of(&footprint, Coupling::Full).unwrap();
+        let exact = solved(&footprint, NEIGHBOURS, [6, 8, 12]);
+        let close = |found: f64, exact: f64, size: f64| {
+            let off = ((found - exact) / size).abs();
+            assert!(off < row.error, "{off:.1e} for {footprint:?}");
+        };
+        for k in 0..3 {
+            close(row.direct[k], exact[k], row.direct[k]);
+        }
+        let size = (row.direct[1] * row.direct[2]).sqrt();
+        assert_eq!(row.neighbours.len(), NEIGHBOURS);
+        for (neighbour, exact) in row.neighbours.iter().zip(exact[3..].chunks(5)) {
+            for k in 0..3 {
+                close(neighbour.direct[k], exact[k], row.direct[k]);
+            }
+            close(neighbour.cross, f64::midpoint(exact[3], exact[4]), size);
+        }
+        assert!(row.error <= 1e-4 && row.truncation > row.error);
+    }
+}
+
+/// The range ends with the table; beyond it boundary elements are solved as before, and tell of a larger error.
+#[test]
+fn at_the_ends_of_the_range_both_agree() {
+    for [gap, width] in [[0.0125, 0.25], [0.0125, 80.0], [100.0, 0.25], [100.0, 80.0]] {
+        let springs =
+            |gap: f64, width: f64| calibrate(&Footprint::new(gap, width, 0.4).unwrap()).unwrap();
+        let within = springs(gap, width);
+        let outwards = |size: f64| size * if size > 1.0 { 1.0 + 1e-9 } else { 1.0 - 1e-9 };
+        let beyond = springs(outwards(gap), outwards(width));
+        assert!(beyond.error > 3.0 * within.error, "{beyond:?}");
+        for k in 0..3 {
+            let off = (within.direct[k] - beyond.direct[k]).abs() / within.direct[k];
+            assert!(off < 3e-4 && off < beyond.error, "{off} {within:?}");
+        }
+    }
+}
