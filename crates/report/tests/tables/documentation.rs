@@ -15,6 +15,7 @@ use results::columns::{
 use results::{
     Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
 };
+use skin::puncture::Needle;
 use sweep::{PARAMETERS, Sweep};
 
 /// The sweep that `text` defines.
@@ -126,7 +127,8 @@ fn the_paper_sweep_writes_every_key_with_its_default() {
     let paper = text("sweeps/paper.toml");
     for parameter in PARAMETERS {
         // What is not given by default stands there as a remark.
-        let remark = if parameter.section == "material" { "# " } else { "" };
+        let is_given = parameter.is_given(&sweep::Case::default());
+        let remark = if is_given { "" } else { "# " };
         assert!(
             paper.contains(&format!("\n{remark}{} = ", parameter.key)),
             "{} is missing",
@@ -147,4 +149,13 @@ fn the_other_sweeps_are_what_they_say() {
     assert!(!read("sweeps/paper.toml").is_imperfect());
     let strong = DesignGoal::read(&root().join("sweeps/goals/strong-and-covered.toml"), &[]);
     assert_eq!(strong.expect("a goal").space.intervals().len(), 3);
+    // What gives advice has a needle that moves straight down.
+    let guided = DesignGoal::read(&root().join("sweeps/goals/strong-under-a-needle.toml"), &[]);
+    let of_goal = guided.expect("a goal").space.sweep().grid().case(0).punctured();
+    let of_sweep = |file: &str| read(file).grid().case(0).punctured();
+    for puncture in [of_goal, of_sweep("sweeps/glove.toml"), of_sweep("sweeps/smoke.toml")] {
+        assert_eq!(puncture.needle, Needle::Guided { friction: 0.3 });
+        assert!(puncture.load_position < 1.0);
+    }
+    assert!(!read("sweeps/paper.toml").is_guided());
 }

@@ -148,14 +148,14 @@ impl Chain {
 
     /// The gap to the face that the needle would come to next, while its foot lies within it.
     ///
-    /// A tip that sticks on a corner which lies on the neighbour's face meets that face without pressing on it: corner and face bear
-    /// their force alone, until the tip slides.
+    /// A tip that sticks on a corner meets that face together with the corner, and without pressing on it: corner and face bear their
+    /// force alone, until the tip slides.
     fn gap_of_next(&self, state: &SkinState, touch: &Touch) -> f64 {
         let here = self.tip(&state.z, touch.scale, touch.place);
         if let (Rub::Stick { .. }, Place::Top, Some(here)) = (touch.rub, touch.place, here)
             && here.way > here.length - BESIDE
-            && self.is_notched(state, touch.scale)
         {
+            // Whether the contact of the corner is closed already does not matter: which of the two comes first would be round-off.
             return HOLDS;
         }
         let next = Self::next_touch(touch);
