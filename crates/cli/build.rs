@@ -30,7 +30,7 @@ fn revision() -> String {
 /// The commit, and whether the sources are as it has them.
 fn commit() -> Option<(String, bool)> {
     // A copy of the source inside of another repository has no revision of its own.
-    git(&["ls-files", "--error-unmatch", "build.rs"])?;
+    git(&["ls-files", "--error-unmatch", "Cargo.toml"])?;
     let revision = git(&["rev-parse", "--short=12", "HEAD"])?;
     let changes = git(&["status", "--porcelain", "--untracked-files=no"])?;
     Some((revision, changes.is_empty()))
@@ -54,7 +54,9 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
         let name = entry.file_name();
-        if path.is_dir() && !["tests", "benches", "target"].iter().any(|other| name == **other) {
+        if path.is_dir()
+            && !["tests", "benches", "target", "python"].iter().any(|other| name == **other)
+        {
             collect(&path, files);
         } else if path.is_file() {
             files.push(path);

@@ -19,6 +19,9 @@ const REGIONS: usize = 3;
 /// A floor is inside a gap that is this share of it away from both ends.
 const INSIDE: f64 = 1e-3;
 
+/// Objectives that differ by less than this part are equal: a floor is kept to within as much.
+const EQUAL: f64 = 1e-9;
+
 /// The ratio of the ends of a front from which on its points are spaced by equal ratios.
 const DECADE: f64 = 10.0;
 
@@ -215,9 +218,9 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
         Front { designs: Vec::new(), same: 0, beaten: 0, empty: targets.len() - found.len() };
     let mut kept: Vec<(BestDesign, f64)> = Vec::new();
     for (k, (design, turned)) in found.into_iter().enumerate() {
-        if values.iter().any(|other| dominates(other, &turned)) {
+        if values.iter().any(|other| beats(other, &turned)) {
             front.beaten += 1;
-        } else if values[..k].contains(&turned) {
+        } else if values[..k].iter().any(|other| is_same(other, &turned)) {
             front.same += 1;
         } else {
             kept.push((design, turned[0]));
@@ -226,6 +229,18 @@ fn designs(search: &Search<'_>, history: &[Candidate], targets: &[Target]) -> Re
     kept.sort_by(|(_, a), (_, b)| b.total_cmp(a));
     front.designs = kept.into_iter().map(|(design, _)| design).collect();
     Ok(front)
+}
+
+/// Whether objectives are the same but for round-off.
+fn is_same(one: &[f64], other: &[f64]) -> bool {
+    one.iter().zip(other).all(|(a, b)| (a - b).abs() <= EQUAL * b.abs())
+}
+
+/// Whether a point of a front beats another: it is better in an objective, and in none worse, but for round-off.
+fn beats(one: &[f64], other: &[f64]) -> bool {
+    // Where two limits bind, a floor keeps points of one objective a last digit apart, and the worst of them would stay.
+    let size = |x: &f64| EQUAL * x.abs();
+    !is_same(one, other) && one.iter().zip(other).all(|(a, b)| *a >= b - size(b))
 }
 
 /// The turned objectives of a design that meets every requirement.
@@ -288,4 +303,18 @@ fn spread(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
     }
     chosen.sort_by(|&a, &b| front[b][0].total_cmp(&front[a][0]));
     chosen.into_iter().map(|k| front[k][1..].to_vec()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{beats, is_same};
+
+    #[test]
+    fn of_points_alike_but_for_round_off_in_one_objective_the_better_stays() {
+        // Where coverage and compliance both bind, floors of coverage leave such points.
+        let (poor, good) = ([0.800_000_000_004_8, 0.06], [0.799_999_999_999_9, 0.6]);
+        assert!(beats(&good, &poor) && !beats(&poor, &good));
+        assert!(!beats(&good, &good) && is_same(&good, &[0.8, 0.6]));
+        assert!(!beats(&[0.81, 0.06], &good));
+    }
 }

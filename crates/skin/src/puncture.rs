@@ -355,6 +355,8 @@ impl<'a> Problem<'a> {
         let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
             _ if !growing.has_room => Status::RowLimit,
+            // Not even the first step tilts a scale that is upright and loaded in its middle.
+            Status::Stopped(Stop::Singular) if watch.record.path.len() == 1 => Status::Untilted,
             Status::Complete if is_untilted => Status::Untilted,
             Status::Stopped(Stop::NoConvergence) if is_untilted && is_straight() => {
                 Status::Untilted

@@ -19,6 +19,8 @@ pub enum Status {
     Untilted,
     /// Two scales overlap by more than their contact law allows.
     Interpenetration,
+    /// The scales of a strip lock: the moment grows, and next to nothing turns.
+    Locked,
     /// A contact carries beyond the end of its edge, or a corner passes round that end.
     OffEdge,
 }
@@ -31,6 +33,11 @@ impl Status {
             Stop::Reached if skin.interpenetrates(end) => Self::Interpenetration,
             Stop::Reached if skin.contacts().off_edge(end) => Self::OffEdge,
             Stop::Reached => Self::Complete,
+            Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
+                if skin.interpenetrates(end) =>
+            {
+                Self::Interpenetration
+            }
             Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
                 if skin.contacts().off_edge(end) || skin.contacts().passes_an_end(path.point()) =>
             {

@@ -37,7 +37,7 @@
 //! let error = Sweep::parse("name = 'thin'\ncontact.c2 = 0", "thin.toml", &[]).unwrap_err();
 //! assert_eq!(
 //!     error.to_string(),
-//!     "thin.toml:2: contact.c2: 0 is out of range, expected a number above 0 and at most 10"
+//!     "thin.toml:2: contact.c2: 0 is out of range, expected a number of at least 0.05 and at most 1.5"
 //! );
 //! # Ok::<(), sweep::InvalidDefinition>(())
 //! ```

@@ -46,7 +46,7 @@ as critical_force_p05 (or _p50, _p95), and yield, the share of samples that meet
 not fold (unless sound = false), as in require = [\"coverage >= 0.5\", \"yield >= 0.9\"]. The search solves
 skins = 200 samples of each design, with the same deviations for all, and five times as many near the best.
 Finally it solves 1000 new samples of the best, and shows their statistics beside those that the search saw.
-The search first solves samples = 1024 designs that fill the space; a front has points = 30 designs; seed = 0
+The search first solves samples = 128 designs that fill the space; a front has points = 30 designs; seed = 0
 selects the random numbers.
 Writes optimum.csv and optimum.toml, the definition of the best design, or front.csv; history.csv with every
 design of the search; and evaluations.jsonl, from which --resume continues. The results do not depend on the

@@ -69,7 +69,7 @@ fn all_errors_of_a_definition_are_told_at_once() {
     insta::assert_snapshot!(message, @r#"
     error: x.toml:1: names: unknown key (its value is "x"), did you mean name?
     error: x.toml:3: designs.gap: unknown key (its value is 0.1), did you mean designs.gap_over_t?
-    error: x.toml:5: contact.c2: 0 is out of range, expected a number above 0 and at most 10
+    error: x.toml:5: contact.c2: 0 is out of range, expected a number of at least 0.05 and at most 1.5
     error: --set solver.max_step=0: solver.max_step: 0 is out of range, expected a fraction above 0 and at most 1
     error: x.toml: name: missing, expected the name of the sweep, e.g. name = "paper"
     "#);

@@ -56,7 +56,7 @@ fn what_is_not_given_has_no_columns() {
     let table = place.read("r/designs.csv");
     assert!(columns(&table).any(|name| name == "penetration_mm"));
     assert!(!columns(&table).any(|name| name.ends_with("_N") || name == "areal_mass_kg_m2"));
-    insta::assert_snapshot!(place.refused("check x.toml --set material.thickness_mm=0"), @"error: --set material.thickness_mm=0: material.thickness_mm: 0 is out of range, expected a length above 0 and at most 1e30");
+    insta::assert_snapshot!(place.refused("check x.toml --set material.thickness_mm=0"), @"error: --set material.thickness_mm=0: material.thickness_mm: 0 is out of range, expected a length of at least 1e-6 and at most 1000000000");
     insta::assert_snapshot!(place.refused("check x.toml --set material.thickness=1"), @"error: --set material.thickness=1: material.thickness: unknown key (its value is 1), did you mean material.thickness_mm?");
 }
 

@@ -38,13 +38,15 @@ pub enum Outcome {
     Unloaded,
     /// Load, depth and tilt turned back together and did not recover.
     LimitPoint,
-    /// A guided needle pushed a scale straight down and tilted none critically.
+    /// A needle pushed a scale straight down and tilted none critically.
     Untilted,
+    /// The scales of a strip locked.
+    Locked,
 }
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -59,6 +61,7 @@ impl Outcome {
         Self::Unloaded,
         Self::LimitPoint,
         Self::Untilted,
+        Self::Locked,
     ];
 
     /// The text of the outcome in the tables.
@@ -73,6 +76,7 @@ impl Outcome {
             Self::RowLimit => "row limit",
             Self::Interpenetration => "interpenetration",
             Self::OffEdge => "off the edge",
+            Self::Locked => "locked",
             Self::Calibration => "no calibration",
             Self::Internal => "internal error",
             Self::Unloaded => "unloaded",
@@ -95,6 +99,9 @@ impl Outcome {
             Self::OffEdge => {
                 "a contact carries beyond the end of its edge, or a corner passes round that end"
             }
+            Self::Locked => {
+                "the scales of a strip lock: the moment grows, and what still gives is a membrane stretched beyond its law"
+            }
             Self::Calibration => "the springs of the substrate could not be found",
             Self::Internal => "the program is at fault; please report the design",
             Self::Unloaded => {
@@ -103,9 +110,7 @@ impl Outcome {
             Self::LimitPoint => {
                 "load, depth and tilt turned back together, and the path ends before any of them recovers"
             }
-            Self::Untilted => {
-                "a guided needle pushes a scale straight down and tilts none critically"
-            }
+            Self::Untilted => "a needle pushes a scale straight down and tilts none critically",
         }
     }
 }
@@ -123,6 +128,7 @@ impl From<Status> for Outcome {
             Status::RowLimit => Self::RowLimit,
             Status::Interpenetration => Self::Interpenetration,
             Status::OffEdge => Self::OffEdge,
+            Status::Locked => Self::Locked,
             Status::LimitPoint => Self::LimitPoint,
             Status::Untilted => Self::Untilted,
             Status::Stopped(stop) => stop.into(),

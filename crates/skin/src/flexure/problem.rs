@@ -10,7 +10,7 @@ use super::first_touch::contact_curvature;
 use super::frame::Step;
 use super::mesh::Resolution;
 use super::strip::{Strip, StripExtent};
-use super::{Flexure, FlexureMeasures, FlexureParameters, Method, gaps, whole_gaps};
+use super::{Flexure, FlexureMeasures, FlexureParameters, FlexurePoint, Method, gaps, whole_gaps};
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::crossing::{Crossing, PlaceWatch};
@@ -197,7 +197,12 @@ impl<'a> FlexureProblem<'a> {
             steps.push(path.system().steps(&point.state.z));
         }
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
-        let status = Status::of(&path, stop.unwrap_or(Stop::Reached));
+        let status = match Status::of(&path, stop.unwrap_or(Stop::Reached)) {
+            Status::Stopped(
+                Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite,
+            ) if flush || locks(&record.path) => Status::Locked,
+            status => status,
+        };
         let error = self.error(resolution, &path, &record)?;
         Ok(Bent { record, path, status, error, steps, places: places.found })
     }
@@ -238,4 +243,18 @@ impl<'a> FlexureProblem<'a> {
         let states = record.stiffest().into_iter().chain([path.point()]);
         Ok(states.map(|point| change(&point.state)).reduce(f64::max))
     }
+}
+
+/// A strip that is so many times as stiff as at rest is held by its scales alone.
+const LOCKED: f64 = 100.0;
+
+/// A strain of a membrane of which its law, for small strains, says nothing.
+const BEYOND_LAW: f64 = 1.0;
+
+/// Whether scales lock a strip at the end of its path: next to nothing turns there, or only by a membrane that is torn.
+fn locks(path: &[FlexurePoint]) -> bool {
+    let ends = path.first().zip(path.last());
+    ends.is_some_and(|(first, last)| {
+        last.stiffness.abs() >= LOCKED * first.stiffness || last.membrane_strain >= BEYOND_LAW
+    })
 }

@@ -13,9 +13,12 @@ use crate::parameter::Role::{
 };
 use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Role, Scalar, key};
 
-const LENGTH: Range = Range { low: Excluded(0.0), high: Included(1e6) };
-const POSITIVE: Range = Range { low: Excluded(0.0), high: Included(1e30) };
+// Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
+const LENGTH: Range = Range { low: Included(1e-3), high: Included(1e3) };
+const POSITIVE: Range = Range { low: Included(1e-6), high: Included(1e9) };
 const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
+// Scales are rigid but where they touch: softer than what they stand on they would bend.
+const STIFF: Range = Range { low: Included(1.0), high: Included(1e9) };
 
 /// The roles of a number that describes the skin and its load, and no more.
 const NUMBER: &[Role] = &[Continuous, Made];
@@ -129,7 +132,7 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
-            range: POSITIVE,
+            range: Range { low: Included(1e-3), high: Included(1e3) },
             field: |c| &mut c.common.law.c1,
         },
     },
@@ -141,7 +144,8 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
-            range: Range { low: Excluded(0.0), high: Included(10.0) },
+            // A flat end has an exponent of 1, a sphere of 1.5; at larger ones contacts begin without any stiffness.
+            range: Range { low: Included(0.05), high: Included(1.5) },
             field: |c| &mut c.common.law.c2,
         },
     },
@@ -229,7 +233,8 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: &[Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
         kind: ParameterKind::Numbers {
             noun: "a number",
-            range: Range { low: Included(0.0), high: Included(1e30) },
+            // Of 1000 the arctangent is 89.94°; of 1e16 it is 90°, to the last digit.
+            range: Range { low: Included(0.0), high: Included(1e3) },
             word: Some("none"),
             get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
             set: |c, friction| {
@@ -270,7 +275,7 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
-            range: POSITIVE,
+            range: STIFF,
             field: |c| &mut c.puncture.contact_modulus_over_substrate,
         },
     },
@@ -330,7 +335,7 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a length",
-            range: Range { low: Included(-1e6), high: Included(1e6) },
+            range: Range { low: Included(-1e3), high: Included(1e3) },
             field: |c| &mut c.flexure.membrane_axis_offset,
         },
     },
@@ -372,7 +377,7 @@ pub static PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: ParameterKind::Number {
             noun: "a number",
-            range: POSITIVE,
+            range: STIFF,
             field: |c| &mut c.flexure.contact_modulus_over_membrane,
         },
     },

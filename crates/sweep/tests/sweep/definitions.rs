@@ -71,7 +71,7 @@ fn numbers_may_be_written_in_any_way_that_toml_knows() {
 fn settings_take_the_place_of_what_is_written() {
     let file = "name = 'x'\n[scale]\nbase = 'L'\n[designs]\nc1 = [1, 2]";
     let settings =
-        ["name=y", "scale.base=2L", "contact.c1=3", "designs.c2=[1, 2]", "measures=coverage"];
+        ["name=y", "scale.base=2L", "contact.c1=3", "designs.c2=[1, 1.5]", "measures=coverage"];
     let settings: Vec<_> = settings.map(|text| Setting::parse(text).expect("valid")).to_vec();
     let sweep = Sweep::parse(file, "x.toml", &settings).expect("valid");
     let case = sweep.grid().case(0);

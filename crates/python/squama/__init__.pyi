@@ -1,0 +1,271 @@
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__version__: str
+Floats = NDArray[np.float64]
+Measures = str | Sequence[str]
+Path = str | PathLike[str]
+Progress = bool | Callable[[float, str], object]
+
+class InvalidParameter(ValueError):
+    key: str
+    value: Any
+    expected: str
+    def __init__(self, key: str, value: Any, expected: str) -> None: ...
+    @property
+    def others(self) -> list[str]: ...
+
+class InvalidDefinition(ValueError): ...
+
+class Failed(RuntimeError):
+    what: str
+    reason: str
+    def __init__(self, what: str, reason: str) -> None: ...
+
+class KinkWarning(UserWarning):
+    measure: str
+    key: str
+    left: float
+    right: float
+    change: str
+    def __init__(self, measure: str, key: str, left: float, right: float, change: str) -> None: ...
+
+class Table(Mapping[str, NDArray[Any]]):
+    units: dict[str, str]
+    meanings: dict[str, str]
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    @property
+    def rows(self) -> int: ...
+    def row(self, index: int) -> dict[str, Any]: ...
+    def to_pandas(self) -> Any: ...
+
+class Run(Table):
+    folder: str
+    skin: Skin | None
+    def __init__(self, folder: Path) -> None: ...
+    def rank(
+        self,
+        require: str | Iterable[str] = (),
+        maximize: str | Iterable[str] = (),
+        minimize: str | Iterable[str] = (),
+        weights: Sequence[float] | None = None,
+    ) -> Table: ...
+
+class Result:
+    skin: Skin
+    status: str
+    warnings: list[str]
+    path: Table
+    events: Table
+    scales: Table
+    flexure_path: Table
+    flexure_events: Table
+    flexure_scales: Table
+    sensitivity: Table
+    @property
+    def values(self) -> dict[str, float | int | str | None]: ...
+    @property
+    def units(self) -> dict[str, str]: ...
+    @property
+    def meanings(self) -> dict[str, str]: ...
+    def __getitem__(self, name: str) -> Any: ...
+    def get(self, name: str, default: Any = ...) -> Any: ...
+    def plot(self, axes: Any = None) -> Any: ...
+
+@overload
+def function(
+    skin: Skin, keys: Iterable[str], measures: str
+) -> tuple[Callable[[ArrayLike], float], Callable[[ArrayLike], Floats]]: ...
+@overload
+def function(
+    skin: Skin, keys: Iterable[str], measures: Sequence[str]
+) -> tuple[Callable[[ArrayLike], Floats], Callable[[ArrayLike], Floats]]: ...
+def solve_many(
+    skins: Iterable[Skin], measures: Measures = "all", *, threads: int | None = None, progress: Progress = False
+) -> Table: ...
+def read(folder: Path) -> Run: ...
+def run(
+    definition: Path | Skin,
+    out: Path | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    resume: bool = False,
+    fresh: bool = False,
+    threads: int | None = None,
+    progress: Progress = False,
+) -> Run: ...
+def optimise(
+    goal: Path,
+    out: Path | None = None,
+    *,
+    set: Mapping[str, Any] | None = None,
+    resume: bool = False,
+    fresh: bool = False,
+    threads: int | None = None,
+    progress: Progress = False,
+) -> Run: ...
+def tolerance(
+    definition: Path | Skin,
+    *,
+    set: Mapping[str, Any] | None = None,
+    require: str | Iterable[str] = (),
+    samples: int = 1000,
+    out: Path | None = None,
+    threads: int | None = None,
+    progress: Progress = False,
+) -> dict[str, Table]: ...
+
+# Made from the list of parameters by `python -m squama._manual __init__.pyi`.
+class Skin:
+    def __init__(
+        self,
+        *,
+        gap_over_t: float,
+        length_over_t: float,
+        slant_deg: float,
+        base: str | None = None,
+        width_over_t: float | None = None,
+        poisson_ratio: float | None = None,
+        coupling: str | None = None,
+        law: str | None = None,
+        c1: float | None = None,
+        c2: float | None = None,
+        scales: int | str | None = None,
+        load_position: float | None = None,
+        load_inset_over_t: float | None = None,
+        needle: str | None = None,
+        critical_tilt_deg: float | Sequence[float] | None = None,
+        needle_friction: float | Sequence[float] | str | None = None,
+        depth_over_t: float | None = None,
+        depth_mm: float | None = None,
+        contact_modulus_over_substrate: float | None = None,
+        method: str | None = None,
+        membrane_length_over_t: float | None = None,
+        gaps: int | str | None = None,
+        membrane_thickness_over_t: float | None = None,
+        membrane_axis_offset_over_t: float | None = None,
+        elements_per_gap: int | str | None = None,
+        max_end_rotation_deg: float | None = None,
+        contact_modulus_over_membrane: float | None = None,
+        gap_cv: float | None = None,
+        slant_sd_deg: float | None = None,
+        samples: int | None = None,
+        seed: int | None = None,
+        first_step: float | None = None,
+        max_step: float | None = None,
+        min_step: float | None = None,
+        tolerance: float | None = None,
+        max_iterations: int | None = None,
+        max_points: int | None = None,
+        thickness_mm: float | None = None,
+        substrate_modulus_MPa: float | None = None,
+        membrane_modulus_MPa: float | None = None,
+        scale_density_kg_m3: float | None = None,
+        # Lengths in mm, together with thickness_mm.
+        gap_mm: float | None = None,
+        length_mm: float | None = None,
+        width_mm: float | None = None,
+        load_inset_mm: float | None = None,
+        depth_mm: float | None = None,
+        membrane_length_mm: float | None = None,
+        membrane_thickness_mm: float | None = None,
+        membrane_axis_offset_mm: float | None = None,
+    ) -> None: ...
+    @property
+    def gap_over_t(self) -> float: ...
+    @property
+    def length_over_t(self) -> float: ...
+    @property
+    def slant_deg(self) -> float: ...
+    @property
+    def base(self) -> str: ...
+    @property
+    def width_over_t(self) -> float: ...
+    @property
+    def poisson_ratio(self) -> float: ...
+    @property
+    def coupling(self) -> str: ...
+    @property
+    def law(self) -> str: ...
+    @property
+    def c1(self) -> float: ...
+    @property
+    def c2(self) -> float: ...
+    @property
+    def scales(self) -> int | str: ...
+    @property
+    def load_position(self) -> float: ...
+    @property
+    def load_inset_over_t(self) -> float | None: ...
+    @property
+    def needle(self) -> str: ...
+    @property
+    def critical_tilt_deg(self) -> float | Sequence[float]: ...
+    @property
+    def needle_friction(self) -> float | Sequence[float] | str: ...
+    @property
+    def depth_over_t(self) -> float | None: ...
+    @property
+    def depth_mm(self) -> float | None: ...
+    @property
+    def contact_modulus_over_substrate(self) -> float: ...
+    @property
+    def method(self) -> str: ...
+    @property
+    def membrane_length_over_t(self) -> float: ...
+    @property
+    def gaps(self) -> int | str: ...
+    @property
+    def membrane_thickness_over_t(self) -> float: ...
+    @property
+    def membrane_axis_offset_over_t(self) -> float: ...
+    @property
+    def elements_per_gap(self) -> int | str: ...
+    @property
+    def max_end_rotation_deg(self) -> float: ...
+    @property
+    def contact_modulus_over_membrane(self) -> float: ...
+    @property
+    def gap_cv(self) -> float: ...
+    @property
+    def slant_sd_deg(self) -> float: ...
+    @property
+    def samples(self) -> int: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def first_step(self) -> float: ...
+    @property
+    def max_step(self) -> float: ...
+    @property
+    def min_step(self) -> float: ...
+    @property
+    def tolerance(self) -> float: ...
+    @property
+    def max_iterations(self) -> int: ...
+    @property
+    def max_points(self) -> int: ...
+    @property
+    def thickness_mm(self) -> float | None: ...
+    @property
+    def substrate_modulus_MPa(self) -> float | None: ...
+    @property
+    def membrane_modulus_MPa(self) -> float | None: ...
+    @property
+    def scale_density_kg_m3(self) -> float | None: ...
+    @property
+    def parameters(self) -> dict[str, Any]: ...
+    @staticmethod
+    def from_toml(definition: str | PathLike[str], design: int | None = None) -> Skin: ...
+    @staticmethod
+    def all_from_toml(definition: str | PathLike[str]) -> list[Skin]: ...
+    def to_toml(self) -> str: ...
+    def replace(self, **parameters: Any) -> Skin: ...
+    def solve(self, measures: Measures = "all") -> Result: ...
+    def value_and_gradient(self, measure: str, keys: Iterable[str]) -> tuple[float, Floats]: ...

@@ -1,0 +1,94 @@
+"""The documentation of skins and results, and the stub of the package, from the list of parameters and of columns."""
+
+import inspect
+
+from ._squama import columns, parameters
+
+
+def _type(expected):
+    number = "float | Sequence[float]" if "a list" in expected else "int" if expected.startswith("a whole") else "float"
+    is_word = expected.startswith('"')
+    return "str" if is_word else f"{number} | str" if '"' in expected else number
+
+
+def signature():
+    """The parameters of a skin as keywords."""
+    keyword, one = inspect.Parameter.KEYWORD_ONLY, inspect.Parameter
+    of = [one(key, keyword, default=one.empty if default is None and section == "designs" else _value(default))
+          for key, section, *_, default in parameters()]
+    return inspect.Signature(of)
+
+
+def _value(default):
+    return None if default is None else default.strip('"') if default.startswith('"') else float(default)
+
+
+def skin():
+    """The documentation of a skin: every parameter with unit, meaning, values and default."""
+    lines = [
+        "A skin of scales: Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60).",
+        "",
+        "Immutable and hashable; it pickles. Every parameter of a definition is a keyword and an attribute. Lengths are",
+        "over the thickness t of the scales; with thickness_mm every *_over_t may be given in mm as *_mm.",
+        "None is the default.",
+    ]
+    last = None
+    for key, section, unit, meaning, expected, default in parameters():
+        if section != last:
+            lines += ["", f"[{section}]"]
+            last = section
+        unit = "" if unit == "-" else f" ({unit})"
+        default = "required" if section == "designs" else "not given" if default is None else f"default {default}"
+        lines += [f"{key}{unit}", f"    {meaning}: {expected}; {default}"]
+    lines += ["", "Measures of a solved skin, with their units:", ""]
+    lines += [f"{name} ({unit}): {meaning}" for name, unit, meaning in columns()]
+    return "\n".join(lines)
+
+
+_SKIN = '''class Skin:
+    def __init__(
+        self,
+        *,
+{parameters}
+        # Lengths in mm, together with thickness_mm.
+{in_mm}
+    ) -> None: ...
+{attributes}
+    @property
+    def parameters(self) -> dict[str, Any]: ...
+    @staticmethod
+    def from_toml(definition: str | PathLike[str], design: int | None = None) -> Skin: ...
+    @staticmethod
+    def all_from_toml(definition: str | PathLike[str]) -> list[Skin]: ...
+    def to_toml(self) -> str: ...
+    def replace(self, **parameters: Any) -> Skin: ...
+    def solve(self, measures: Measures = "all") -> Result: ...
+    def value_and_gradient(self, measure: str, keys: Iterable[str]) -> tuple[float, Floats]: ...
+'''
+
+
+MARK = "# Made from the list of parameters by `python -m squama._manual __init__.pyi`."
+
+
+def stub(text):
+    """The text of ``__init__.pyi``, whose part behind the mark is made anew."""
+    all_of = [(key, _type(expected), default) for key, *_, expected, default in parameters()]
+    geometry = {key for key, section, *_ in parameters() if section == "designs"}
+    given = [f"        {key}: {of}{'' if key in geometry else ' | None = None'}," for key, of, _ in all_of]
+    in_mm = [key.removesuffix("_over_t") + "_mm" for key, *_ in all_of if key.endswith("_over_t")]
+    # A parameter without a default is an attribute that may be None.
+    attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry else ' | None'}: ..."
+                  for key, of, default in all_of]
+    return text.split(MARK)[0] + MARK + "\n" + _SKIN.format(
+        parameters="\n".join(given),
+        in_mm="\n".join(f"        {key}: float | None = None," for key in in_mm),
+        attributes="\n".join(attributes),
+    )
+
+
+if __name__ == "__main__":
+    import sys
+    from pathlib import Path
+
+    file = Path(sys.argv[1])
+    file.write_text(stub(file.read_text()))

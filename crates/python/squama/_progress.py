@@ -1,0 +1,27 @@
+"""A line that says how far a call is, in terminals and notebooks."""
+
+import sys
+import time
+
+
+class Bar:
+    """The line, on standard error; ``progress`` may also be a function of the share that is done and a few words."""
+
+    def __init__(self, progress):
+        self.tell = progress if callable(progress) else self.show if progress else None
+        self.begun, self.width = time.monotonic(), 0
+
+    def show(self, share, words):
+        left = (time.monotonic() - self.begun) * (1 - share) / share if share > 0 else 0
+        line = f"[{'#' * int(30 * share):30}] {100 * share:3.0f} %  {words}" + (f"  {left:.0f} s left" if left else "")
+        sys.stderr.write("\r" + line.ljust(self.width))
+        sys.stderr.flush()
+        self.width = len(line)
+
+    def __enter__(self):
+        return self.tell
+
+    def __exit__(self, *_):
+        if self.width:
+            sys.stderr.write("\r" + " " * self.width + "\r")
+            sys.stderr.flush()

@@ -1,0 +1,128 @@
+"""What solving a skin gave."""
+
+from functools import cached_property
+from html import escape
+
+from ._errors import Failed
+from ._table import Table
+
+_TABLES = ("path", "events", "scales", "flexure_path", "flexure_events", "flexure_scales", "sensitivity")
+
+
+class Result:
+    """A solved skin: ``result["critical_force"]`` is a measure, by the name of its column in ``designs.csv``.
+
+    A measure that does not exist for this skin (``fold_force`` where nothing folds) is NaN; one that could not be
+    found, because its path stopped early, raises `squama.Failed`. ``get`` gives a default in its place.
+
+    ==================  ==========================================================================================
+    ``skin``            the skin
+    ``status``          ``"complete"``, or the reason why a measure has no value
+    ``warnings``        texts: what failed, and from where on the model does not hold
+    ``values``          all measures as a dict, ``None`` where there is none; ``units`` and ``meanings`` of them
+    ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
+    ``events``          puncture: contacts that open, close and slide, folds and snaps
+    ``scales``          puncture: displacement and rotation of every scale at the end
+    ``flexure_path``    bending: curvature, moment, stiffness …; ``flexure_events``, ``flexure_scales`` as above
+    ``sensitivity``     derivatives of every measure, if ``measures`` has ``"sensitivity"``
+    ==================  ==========================================================================================
+    """
+
+    def __init__(self, skin, solved):
+        self.skin, self._solved = skin, solved
+
+    # Everything is taken from the solver when it is asked for first; what is pickled is all of it.
+    @cached_property
+    def _values(self):
+        return self._solved.values()
+
+    @cached_property
+    def status(self):
+        return self._solved.status()
+
+    @cached_property
+    def warnings(self):
+        return self._solved.warnings()
+
+    @cached_property
+    def _failed(self):
+        """The reasons of the values that could not be found."""
+        reasons = {}
+        for name, value in self.values.items():
+            if value is None:
+                try:
+                    self._solved.value(name)
+                except Failed as failed:
+                    reasons[name] = failed.reason
+        return reasons
+
+    @property
+    def values(self):
+        return {name: value for name, _, _, value in self._values}
+
+    @property
+    def units(self):
+        return {name: unit for name, unit, _, _ in self._values}
+
+    @property
+    def meanings(self):
+        return {name: meaning for name, _, meaning, _ in self._values}
+
+    def __getitem__(self, name):
+        if self._solved is not None:
+            return self._solved.value(name)
+        if name in self._failed:
+            raise Failed(name, self._failed[name])
+        value = self.values[name]
+        return float("nan") if value is None else value
+
+    def get(self, name, default=float("nan")):
+        """A measure, or ``default`` if it could not be found."""
+        try:
+            return self[name]
+        except Failed:
+            return default
+
+    def __getstate__(self):
+        for name in ("_values", "status", "warnings", "_failed", *_TABLES):
+            getattr(self, name)
+        return {**self.__dict__, "_solved": None}
+
+    def __repr__(self):
+        names = ("coverage", "critical_force", "penetration", "compliance")
+        values = self.values
+        known = ", ".join(f"{name}={values[name]:.6g}" for name in names if values[name] is not None)
+        return f"<Result of {self.skin}: {self.status}; {known}>"
+
+    def _repr_html_(self):
+        shown = [(n, v, u, m) for n, u, m, v in self._values if v is not None]
+        cell = lambda v: f"{v:.6g}" if isinstance(v, float) else str(v)  # noqa: E731
+        rows = (
+            f"<tr><th>{n}</th><td>{cell(v)}</td><td>{escape(u)}</td><td>{escape(m)}</td></tr>" for n, v, u, m in shown
+        )
+        return f"<p>{escape(self.status)}</p><table>{''.join(rows)}</table>"
+
+    def plot(self, axes=None):
+        """Draws force against displacement and, if it was solved, moment against curvature; returns the axes."""
+        import matplotlib.pyplot as plt
+
+        curves = [(self.path, "displacement", "force", self.events), (self.flexure_path, "curvature", "moment", self.flexure_events)]
+        curves = [curve for curve in curves if len(curve[0])]
+        if axes is None:
+            _, axes = plt.subplots(1, len(curves), squeeze=False, figsize=(5 * len(curves), 3.6), layout="constrained")
+            axes = axes[0]
+        for ax, (path, x, y, events) in zip(axes, curves):
+            ax.plot(path[x], path[y])
+            ax.plot(events[x], events[y], "o", markersize=3)
+            ax.set(xlabel=f"{x} ({path.units[x]})", ylabel=f"{y} ({path.units[y]})")
+        return axes
+
+
+def _table(name):
+    table = cached_property(lambda self: Table(self._solved.table(name)))
+    table.__set_name__(Result, name)
+    return table
+
+
+for _name in _TABLES:
+    setattr(Result, _name, _table(_name))

@@ -1,0 +1,68 @@
+"""Tables: columns of numbers and texts."""
+
+from collections.abc import Mapping
+from html import escape
+
+import numpy as np
+
+
+class Table(Mapping):
+    """Columns by name: numbers as arrays of ``float`` (a value that does not exist is NaN), texts as arrays of ``str``.
+
+    ``table["coverage"]`` is a column, ``table.units`` and ``table.meanings`` say what it is, ``table.row(0)`` is a
+    row as a dict, ``table.to_pandas()`` a data frame; ``dict(table)`` is what polars and others take.
+    """
+
+    def __init__(self, columns):
+        self._columns, self.units, self.meanings = {}, {}, {}
+        for name, unit, meaning, cells in columns:
+            is_number = isinstance(cells, (bytes, bytearray))
+            self._columns[name] = np.frombuffer(bytearray(cells)) if is_number else np.array(cells, dtype=object)
+            self.units[name], self.meanings[name] = unit, meaning
+
+    def __getitem__(self, name):
+        try:
+            return self._columns[name]
+        except KeyError:
+            from difflib import get_close_matches
+
+            near = get_close_matches(str(name), self._columns, 1)
+            raise KeyError(f"there is no column {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
+
+    def __iter__(self):
+        return iter(self._columns)
+
+    def __len__(self):
+        return len(self._columns)
+
+    @property
+    def rows(self):
+        """The number of rows."""
+        return len(next(iter(self._columns.values()), ()))
+
+    def row(self, index):
+        """A row as a dict."""
+        return {name: column[index] for name, column in self._columns.items()}
+
+    def to_pandas(self):
+        """The table as a ``pandas.DataFrame``."""
+        import pandas
+
+        return pandas.DataFrame(dict(self._columns))
+
+    def __repr__(self):
+        return f"<{type(self).__name__} of {self.rows} rows: {', '.join(self._columns)}>"
+
+    def _repr_html_(self):
+        names, shown = list(self._columns), min(self.rows, 10)
+        head = "".join(f"<th title='{escape(self.meanings[n], True)}'>{escape(n)}</th>" for n in names)
+        lines = ("".join(f"<td>{escape(_text(self[n][k]))}</td>" for n in names) for k in range(shown))
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        more = f"<p>{self.rows} rows</p>" if self.rows > shown else ""
+        return f"<table><tr>{head}</tr>{body}</table>{more}"
+
+
+def _text(cell):
+    if cell is None or cell != cell:
+        return ""
+    return f"{cell:.6g}" if isinstance(cell, float) else str(cell)

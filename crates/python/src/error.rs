@@ -1,0 +1,85 @@
+//! Errors as exceptions of the package, which are written in Python so that they pickle.
+
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyDict, PyType};
+use sweep::{InvalidDefinition, Problem, WrongValue};
+
+/// The class of that name in a module of the package.
+pub fn class<'py>(
+    py: Python<'py>,
+    known: &PyOnceLock<Py<PyType>>,
+    module: &str,
+    name: &str,
+) -> PyResult<Bound<'py, PyType>> {
+    known.import(py, module, name).cloned()
+}
+
+/// The exception `name` with such arguments.
+fn exception<'py>(
+    py: Python<'py>,
+    name: &str,
+    arguments: impl pyo3::call::PyCallArgs<'py>,
+) -> PyErr {
+    let class = py.import("squama._errors").and_then(|module| module.getattr(name));
+    class.and_then(|class| class.call1(arguments)).map_or_else(|error| error, PyErr::from_value)
+}
+
+/// A parameter with a value that it does not take.
+pub fn invalid_parameter(
+    py: Python<'_>,
+    key: &str,
+    value: Option<Bound<'_, PyAny>>,
+    expected: &str,
+) -> PyErr {
+    exception(py, "InvalidParameter", (key, value, expected))
+}
+
+/// Work that could not be done, for a reason.
+pub fn failed(py: Python<'_>, what: &str, reason: &str) -> PyErr {
+    exception(py, "Failed", (what, reason))
+}
+
+/// An error of a crate, about `what`.
+pub fn of(py: Python<'_>, what: &str, error: &impl std::fmt::Display) -> PyErr {
+    failed(py, what, &error.to_string())
+}
+
+/// What is wrong with a definition, where `given` are the values that came from Python.
+pub fn invalid_definition(
+    py: Python<'_>,
+    error: &InvalidDefinition,
+    given: Option<&Bound<'_, PyDict>>,
+) -> PyErr {
+    match error {
+        InvalidDefinition::Several(errors) if !errors.is_empty() => {
+            let error_of = invalid_definition(py, &errors[0], given);
+            // The first is the exception, and the others are told with it.
+            for other in &errors[1..] {
+                let _ = error_of.value(py).call_method1("add", (other.to_string(),));
+            }
+            error_of
+        }
+        InvalidDefinition::Refused { key, problem, .. } => {
+            let key = key.rsplit('.').next().unwrap_or(key);
+            let value = given.and_then(|given| given.get_item(key).ok().flatten());
+            let (found, expected) = explained(problem);
+            let found = || found.map(|found| pyo3::types::PyString::new(py, &found).into_any());
+            invalid_parameter(py, key, value.or_else(found), &expected)
+        }
+        other => exception(py, "InvalidDefinition", (other.to_string(),)),
+    }
+}
+
+/// The value that a problem is about, and what would be right.
+fn explained(problem: &Problem) -> (Option<String>, String) {
+    match problem {
+        Problem::Value(
+            WrongValue::OutOfRange { found, expected }
+            | WrongValue::NotAccepted { found, expected },
+        ) => (Some(found.clone()), expected.clone()),
+        Problem::Value(WrongValue::NoEffect { reason }) => (None, reason.clone()),
+        Problem::Unknown { value, hint } => (Some(value.clone()), hint.clone()),
+        other => (None, other.to_string()),
+    }
+}

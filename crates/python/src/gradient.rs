@@ -1,0 +1,103 @@
+//! Derivatives of measures, and of all that columns make of them.
+
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+use results::columns::{design_columns, measure_name, measure_of};
+use results::{Column, DesignRow, SlopeSide};
+use sweep::{Measure, Parameter, Role};
+
+use crate::error;
+use crate::skin::{Named, Skin, evaluator, unknown};
+use crate::solved::no_column;
+
+/// Step of the differences along rows that are extrapolated on straight lines: they have the rounding of a formula alone.
+const STEP: f64 = 1e-6;
+
+/// The derivatives where a parameter decreases and where it increases, and what changes between them.
+type Slopes = (Option<f64>, Option<f64>, Option<String>);
+
+/// The values of `measures`, and the derivatives of each by `keys`.
+pub fn gradients<'py>(
+    skin: &Bound<'py, Skin>,
+    measures: &[String],
+    keys: &[String],
+) -> PyResult<Bound<'py, PyList>> {
+    let (py, of) = (skin.py(), skin.get());
+    let named = keys.iter().map(|key| parameter(skin, key)).collect::<PyResult<Vec<_>>>()?;
+    let columns = design_columns(&of.sweep);
+    let column = |name: &String| {
+        let found = columns.iter().find(|column| column.name == *name);
+        found.ok_or_else(|| no_column(&columns, name))
+    };
+    let asked = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
+    // Only what the columns are made of is solved; a column of parameters alone needs nothing, and coverage costs nothing.
+    let mut needed: Vec<_> =
+        asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage)).collect();
+    needed.push(Measure::Sensitivity);
+    needed.sort();
+    needed.dedup();
+    let (evaluator, number, case) = (evaluator(&needed), of.sweep.grid().number(0), of.case);
+    let row = py.detach(|| evaluator.solve(number, &case).row);
+    let all = PyList::empty(py);
+    for column in asked {
+        all.append(gradient(py, column, &row, &named)?)?;
+    }
+    Ok(all)
+}
+
+/// The parameter of a key, which has to be continuous.
+fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<(&'static Parameter, f64)> {
+    let (py, case) = (skin.py(), &skin.get().case);
+    let named = Named::of(key).ok_or_else(|| unknown(py, key))?;
+    let is_smooth = |p: &Parameter| p.has(Role::Continuous) || p.has(Role::Made);
+    let parameter = Some(named.parameter).filter(|p| is_smooth(p) && p.size(case).is_some());
+    let expected = "a parameter that is given as a number and changes continuously";
+    parameter.zip(named.unit(case)).ok_or_else(|| error::invalid_parameter(py, key, None, expected))
+}
+
+/// The value of a column, and its derivatives.
+fn gradient(
+    py: Python<'_>,
+    column: &Column<DesignRow>,
+    row: &DesignRow,
+    by: &[(&'static Parameter, f64)],
+) -> PyResult<(f64, Vec<Slopes>)> {
+    let Some(value) = column.cell(row).number() else {
+        let of_measure =
+            |failure: &&results::Failure| Some(failure.measure) == measure_of(&column.name);
+        let failure = row.result.failures.iter().find(of_measure);
+        let reason = failure.map_or("the skin has no such value", |failure| failure.outcome.text());
+        return Err(error::failed(py, &column.name, reason));
+    };
+    let source = measure_name(&column.name);
+    let differentiated = row.result.sensitivity.iter().any(|d| d.measure == source);
+    if !differentiated && measure_of(source).is_some() {
+        let expected = "a measure that has derivatives";
+        return Err(error::invalid_parameter(py, &column.name, None, expected));
+    }
+    let slopes = |(parameter, unit): &(&'static Parameter, f64)| {
+        let (left, right, kink) = slopes(column, row, parameter);
+        (left.map(|slope| slope / unit), right.map(|slope| slope / unit), kink)
+    };
+    Ok((value, by.iter().map(slopes).collect()))
+}
+
+/// The derivatives of a column by a parameter.
+fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
+    let source = measure_name(&column.name);
+    let mut known = row.result.sensitivity.iter();
+    let known = known.find(|d| d.measure == source && d.parameter == parameter.key);
+    let kink = known.and_then(|derivative| derivative.kink.clone());
+    if column.name == source && measure_of(source).is_some() {
+        // Of what a measure does not depend on it has no derivative.
+        return known.map_or((Some(0.0), Some(0.0), None), |d| (d.left, d.right, kink));
+    }
+    let on = |side| {
+        let step = STEP * parameter.size(&row.case)?;
+        let at = |by| column.cell(&row.extrapolated_by(parameter, by, side)?).number();
+        Some((at(step)? - at(-step)?) / (2.0 * step))
+    };
+    // Away from a kink the sides differ by rounding alone.
+    let left = on(SlopeSide::Left);
+    (left, if kink.is_some() { on(SlopeSide::Right) } else { left }, kink)
+}

@@ -1,0 +1,65 @@
+//! The Python package squama: what needs the solver. The rest of the package is Python, in `squama/`.
+//!
+//! | Module | Role |
+//! |---|---|
+//! | `skin` | a skin, made from keywords or a definition, and solved |
+//! | `solved` | what solving gave, taken column by column |
+//! | `gradient` | values with their derivatives |
+//! | `many` | many skins on all cores |
+//! | `study` | runs, rankings, searches and tolerances in folders |
+//! | `work` | work that can be interrupted and tells how far it is |
+//! | `value`, `error` | values and errors between the two languages |
+
+mod error;
+mod gradient;
+mod many;
+mod skin;
+mod solved;
+mod study;
+mod value;
+mod work;
+
+use pyo3::prelude::*;
+use results::columns::design_columns;
+use sweep::{PARAMETERS, Parameter, Role, Sweep};
+
+/// Key, section, unit, meaning, values that it takes, and the default as text; geometry has none.
+type Explained = (&'static str, &'static str, &'static str, &'static str, String, Option<String>);
+
+/// Everything that the documentation of parameters is made from.
+#[pyfunction]
+fn parameters() -> Vec<Explained> {
+    let explained = |p: &'static Parameter| {
+        let is_given = !p.has(Role::Geometry) && p.is_given(&sweep::Case::default());
+        let default = is_given.then(|| p.default().to_toml());
+        (p.key, p.section, p.unit, p.meaning, p.expected(), default)
+    };
+    PARAMETERS.iter().map(explained).collect()
+}
+
+/// Everything that the documentation of results is made from: name, unit and meaning of every value, of skins with materials too.
+#[pyfunction]
+fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
+    let text = "name = 'x'\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1, membrane_modulus_MPa = 1, \
+                scale_density_kg_m3 = 1 }\npuncture.needle = 'guided'\nimperfection.gap_cv = 0.1";
+    let sweep = Sweep::parse(text, "x.toml", &[]);
+    let sweep = sweep.map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
+    let columns = design_columns(&sweep).into_iter().skip(1);
+    Ok(columns.map(|column| (column.name.into_owned(), column.unit, column.meaning)).collect())
+}
+
+#[pymodule]
+fn _squama(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<skin::Skin>()?;
+    module.add_class::<solved::Solved>()?;
+    module.add_function(wrap_pyfunction!(parameters, module)?)?;
+    module.add_function(wrap_pyfunction!(columns, module)?)?;
+    module.add_function(wrap_pyfunction!(many::solve_many, module)?)?;
+    module.add_function(wrap_pyfunction!(study::run, module)?)?;
+    module.add_function(wrap_pyfunction!(study::read, module)?)?;
+    module.add_function(wrap_pyfunction!(study::rank, module)?)?;
+    module.add_function(wrap_pyfunction!(study::optimise, module)?)?;
+    module.add_function(wrap_pyfunction!(study::tolerance, module)?)?;
+    Ok(())
+}

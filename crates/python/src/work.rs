@@ -1,0 +1,99 @@
+//! Work without the interpreter's lock: it can be interrupted, and tells how far it is.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread::{self, available_parallelism};
+use std::time::Duration;
+
+use optimisation::SearchMeter;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use run::{Progress, WorkMeter};
+
+/// How often a signal is looked for, and progress told.
+const PAUSE: Duration = Duration::from_millis(50);
+
+/// How long an interrupted call waits for the designs in hand. Longer, and Ctrl-C would seem to do nothing.
+const GRACE: Duration = Duration::from_millis(600);
+
+/// Work that is watched while it is done.
+#[derive(Debug, Default)]
+pub struct Watch {
+    /// Set once the work is to stop.
+    pub stop: AtomicBool,
+    /// Designs that are done.
+    pub done: AtomicUsize,
+    /// All designs.
+    pub all: AtomicUsize,
+    /// How far a run is.
+    pub run: WorkMeter,
+    /// How far a search is.
+    pub search: SearchMeter,
+}
+
+impl Watch {
+    /// Takes the progress of a run into account.
+    pub fn tell(&self, progress: Progress) {
+        match progress {
+            Progress::Begun { designs, done } => {
+                self.all.store(designs as usize, Ordering::Relaxed);
+                self.done.store(done as usize, Ordering::Relaxed);
+            }
+            Progress::Done { .. } => {
+                self.done.fetch_add(1, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// The part of the work that is done, and a few words about it.
+    fn progress(&self) -> (f64, String) {
+        let (part, done, tasks) = self.search.progress();
+        if tasks > 0 {
+            return (done as f64 / tasks as f64, part.words().to_owned());
+        }
+        let (done, all) = (self.done.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed));
+        let share =
+            if self.run.share() > 0.0 { self.run.share() } else { done as f64 / all.max(1) as f64 };
+        (share, format!("{done}/{all} designs"))
+    }
+}
+
+/// As many threads as are asked for, or one for each core.
+pub fn threads(asked: Option<usize>) -> usize {
+    asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).max(1)
+}
+
+/// Does `work` in a thread of its own, so that this one sees signals and tells `progress`.
+///
+/// After Ctrl-C the work is told to stop. What does not end soon, a single long design, ends by itself later, unseen.
+pub fn watched<T: Send + 'static>(
+    py: Python<'_>,
+    progress: Option<Bound<'_, PyAny>>,
+    work: impl FnOnce(&Watch) -> T + Send + 'static,
+) -> PyResult<T> {
+    let watch = Arc::<Watch>::default();
+    let (sender, mut receiver) = sync_channel(1);
+    let watched = Arc::clone(&watch);
+    thread::Builder::new().spawn(move || {
+        // Nobody listens any more to work that was interrupted.
+        let _ = sender.send(work(&watched));
+    })?;
+    loop {
+        let waiting = &mut receiver;
+        match py.detach(move || waiting.recv_timeout(PAUSE)) {
+            Ok(done) => return Ok(done),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(PyRuntimeError::new_err("squama is at fault; please report the call"));
+            }
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        let told =
+            progress.as_ref().map_or(Ok(()), |tell| tell.call1(watch.progress()).map(|_| ()));
+        if let Err(interrupted) = py.check_signals().and(told) {
+            watch.stop.store(true, Ordering::Relaxed);
+            let _ = py.detach(move || receiver.recv_timeout(GRACE));
+            return Err(interrupted);
+        }
+    }
+}
