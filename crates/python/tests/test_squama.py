@@ -84,6 +84,10 @@ def test_a_run_a_table_and_single_solutions_are_the_same(tmp_path):
                 assert values[name] == column[k] if values[name] is not None else column[k] is None or np.isnan(column[k])
     best = run.rank(require="coverage >= 0.1")
     assert best["rank"][0] == 1 and (best["coverage"] >= 0.1).all()
+    if "SQUAMA" in os.environ:
+        assert Path(run.report(tmp_path / "page.html")).read_text().startswith("<!")
+        with pytest.raises(squama.Failed, match="nowhere"):
+            run.report(tmp_path / "nowhere" / "page.html")
     assert run.units["critical_force"] == "E_s L t/(1-nu^2)" and run.units["slant_deg"] == "deg"
 
 
