@@ -354,15 +354,19 @@ impl<S: System> Path<S> {
     /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
     /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
     fn bends(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
-        let way = |index: usize| {
+        // In one pass: every step of every path asks for this, over all coordinates.
+        let mut products = [[0.0; 3]; 3];
+        for &index in &self.coordinates {
             let chord = candidate.state.z[index] - from.state.z[index];
-            [from.leaving[index], candidate.direction[index], chord]
-        };
-        let product = |a: usize, b: usize| -> f64 {
-            self.coordinates.iter().map(|&index| way(index)[a] * way(index)[b]).sum()
-        };
-        let lengths = [0, 1, 2].map(|k| product(k, k).sqrt());
-        let cosine = |a: usize, b: usize| product(a, b) / (lengths[a] * lengths[b]);
+            let ways = [from.leaving[index], candidate.direction[index], chord];
+            for (row, one) in products.iter_mut().zip(ways) {
+                for (product, other) in row.iter_mut().zip(ways) {
+                    *product += one * other;
+                }
+            }
+        }
+        let lengths = [0, 1, 2].map(|k| products[k][k].sqrt());
+        let cosine = |a: usize, b: usize| products[a][b] / (lengths[a] * lengths[b]);
         let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
         lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
