@@ -31,13 +31,19 @@ export const start = async ({ place, squama, chromium }) => {
   });
   const problems = [], requests = [];
 
-  /** Opens the page of a folder, with a state in its address. */
-  const open = async (folder, state = "") => {
+  /** Opens a file, and notes what goes wrong and what is asked for. */
+  const openFile = async (file, state = "") => {
     const page = await context.newPage();
     page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
     page.on("pageerror", (error) => problems.push(String(error)));
     page.on("request", (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
-    await page.goto(pathToFileURL(join(folder, "report.html")).href + state);
+    await page.goto(pathToFileURL(file).href + state);
+    return page;
+  };
+
+  /** Opens the page of a folder, with a state in its address. */
+  const open = async (folder, state = "") => {
+    const page = await openFile(join(folder, "report.html"), state);
     await ready(page);
     return page;
   };
@@ -53,7 +59,7 @@ export const start = async ({ place, squama, chromium }) => {
     await context.close();
     rmSync(profile, { recursive: true, force: true });
   };
-  return { open, run, stop, problems, requests };
+  return { open, openFile, run, stop, problems, requests };
 };
 
 /** Waits until a page has chosen a design, which is the last thing that it does. */

@@ -72,7 +72,7 @@ export default ({ page, text, texts, column, detail, detailIsWhole, run, place, 
       await page.keyboard.press("Enter");
       await page.locator("#drawing button").focus();
       await page.keyboard.press("Enter");
-      assert.ok(await page.locator("dialog[open] svg").isVisible());
+      await page.locator("dialog[open] svg").waitFor();
       await page.keyboard.press("Escape");
       assert.equal(await page.locator("dialog[open]").count(), 0);
     },

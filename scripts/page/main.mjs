@@ -6,6 +6,7 @@ import { start, table } from "./browser.mjs";
 import charts from "./charts.mjs";
 import choosing from "./choosing.mjs";
 import designs from "./designs.mjs";
+import explorer from "./explorer.mjs";
 import fronts from "./fronts.mjs";
 import randomTables from "./random-tables.mjs";
 import sweeps from "./sweeps.mjs";
@@ -15,7 +16,7 @@ const [place, squama, chromium] = process.argv.slice(2);
 const folder = (name) => join(place, name);
 const folders = { someFailed: folder("some-failed"), allFailed: folder("all-failed"), axes: folder("axes"), front: folder("front"), folded: folder("folded"), large: folder("large") };
 const results = folder("results");
-const { open, run, stop, problems, requests } = await start({ place, squama, chromium });
+const { open, openFile, run, stop, problems, requests } = await start({ place, squama, chromium });
 
 const page = await open(results);
 /** Texts of elements, without the sign of a folded design. */
@@ -39,17 +40,17 @@ const detailIsWhole = async () => {
   assert.match(await text("#detail-commands"), new RegExp(`squama design \\S+run\\.toml --design ${design}`));
 };
 
-const shared = { page, open, run, place, squama, results, folders, text, texts, column, detail, forget, detailIsWhole };
+const shared = { page, open, openFile, run, place, squama, results, folders, text, texts, column, detail, forget, detailIsWhole };
 const tests = {
   async "loads from a file and asks for nothing else"() {
     assert.match(await text("#title"), /54 designs/);
     assert.deepEqual(problems, []);
     assert.deepEqual(requests, [pathToFileURL(join(results, "report.html")).href]);
   },
-  ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...fronts(shared), ...window(shared), ...randomTables(shared),
+  ...explorer(shared), ...charts(shared), ...designs(shared), ...choosing(shared), ...sweeps(shared), ...fronts(shared), ...window(shared), ...randomTables(shared),
   async "nothing went wrong meanwhile, and nothing was asked for but the pages"() {
     assert.deepEqual(problems, []);
-    assert.ok(requests.every((url) => /^file:.*\/report\.html(#.*)?$/.test(url)), String(requests));
+    assert.ok(requests.every((url) => /^file:.*\/(report|explore)\.html(#.*)?$/.test(url)), String(requests));
   },
 };
 

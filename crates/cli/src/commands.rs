@@ -8,6 +8,7 @@ mod completions;
 mod derived;
 mod design;
 mod draw;
+mod explore;
 mod export;
 mod figure_file;
 mod init;
@@ -106,6 +107,8 @@ pub enum Command {
     Plot(plot::Arguments),
     /// Write one HTML page with the figures and designs of a sweep
     Report(report::Arguments),
+    /// Write one HTML page that solves the design under your hand, and open it
+    Explore(explore::Arguments),
     /// Write the tables of a run as one workbook for Excel and other spreadsheets
     Export(export::Arguments),
     /// Check a definition and show what would run
@@ -139,6 +142,7 @@ impl Command {
             Self::Draw(arguments) => draw::draw(&arguments),
             Self::Plot(arguments) => plot::plot(&arguments),
             Self::Report(arguments) => report::report(&arguments),
+            Self::Explore(arguments) => explore::explore(&arguments),
             Self::Export(arguments) => export::export(&arguments),
             Self::Check(arguments) => check::check(&arguments),
             Self::Calibrate(arguments) => calibrate::calibrate(&arguments),

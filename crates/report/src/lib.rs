@@ -13,6 +13,7 @@
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
 //! | [`Page`], [`PageDesign`] | figures, ranking, table and drawings on one HTML page |
+//! | [`Explorer`] | a page that solves the design under the hand: on top of the page of a sweep, or alone |
 //! | [`GapFactors`] | the factors by which a design moves where its gap comes out 10 % smaller or larger, for the page |
 //! | `png` | conversion of a drawing or figure to an image (feature `png`) |
 //! | [`export`] | the tables as one workbook for spreadsheets (feature `xlsx`) |
@@ -43,6 +44,7 @@ mod colors;
 mod curves;
 mod designs;
 pub mod drawings;
+mod explore;
 #[cfg(feature = "xlsx")]
 mod export;
 mod facts;
@@ -57,6 +59,7 @@ mod svg;
 
 pub use curves::{DesignCurves, curves};
 pub use designs::Designs;
+pub use explore::Explorer;
 #[cfg(feature = "xlsx")]
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;

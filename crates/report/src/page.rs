@@ -12,6 +12,7 @@ mod simplified;
 use sweep::visible;
 
 use crate::designs::Designs;
+use crate::explore::{self, Explorer};
 pub use front::PageFront;
 
 const PAGE: &str = include_str!("../assets/page/page.html");
@@ -54,6 +55,8 @@ pub type Fact = (String, String);
 /// The content of a page.
 #[derive(Clone, Debug, Default)]
 pub struct Page {
+    /// The solver, and what it starts from.
+    pub explorer: Option<Explorer>,
     /// The name of the sweep.
     pub name: String,
     /// The version of the program.
@@ -107,15 +110,20 @@ pub struct PageDesign {
 impl Page {
     /// Returns the page as HTML that needs no other file.
     pub fn html(&self) -> String {
-        let scripts: Vec<_> =
-            SCRIPTS.iter().map(|script| format!("<script>\n{script}</script>")).collect();
+        let (section, style, solving) =
+            self.explorer.as_ref().map_or_else(Default::default, |explorer| {
+                (explorer.section(), explore::STYLE, &explore::SCRIPTS[..])
+            });
+        let scripts =
+            SCRIPTS.iter().chain(solving).map(|script| format!("<script>\n{script}</script>"));
         // Neither `</script` nor `<!--` may end or bend the script that holds the data.
         let data = data::of(self).to_string().replace('<', "\\u003c");
         let parts = [
             ("{{title}}", escaped(&visible(&self.name))),
             ("{{version}}", escaped(&self.version)),
-            ("{{style}}", STYLES.concat()),
-            ("{{scripts}}", scripts.join("\n")),
+            ("{{style}}", STYLES.concat() + style),
+            ("{{explorer}}", section),
+            ("{{scripts}}", scripts.collect::<Vec<_>>().join("\n")),
             ("{{data}}", data),
         ];
         filled(PAGE, &parts)
@@ -123,7 +131,7 @@ impl Page {
 }
 
 /// Returns `template` with each place filled; text that is filled in is not searched again.
-fn filled(template: &str, parts: &[(&str, String)]) -> String {
+pub(crate) fn filled(template: &str, parts: &[(&str, String)]) -> String {
     let mut page = String::new();
     let mut rest = template;
     while let Some((start, place, text)) = first_place(rest, parts) {
@@ -143,7 +151,7 @@ fn first_place<'a>(
     found.min_by_key(|(start, ..)| *start)
 }
 
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     text.replace('"', "&quot;").replace('\'', "&#39;")
 }

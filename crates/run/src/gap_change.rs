@@ -13,6 +13,9 @@ use crate::solve::work::work_of;
 // Both ways: a cliff stands on one side of a design, and which is not known before.
 const PARTS: [f64; 2] = [0.9, 1.1];
 
+/// A measure that moves by this factor, or its inverse, where the gap moves by a tenth, stands at a cliff.
+const CLIFF: f64 = 1.5;
+
 /// The paths that a design may take, in puncture and bending: more would have people wait.
 const MOST_WORK: u64 = 500;
 
@@ -36,6 +39,17 @@ pub struct MeasureChange {
     pub value: f64,
     /// The measure with the smaller and with the larger gap; `None` where it has no value.
     pub changed: [Option<f64>; 2],
+}
+
+impl MeasureChange {
+    /// Whether the gap that comes out smaller, and the larger one, are beyond a cliff. A measure that is zero, or changes its sign,
+    /// has no factor and no cliff.
+    pub fn cliffs(&self) -> [bool; 2] {
+        self.changed.map(|changed| {
+            let ratio = changed.map_or(1.0, |changed| changed / self.value);
+            ratio.is_finite() && ratio > 0.0 && ratio.max(ratio.recip()) >= CLIFF
+        })
+    }
 }
 
 impl GapChange {

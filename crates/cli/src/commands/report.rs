@@ -7,9 +7,9 @@ use std::path::PathBuf;
 use clap::Args;
 use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
-use report::{GapFactors, Page, PageDesign, drawings};
-use results::Quantity;
+use report::{Explorer, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
+use results::{Quantity, shell_word};
 use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
 use sweep::Case;
@@ -94,6 +94,12 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let rankings = results.rankings()?;
     let grid = sweep.grid();
     Ok(Page {
+        explorer: Some(Explorer {
+            sweep: sweep.clone(),
+            file: shell_word(&results.folder.display().to_string()),
+            requirements: Vec::new(),
+            version: PROGRAM.version.to_owned(),
+        }),
         name: results.title(),
         version: PROGRAM.version.to_owned(),
         folder: results.folder.display().to_string(),

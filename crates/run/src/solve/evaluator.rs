@@ -202,7 +202,11 @@ impl Evaluator {
         self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }
 
-    fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
+    /// The substrate under a row of `case`.
+    ///
+    /// # Errors
+    /// If its springs cannot be found.
+    pub fn substrate(&self, case: &Case) -> Result<Arc<RowStiffness>, Outcome> {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }

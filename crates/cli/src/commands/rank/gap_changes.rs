@@ -9,8 +9,6 @@ use serde_json::{Value, json};
 
 use crate::print::aligned;
 
-/// A measure that moves by this factor, or its inverse, where the gap moves by a tenth, stands at a cliff.
-const CLIFF: f64 = 1.5;
 /// Changes by this factor, or its inverse, are told as factors.
 const LARGE: f64 = 2.0;
 
@@ -98,21 +96,18 @@ fn words(value: f64, changed: Option<f64>) -> String {
 
 /// A sentence for each measure of a design at a cliff.
 fn cliffs(change: &GapChange) -> Vec<String> {
-    let sentence = |measure: &MeasureChange, side: &str, changed: Option<f64>| {
-        let ratio = changed? / measure.value;
-        // A measure that is zero, or changes its sign, has no factor.
-        let is_cliff = ratio.is_finite() && ratio > 0.0 && ratio.max(ratio.recip()) >= CLIFF;
+    let sentence = |measure: &MeasureChange, side: usize| {
+        let moved = moved(measure.changed[side]? / measure.value);
         let (design, column) = (&change.design, &measure.column);
-        let moved = moved(ratio);
-        is_cliff.then(|| {
-            format!("  {design} is at a cliff: if its gap is 10 % {side}, {column} {moved}\n")
-        })
+        let side = ["smaller", "larger"][side];
+        Some(format!("  {design} is at a cliff: if its gap is 10 % {side}, {column} {moved}\n"))
     };
-    let both = |measure: &MeasureChange| {
-        let [smaller, larger] = measure.changed;
-        [sentence(measure, "smaller", smaller), sentence(measure, "larger", larger)]
+    let sides = |measure: &MeasureChange| {
+        let cliffs = measure.cliffs();
+        let sides = (0..2).filter(move |&side| cliffs[side]);
+        sides.filter_map(|side| sentence(measure, side)).collect::<Vec<_>>()
     };
-    change.measures.iter().flat_map(both).flatten().collect()
+    change.measures.iter().flat_map(sides).collect()
 }
 
 /// A sentence for each requirement that a design misses with another gap.

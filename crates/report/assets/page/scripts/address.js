@@ -23,7 +23,7 @@
     for (const [axis, value] of Object.entries(state.shown)) parts.set(`show.${axis}`, String(value));
     if (state.sort !== "design") parts.set("sort", state.sort);
     for (const key of ["design", "pinned"]) if (state[key] !== null) parts.set(key, squama.number(state[key]));
-    return parts.toString();
+    return [parts.toString(), squama.live?.written()].filter(Boolean).join("&");
   };
 
   const readCriteria = (parts, next) => {

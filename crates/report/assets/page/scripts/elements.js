@@ -31,16 +31,19 @@ squama.at = (id) => document.getElementById(id);
 squama.dropdown = (attributes, options, chosen) => squama.element("select", attributes,
   ...options.map(([value, text]) => squama.element("option", { value, selected: value === chosen }, text)));
 
-/** What makes an element choose a design, by click or by key. */
-squama.chooser = (row) => ({
+/** What makes an element do something, by click or by key. */
+squama.pressed = (act) => ({
   tabindex: 0,
-  onclick: () => squama.choose(row),
+  onclick: act,
   onkeydown: (event) => {
     if (event.key !== "Enter" && event.key !== " ") return;
     event.preventDefault();
-    squama.choose(row);
+    act();
   },
 });
+
+/** What makes an element choose a design. */
+squama.chooser = (row) => squama.pressed(() => squama.choose(row));
 
 /** The sign of a design whose surface folds; nothing for others. */
 squama.warning = (row) => (squama.folded(row)

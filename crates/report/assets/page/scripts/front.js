@@ -49,6 +49,6 @@
   const head = [isFront ? "front" : "", ...columns.map(squama.label), ...found.made, "held by, and what that costs"];
   squama.at("front-table").append(
     squama.element("thead", {}, squama.element("tr", {}, ...head.map((text) => squama.element("th", { scope: "col" }, text)))),
-    squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", {}, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))), ...found.made.map((name) => squama.element("td", {}, within(k, name))),
+    squama.element("tbody", {}, ...rows.map((k) => squama.element("tr", { "data-found": k, ...squama.pressed(() => squama.take(found.variables.map((name) => [name, cell(k, name)]))) }, squama.element("td", {}, String(k + 1)), ...columns.map((name) => squama.element("td", {}, value(k, name))), ...found.made.map((name) => squama.element("td", {}, within(k, name))),
       squama.element("td", { class: "words" }, cell(k, "binding") ?? "–", ...(cell(k, "prices") ? [squama.element("small", {}, ` (${cell(k, "prices")})`)] : []))))));
 })();

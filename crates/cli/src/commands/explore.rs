@@ -1,0 +1,91 @@
+//! `squama explore`.
+
+use std::io::IsTerminal as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use clap::Args;
+use optimisation::DesignGoal;
+use ranking::Requirement;
+use report::Explorer;
+use results::shell_word;
+use sweep::{Sweep, read_entries};
+
+use super::figure_file::write;
+use super::source::{Definition, definition_file, require_folder_of, settings};
+use super::{DONE, PROGRAM};
+use crate::print::{note, print};
+
+/// Arguments of `squama explore`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama explore sweeps/glove.toml
+  squama explore sweeps/glove.toml --require 'coverage >= 0.6' --require 'critical_force_N >= 2'
+  squama explore sweeps/goals/strong-and-covered.toml --out goal.html --no-open
+
+The page solves the design under your hand: drag a scale or a slider. It is one file that carries the
+solver; it needs no network and no server. Sliders go from the smallest to the largest value of the
+definition, and requirements are those of [goal], if there is one, and of --require.")]
+pub struct Arguments {
+    #[command(flatten)]
+    pub definition: Definition,
+
+    /// Requirement that the page watches, e.g. 'coverage >= 0.6' (may be repeated)
+    #[arg(long, value_name = "REQUIREMENT")]
+    pub require: Vec<Requirement>,
+
+    /// Page to write
+    #[arg(long, value_name = "FILE", default_value = "explore.html")]
+    pub out: PathBuf,
+
+    /// Do not open the page in a browser
+    #[arg(long)]
+    pub no_open: bool,
+}
+
+/// Writes a page that solves, and opens it.
+pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
+    let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
+    requirements.extend(arguments.require.iter().cloned());
+    require_folder_of("--out", &arguments.out)?;
+    let page = Explorer {
+        sweep,
+        file: shell_word(&arguments.definition.path.display().to_string()),
+        requirements: requirements.iter().map(ToString::to_string).collect(),
+        version: PROGRAM.version.to_owned(),
+    };
+    let folder = arguments.out.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+    let name = arguments.out.file_name().unwrap_or_default().to_string_lossy();
+    write(&folder, &name, page.html().as_bytes())?;
+    print(&format!("{}\n", arguments.out.display()))?;
+    // A script that writes pages shall open none.
+    let is_watched = std::io::stdout().is_terminal();
+    if is_watched && !arguments.no_open && !open(&arguments.out) {
+        note("no browser was found: open the page yourself");
+    }
+    Ok(DONE)
+}
+
+/// The sweep of a definition, and the requirements of its goal if it has one.
+fn sweep_and_goal(definition: &Definition) -> anyhow::Result<(Sweep, Vec<Requirement>)> {
+    let file = definition_file(&definition.path)?;
+    let settings = settings(&definition.settings)?;
+    if read_entries(&file, &settings)?.iter().any(|entry| entry.key == "goal") {
+        let goal = DesignGoal::read(&file, &settings)?;
+        return Ok((goal.space.sweep().clone(), goal.requirements));
+    }
+    Ok((Sweep::read(&file, &settings)?, Vec::new()))
+}
+
+/// Opens a page as the desktop does; whether there is a program for it.
+fn open(page: &Path) -> bool {
+    let program = match std::env::consts::OS {
+        "macos" => "open",
+        "windows" => "explorer",
+        _ => "xdg-open",
+    };
+    let mut command = Command::new(program);
+    command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().is_ok()
+}

@@ -1,0 +1,161 @@
+//! What a page gets.
+
+pub(crate) mod written;
+
+use ranking::Requirement;
+use results::columns::{Goal, plain_goal};
+use results::{Cell, Column, DesignRow, ParameterDerivative, Quantity};
+use serde::Serialize;
+use sweep::Case;
+
+use crate::follow::Followed;
+use crate::path::{BentStrip, PuncturedRow};
+
+/// A solved design.
+#[derive(Clone, Debug, Serialize)]
+pub struct Answer {
+    /// The number of the request.
+    pub id: u64,
+    /// Whether it is the answer for a hand that rests.
+    pub fine: bool,
+    /// The columns of `designs.csv` that have a value.
+    pub values: Vec<Value>,
+    /// The requirements, in their order.
+    pub requirements: Vec<Required>,
+    /// What stands in the way of trusting the numbers, in sentences.
+    pub warnings: Vec<String>,
+    /// A length of 1, a force of 1, a moment of 1 in mm, N and N mm, as far as the material tells.
+    pub units: Units,
+    /// The puncture, if it could begin.
+    pub puncture: Option<PuncturedRow>,
+    /// The bending, if it could begin.
+    pub flexure: Option<BentStrip>,
+    /// The derivatives of the measures, for a hand that rests.
+    pub slopes: Vec<Slope>,
+    /// The design of the sweep that is closest.
+    pub closest: Option<Closest>,
+    /// The options with which `squama design` solves this design of the definition.
+    pub settings: Vec<String>,
+    /// A definition of this design alone.
+    pub toml: String,
+    /// Where a walk along a parameter came to its end, if one was asked for.
+    pub follow: Option<Followed>,
+}
+
+/// A column of the design.
+#[derive(Clone, Debug, Serialize)]
+pub struct Value {
+    /// Name of the column.
+    pub name: String,
+    /// Unit, `-` if it has none.
+    pub unit: &'static str,
+    /// The meaning, in half a sentence.
+    pub meaning: &'static str,
+    /// The number, if it is one.
+    pub value: Option<f64>,
+    /// The text as tables have it.
+    pub text: String,
+}
+
+/// A requirement and how a design stands to it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Required {
+    /// The requirement, as in `coverage >= 0.6`.
+    pub text: String,
+    /// The value of its column, if there is one.
+    pub value: Option<f64>,
+    /// Whether the value keeps it; no value keeps none.
+    pub met: bool,
+    /// Whether it is the one that leaves the least room.
+    pub limits: bool,
+}
+
+/// A length of 1, a force of 1 and a moment of 1, in physical units.
+#[derive(Clone, Debug, Serialize)]
+pub struct Units {
+    /// mm.
+    pub length: Option<f64>,
+    /// N.
+    pub force: Option<f64>,
+    /// N mm.
+    pub moment: Option<f64>,
+}
+
+/// Which way a parameter is to go for a measure to become better.
+#[derive(Clone, Debug, Serialize)]
+pub struct Slope {
+    /// The measure, as its column.
+    pub measure: &'static str,
+    /// The key of the parameter.
+    pub parameter: &'static str,
+    /// 1 for larger, −1 for smaller, 0 where neither way is better.
+    pub better: i8,
+    /// Per cent of the measure for one per cent of the parameter that way.
+    pub gain: Option<f64>,
+    /// What changes at a kink, if there is one.
+    pub kink: Option<String>,
+}
+
+/// A design of the sweep.
+#[derive(Clone, Debug, Serialize)]
+pub struct Closest {
+    /// Its number.
+    pub design: String,
+    /// Its numbers on the axes, by their keys.
+    pub values: Vec<(&'static str, f64)>,
+}
+
+impl Value {
+    /// A cell with a value.
+    pub(crate) fn new(column: &Column<DesignRow>, cell: &Cell) -> Option<Self> {
+        let (name, text) = (column.name.clone().into_owned(), cell.to_string());
+        let value =
+            Self { name, unit: column.unit, meaning: column.meaning, value: cell.number(), text };
+        (*cell != Cell::Empty).then_some(value)
+    }
+
+    /// The number of a column.
+    pub(crate) fn number(values: &[Self], column: &str) -> Option<f64> {
+        values.iter().find(|value| value.name == column)?.value
+    }
+}
+
+impl Required {
+    pub(crate) fn all(requirements: &[Requirement], values: &[Value]) -> Vec<Self> {
+        let margins =
+            requirements.iter().map(|one| one.counted_margin(Value::number(values, &one.column)));
+        let least = margins.clone().fold(f64::INFINITY, f64::min);
+        let one = |(one, margin): (&Requirement, f64)| Self {
+            text: one.to_string(),
+            value: Value::number(values, &one.column),
+            met: margin >= 0.0,
+            limits: margin <= least,
+        };
+        requirements.iter().zip(margins).map(one).collect()
+    }
+}
+
+impl Units {
+    pub(crate) fn of(case: &Case) -> Self {
+        let [length, force, moment] = [Quantity::Length, Quantity::Force, Quantity::Moment]
+            .map(|quantity| quantity.physical(1.0, case));
+        Self { length, force, moment }
+    }
+}
+
+impl Slope {
+    pub(crate) fn new(derivative: &ParameterDerivative) -> Self {
+        let ParameterDerivative { measure, parameter, at, value, left, right, ref kink } =
+            *derivative;
+        let good = if plain_goal(measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
+        let [smaller, larger] = [left.map(|slope| -good * slope), right.map(|slope| good * slope)];
+        let gain = |side: Option<f64>| side.filter(|gain| *gain > 0.0).unwrap_or(0.0);
+        let (better, side) = match (gain(smaller), gain(larger)) {
+            (smaller, larger) if larger > smaller => (1, larger),
+            (0.0, _) => (0, 0.0),
+            (smaller, _) => (-1, smaller),
+        };
+        let gain = Some((side * at / value).abs()).filter(|gain| gain.is_finite());
+        Self { measure, parameter, better, gain, kink: kink.clone() }
+    }
+}

@@ -1,0 +1,74 @@
+//! A design in the words of commands and definitions.
+
+use sweep::{Axis, Case, PARAMETERS, Parameter, Scalar, Setting, Sweep};
+
+use super::Closest;
+
+/// The three axes that `squama design` has options for.
+const OPTIONS: [(&str, &str); 3] =
+    [("gap_over_t", "--gap"), ("length_over_t", "--length"), ("slant_deg", "--slant")];
+
+/// The options with which `squama design` solves `case`, where the definition alone has `base`.
+pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for (key, option) in OPTIONS {
+        let value = Parameter::named(key).map(|parameter| parameter.get(case));
+        words.extend(value.map(|value| format!("{option} {value}")));
+    }
+    let axes = sweep.grid().axes().iter().map(Axis::parameter);
+    let axes = axes.filter(|one| OPTIONS.iter().all(|(key, _)| one.key != *key));
+    words.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
+    words.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
+    words
+}
+
+/// The sweep of `case` alone.
+///
+/// # Errors
+/// If it is refused: with the text that commands have for it.
+pub(crate) fn alone(sweep: &Sweep, base: &Case, case: &Case) -> Result<Sweep, String> {
+    let settings: Result<Vec<_>, _> =
+        others(sweep, base, case).map(|text| Setting::parse(&text)).collect();
+    let settings = settings.map_err(|error| error.to_string())?;
+    let on_axes = sweep.at(case);
+    if settings.is_empty() {
+        return Ok(on_axes);
+    }
+    Sweep::parse(&on_axes.to_toml(), "definition", &settings).map_err(|error| error.to_string())
+}
+
+/// The settings of what is no axis and differs from the definition.
+fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = String> {
+    let differs = |one: &&Parameter| {
+        let is_axis =
+            sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
+        !is_axis && one.get(case) != one.get(base)
+    };
+    PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
+}
+
+/// The design of `sweep` whose value on every axis is closest to that of `case`; none of a definition of one design.
+pub(crate) fn closest(sweep: &Sweep, case: &Case) -> Option<Closest> {
+    let grid = sweep.grid();
+    let on_grid = grid
+        .axes()
+        .iter()
+        .fold(grid.case(0), |near, axis| axis.parameter().put(&near, nearest(axis, case)));
+    let index = grid.find(&on_grid).filter(|_| grid.len() > 1)?;
+    let value =
+        |axis: &Axis| Some((axis.parameter().key, axis.parameter().get(&on_grid).number()?));
+    Some(Closest {
+        design: grid.number(index).to_string(),
+        values: grid.axes().iter().filter_map(value).collect(),
+    })
+}
+
+fn nearest(axis: &Axis, case: &Case) -> Scalar {
+    let own = axis.parameter().get(case);
+    let distance = |value: &Scalar| match (value.number(), own.number()) {
+        (Some(one), Some(other)) => (one - other).abs(),
+        _ => f64::from(u8::from(*value != own)),
+    };
+    let values = (0..axis.len()).map(|index| axis.value(index));
+    values.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or(own)
+}

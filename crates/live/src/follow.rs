@@ -1,0 +1,104 @@
+//! A walk along one parameter for the sake of a measure, to where something ends it.
+
+use ranking::Requirement;
+use results::columns::{FOLD_FORCE, Goal, plain_goal};
+use run::Evaluator;
+use serde::Serialize;
+use sweep::{Case, Sweep};
+
+use crate::answer::{Required, Value};
+use crate::request::{Follow, Setting, put};
+use crate::solver::values;
+
+/// Steps of a walk over the whole way: what is narrower than one may be passed over, as under a hand.
+const STEPS: u32 = 24;
+/// Halvings of the step in which a walk ends: to a thousandth of the step, finer than a slider shows.
+const HALVINGS: u32 = 10;
+
+/// Where a walk ended.
+#[derive(Clone, Debug, Serialize)]
+pub struct Followed {
+    /// The key of the parameter.
+    pub key: String,
+    /// The last value before the limit.
+    pub value: f64,
+    /// What the limit is, in a few words.
+    pub reason: String,
+}
+
+/// What one look at a design says.
+struct Look {
+    /// The measure, negative where less is better.
+    worth: Option<f64>,
+    folds: bool,
+    required: Vec<Required>,
+}
+
+/// Walks from `case` for as long as the measure improves, what is required and was met stays met, and no fold begins.
+///
+/// # Errors
+/// If there is no such parameter, or a value on the way is refused.
+pub(crate) fn follow(
+    sweep: &Sweep,
+    case: &Case,
+    walk: &Follow,
+    requirements: &[Requirement],
+    evaluator: &Evaluator,
+) -> Result<Followed, String> {
+    let from =
+        sweep::Parameter::named(&walk.key).and_then(|parameter| parameter.get(case).number());
+    let from = from.ok_or_else(|| format!("{}: no number to follow", walk.key))?;
+    let look = |value: f64| -> Result<Look, String> {
+        let case = put(case, &walk.key, &Setting::Number(value))?;
+        let sweep = sweep.at(&case);
+        let values = values(&sweep, &evaluator.solve(sweep.grid().number(0), &case).row);
+        let sign = if plain_goal(&walk.measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
+        Ok(Look {
+            worth: Value::number(&values, &walk.measure).map(|value| sign * value),
+            folds: Value::number(&values, FOLD_FORCE).is_some(),
+            required: Required::all(requirements, &values),
+        })
+    };
+    let value_at = |share: f64| from + share * (walk.to - from);
+    let (mut good, mut share) = (look(from)?, 0.0);
+    let mut reason = None;
+    for _ in 0..STEPS {
+        let next = share + 1.0 / f64::from(STEPS);
+        let ahead = look(value_at(next))?;
+        reason = limit(&good, &ahead, walk);
+        if reason.is_some() {
+            break;
+        }
+        (good, share) = (ahead, next);
+    }
+    if reason.is_some() {
+        let mut beyond = share + 1.0 / f64::from(STEPS);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (share + beyond);
+            let ahead = look(value_at(middle))?;
+            match limit(&good, &ahead, walk) {
+                None => (good, share) = (ahead, middle),
+                limit => (reason, beyond) = (limit, middle),
+            }
+        }
+    }
+    let reason = reason.unwrap_or_else(|| "the end of the slider".to_owned());
+    Ok(Followed { key: walk.key.clone(), value: value_at(share), reason })
+}
+
+/// What ends a walk between two designs.
+fn limit(here: &Look, ahead: &Look, walk: &Follow) -> Option<String> {
+    let broken =
+        here.required.iter().zip(&ahead.required).find(|(here, ahead)| here.met && !ahead.met);
+    if let Some((broken, _)) = broken {
+        return Some(format!("{} limits", broken.text));
+    }
+    match (here.worth, ahead.worth) {
+        (Some(_), None) => Some("beyond, the path has no end".to_owned()),
+        _ if ahead.folds && !here.folds => Some("beyond, the surface folds over itself".to_owned()),
+        (Some(here), Some(ahead)) if ahead < here => {
+            Some(format!("{} is best here", walk.measure.replace('_', " ")))
+        }
+        _ => None,
+    }
+}

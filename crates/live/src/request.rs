@@ -1,0 +1,82 @@
+//! What a page asks for.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use sweep::toml_source::Value;
+use sweep::{Case, Measure, Parameter, number};
+
+/// A design that is to be solved.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Request {
+    /// A number that the answer repeats, so that a page knows which request it answers.
+    #[serde(default)]
+    pub id: u64,
+    /// The definition of a sweep, in TOML.
+    pub definition: String,
+    /// Parameters that differ from those of the first design of the sweep, by their keys.
+    #[serde(default)]
+    pub set: BTreeMap<String, Setting>,
+    /// Requirements, as in `coverage >= 0.6`.
+    #[serde(default)]
+    pub require: Vec<String>,
+    /// Whether the hand rests: then derivatives, smooth curves and the neighbouring gaps are solved for, too.
+    #[serde(default)]
+    pub fine: bool,
+    /// How far along its path the needle, and then bending, is to be drawn: 0 at rest, 1 at the end.
+    #[serde(default)]
+    pub drawn: Option<[f64; 2]>,
+    /// A parameter that is to be followed to the next limit.
+    #[serde(default)]
+    pub follow: Option<Follow>,
+}
+
+/// A value of a parameter.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// One of a few words.
+    Word(String),
+}
+
+/// A walk along one parameter.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Follow {
+    /// The key of the parameter.
+    pub key: String,
+    /// The value at which the walk ends if nothing ends it before.
+    pub to: f64,
+    /// The column that is to become better.
+    pub measure: String,
+}
+
+impl Request {
+    /// What is measured.
+    pub(crate) fn measures(&self) -> Vec<Measure> {
+        let all = [Measure::Coverage, Measure::Puncture, Measure::Flexure, Measure::Sensitivity];
+        all[..if self.fine { 4 } else { 3 }].to_vec()
+    }
+
+    /// `case` with the parameters that are set.
+    ///
+    /// # Errors
+    /// If there is no such parameter, or a value is refused: with the text that commands have for it.
+    pub(crate) fn case(&self, case: &Case) -> Result<Case, String> {
+        self.set.iter().try_fold(*case, |case, (key, value)| put(&case, key, value))
+    }
+}
+
+/// `case` with another value of the parameter `key`.
+pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, String> {
+    let parameter = Parameter::named(key).ok_or_else(|| format!("{key}: no such parameter"))?;
+    let written = match value {
+        Setting::Number(value) => Value::Number(number::text(*value)),
+        Setting::Word(word) => Value::Text(word.clone()),
+    };
+    let value = parameter.read(&written).map_err(|error| format!("{key}: {error}"))?;
+    Ok(parameter.put(case, value))
+}

@@ -1,0 +1,143 @@
+//! How a request is solved.
+
+use ranking::Requirement;
+use results::DesignRow;
+use results::columns::design_columns;
+use run::{Evaluator, GapChange};
+use skin::Imperfection;
+use skin::flexure::{self, Flexure};
+use skin::puncture::{self, At};
+use sweep::{Case, Measure, Sweep};
+
+use crate::answer::{Answer, Required, Slope, Units, Value, written};
+use crate::follow::follow;
+use crate::path::{BentStrip, PuncturedRow};
+use crate::request::Request;
+use crate::warnings::warnings;
+
+/// Largest step along the curves of a hand that rests, as a fraction of the path: close enough for a line.
+const CURVE_STEP: f64 = 0.02;
+
+/// Answers requests one after the other.
+#[derive(Debug, Default)]
+pub struct Solver {
+    /// The definition of the last request.
+    sweep: Option<(String, Sweep)>,
+    /// What has been measured so far, each with its calibrations: a hand that comes back finds them.
+    evaluators: Vec<(Vec<Measure>, Evaluator)>,
+}
+
+impl Solver {
+    /// The answer to `request`, both JSON. What is wrong with a request is an answer, too: `{"id": …, "error": "…"}`.
+    pub fn answer(&mut self, request: &str) -> String {
+        let request = match serde_json::from_str::<Request>(request) {
+            Ok(request) => request,
+            Err(error) => {
+                return serde_json::json!({ "error": format!("the request: {error}") }).to_string();
+            }
+        };
+        let answer = self.solve(&request);
+        let refused = |error| serde_json::json!({ "id": request.id, "error": error }).to_string();
+        answer.map_or_else(refused, |answer| serde_json::to_string(&answer).unwrap_or_default())
+    }
+
+    /// Solves the design of a request.
+    ///
+    /// # Errors
+    /// If the definition, a parameter or a requirement is refused: with the text that commands have for it.
+    pub fn solve(&mut self, request: &Request) -> Result<Answer, String> {
+        let sweep = self.sweep(&request.definition)?;
+        // Samples of imperfect rows take hundreds of times as long as the design that is under the hand.
+        let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
+        let case = request.case(&base)?;
+        let own = written::alone(&sweep, &base, &case)?;
+        let requirements = request.require.iter().map(|text| text.parse());
+        let requirements: Vec<Requirement> = requirements
+            .collect::<Result<_, ranking::InvalidRequirement>>()
+            .map_err(|error| error.to_string())?;
+        let evaluator = self.evaluator(request.measures());
+        let solved = evaluator.solve(own.grid().number(0), &case);
+        let drawn = request.drawn.unwrap_or_default();
+        let mut smooth = case;
+        if request.fine {
+            smooth.common.solver.max_step = case.common.solver.max_step.min(CURVE_STEP);
+        }
+        let puncture = solved.puncture.as_ref().and_then(|path| {
+            let substrate = evaluator.substrate(&case).ok()?;
+            let solve = |at: &[At]| {
+                puncture::snapshots(
+                    &smooth.design,
+                    &*substrate,
+                    &smooth.common,
+                    &smooth.puncture,
+                    at,
+                )
+            };
+            PuncturedRow::new(&case, path, drawn[0], solve)
+        });
+        let flexure =
+            solved.flexure.as_ref().map(|path| bent(&smooth, request.fine, path, drawn[1]));
+        let row = &solved.row;
+        let values = values(&own, row);
+        let change = request.fine.then(|| {
+            GapChange::of(&own, &row.number.to_string(), &["critical_force", "compliance"])
+        });
+        let walk =
+            request.follow.as_ref().map(|walk| follow(&own, &case, walk, &requirements, evaluator));
+        Ok(Answer {
+            id: request.id,
+            fine: request.fine,
+            requirements: Required::all(&requirements, &values),
+            warnings: warnings(row, &values, change.flatten().as_ref()),
+            values,
+            units: Units::of(&case),
+            puncture,
+            flexure,
+            slopes: row.result.sensitivity.iter().map(Slope::new).collect(),
+            closest: written::closest(&sweep, &case),
+            settings: written::settings(&sweep, &base, &case),
+            toml: own.to_toml(),
+            follow: walk.transpose()?,
+        })
+    }
+
+    /// The sweep that `definition` defines.
+    fn sweep(&mut self, definition: &str) -> Result<Sweep, String> {
+        if let Some((text, sweep)) = &self.sweep
+            && text == definition
+        {
+            return Ok(sweep.clone());
+        }
+        let sweep =
+            Sweep::parse(definition, "definition", &[]).map_err(|error| error.to_string())?;
+        self.sweep = Some((definition.to_owned(), sweep.clone()));
+        Ok(sweep)
+    }
+
+    fn evaluator(&mut self, measures: Vec<Measure>) -> &Evaluator {
+        let known = self.evaluators.iter().position(|(others, _)| *others == measures);
+        let place = known.unwrap_or_else(|| {
+            let evaluator = Evaluator::new(&measures);
+            self.evaluators.push((measures, evaluator));
+            self.evaluators.len() - 1
+        });
+        &self.evaluators[place].1
+    }
+}
+
+/// The strip of a case, on a curve of small steps if it `is_fine`.
+fn bent(case: &Case, is_fine: bool, path: &Flexure, drawn: f64) -> BentStrip {
+    let Case { design, common, flexure: parameters, .. } = case;
+    let fine = is_fine.then(|| flexure::solve(design, common, parameters).ok()).flatten();
+    BentStrip::new(case, fine.as_ref().unwrap_or(path), drawn, |rotation| {
+        flexure::snapshots(design, common, parameters, &[rotation]).ok()?.pop()?
+    })
+}
+
+/// The columns of the tables of a design that have a value.
+pub(crate) fn values(sweep: &Sweep, row: &DesignRow) -> Vec<Value> {
+    design_columns(sweep)
+        .iter()
+        .filter_map(|column| Value::new(column, &column.cell(row)))
+        .collect()
+}

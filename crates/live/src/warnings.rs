@@ -1,0 +1,57 @@
+//! What stands in the way of trusting the numbers of a design, in sentences.
+
+use results::columns::FOLD_FORCE;
+use results::{DesignRow, Outcome};
+use run::GapChange;
+
+use crate::answer::Value;
+
+/// Strain of the membrane beyond which its law of small strains does not hold.
+const LARGE_STRAIN: f64 = 0.2;
+
+pub(crate) fn warnings(
+    row: &DesignRow,
+    values: &[Value],
+    change: Option<&GapChange>,
+) -> Vec<String> {
+    let number = |column: &str| Value::number(values, column);
+    let mut sentences = Vec::new();
+    let ends = [
+        ("needle", row.result.puncture.as_ref().map(|p| p.outcome)),
+        ("bending", row.result.flexure.as_ref().map(|f| f.outcome)),
+    ];
+    for (load, outcome) in ends {
+        if let Some(outcome) = outcome.filter(|outcome| *outcome != Outcome::Complete) {
+            sentences.push(format!("The path of the {load} ends early: {outcome}."));
+        }
+    }
+    if let (Some(fold), Some(force)) = (number(FOLD_FORCE), number("critical_force")) {
+        let share = 100.0 * fold / force;
+        sentences.push(format!("From {share:.0} % of the critical force on, the soft surface folds over itself, which no real material can do: do not trust the numbers beyond."));
+    }
+    if number("membrane_strain_max").is_some_and(|strain| strain > LARGE_STRAIN) {
+        sentences.push("The membrane is stretched by more than 20 %, where its law of small strains does not hold.".to_owned());
+    }
+    if let Some(tilt) = number("passing_tilt_deg") {
+        sentences.push(format!(
+            "The needle slips off its scale at a tilt of {tilt:.1}° and goes on to the next."
+        ));
+    }
+    sentences.extend(change.into_iter().flat_map(cliffs));
+    sentences
+}
+
+/// A sentence for each measure that changes by half where the gap changes by a tenth.
+fn cliffs(change: &GapChange) -> impl Iterator<Item = String> {
+    change.measures.iter().filter(|measure| measure.cliffs().contains(&true)).map(|measure| {
+        let [smaller, larger] = measure.changed.map(|changed| {
+            changed.map_or("without a value".to_owned(), |changed| {
+                format!("{:.2} times as large", changed / measure.value)
+            })
+        });
+        format!(
+            "A cliff is near: with a gap 10 % smaller or larger, the {} is {smaller} or {larger}.",
+            measure.column.replace('_', " ")
+        )
+    })
+}

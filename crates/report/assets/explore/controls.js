@@ -1,0 +1,82 @@
+"use strict";
+// Sliders: one for each parameter, with a field to type in and an arrow that says which way is better.
+
+(() => {
+  const { element, at, live } = squama;
+
+  const choice = (control) => {
+    const chosen = element("select", { id: `live-set-${control.key}`, onchange: () => live.set({ [control.key]: chosen.value }) },
+      ...control.words.map((word) => element("option", { value: word }, word)));
+    control.show = () => { chosen.value = control.value; };
+    return element("div", { class: "control" }, element("label", { for: `live-set-${control.key}` }, control.label), chosen);
+  };
+
+  /** Reads a typed number, with a decimal comma too; null if it is none or out of range. */
+  const typed = (control, text) => {
+    const number = Number(text.trim().replace(",", ".").replace(/\s*(mm|MPa|t|°)$/, "")) / live.shownAs(control)[0];
+    const slack = 1e-9 * (control.max - control.min);
+    return text.trim() !== "" && number >= control.min - slack && number <= control.max + slack ? number : null;
+  };
+
+  const slider = (control) => {
+    const range = element("input", { type: "range", id: `live-set-${control.key}`, min: control.min, max: control.max, step: control.step,
+      oninput: () => live.set({ [control.key]: Number(range.value) }) });
+    const field = element("input", { type: "text", inputmode: "decimal", "aria-label": `${control.label}, type a value`,
+      onchange: () => {
+        const number = typed(control, field.value);
+        field.setAttribute("aria-invalid", String(number === null));
+        const [factor, unit] = live.shownAs(control);
+        field.title = number === null ? `a number from ${live.digits(control.min * factor)} to ${live.digits(control.max * factor)} ${unit}` : "";
+        if (number !== null) live.set({ [control.key]: number });
+      } });
+    const unit = element("span", { class: "unit" });
+    control.arrow = element("button", { type: "button", class: "arrow", onclick: () => live.follow(control.key, control.better > 0) });
+    control.show = () => {
+      const [factor, name] = live.shownAs(control);
+      // The step of a slider would round what was typed or dragged.
+      range.step = "any";
+      range.value = control.value;
+      range.setAttribute("aria-valuetext", live.text(control.key));
+      if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {
+        field.value = live.digits(control.value * factor);
+        field.setAttribute("aria-invalid", "false");
+      }
+      unit.textContent = name;
+    };
+    range.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      live.set({ [control.key]: control.value + step * control.step });
+    });
+    return element("div", { class: "control" }, element("label", { for: range.id }, control.label), range, field, unit, control.arrow);
+  };
+
+  const showArrow = (control) => {
+    if (!control.arrow) return;
+    const measure = live.data.measures.find(({ name }) => name === live.chosen);
+    const slope = live.answer?.slopes.find((one) => one.parameter === control.key && one.measure === live.chosen);
+    control.better = slope?.better ?? 0;
+    const way = { 1: "larger", [-1]: "smaller", 0: "neither way" }[control.better];
+    const words = slope ? `${measure.label} is better for ${control.better === 0 ? `${way}: ${control.label} is best here` : `${way} ${control.label.toLowerCase()}`}` : "";
+    control.arrow.style.visibility = slope ? "visible" : "hidden";
+    control.arrow.disabled = control.better === 0;
+    control.arrow.textContent = { 1: "▶", [-1]: "◀", 0: "●" }[control.better];
+    control.arrow.title = words + (slope?.gain ? ` (${live.digits(slope.gain, 2)} % for each per cent). Press to go on until something limits it.` : "");
+    control.arrow.setAttribute("aria-label", words);
+  };
+
+  let listed = "";
+  /** Shows the controls that act, and makes their list anew where others do. */
+  const show = () => {
+    const acting = live.controls(), keys = acting.map(({ key }) => key).join();
+    if (keys !== listed) {
+      listed = keys;
+      at("live-controls").replaceChildren(...acting.map((control) => (control.words ? choice : slider)(control)));
+      acting.forEach(showArrow);
+    }
+    acting.forEach((control) => control.show());
+  };
+  live.listen("moved", show);
+  live.listen("answered", () => live.controls().forEach(showArrow));
+})();

@@ -1,0 +1,44 @@
+"use strict";
+// Force over depth and moment over curvature, each with a mark that a hand or a key moves along the path.
+
+(() => {
+  const { svg, at, live } = squama;
+  const [WIDE, HIGH, LEFT, BOTTOM, TOP, RIGHT] = [400, 190, 70, 36, 14, 14];
+
+  const LOADS = [
+    { id: "force", path: "puncture", names: (units) => [units.length ? "depth (mm)" : "depth u/t", units.force ? "force (N)" : "force F*"], factors: (units) => [units.length ?? 1, units.force ?? 1] },
+    { id: "moment", path: "flexure", names: (units) => [units.length ? "curvature (1/mm)" : "curvature κt", units.moment ? "moment (N mm)" : "moment M*"], factors: (units) => [1 / (units.length ?? 1), units.moment ?? 1] },
+  ];
+
+  const draw = ({ id, path, names, factors }, load) => {
+    const own = live.answer?.[path], before = live.pinned?.answer?.[path], units = live.answer?.units ?? {};
+    const lines = [own, before].map((one) => one?.path ?? []), all = lines.flat();
+    const [low, high] = [[0, 1].map((k) => Math.min(0, ...all.map((point) => point[k]))), [0, 1].map((k) => Math.max(1e-12, ...all.map((point) => point[k])))];
+    const spot = ([x, y]) => [LEFT + ((WIDE - LEFT - RIGHT) * (x - low[0])) / (high[0] - low[0]), HIGH - BOTTOM - ((HIGH - BOTTOM - TOP) * (y - low[1])) / (high[1] - low[1])];
+    const line = (points, kind) => svg("polyline", { points: points.map((point) => spot(point).map((c) => c.toFixed(1)).join(",")).join(" "), class: kind });
+    const cross = (point) => svg("path", { d: `M${spot(point).join(" ")} m-3 -3 l6 6 m0 -6 l-6 6`, class: "event" }, svg("title", {}, "A contact closes, opens or passes a corner"));
+    const ring = ([cx, cy], r, kind) => svg("circle", { cx, cy, r, class: kind });
+    const words = names(units), [x, y] = factors(units);
+    const word = (left, top, anchor, text) => svg("text", { x: left, y: top, "text-anchor": anchor }, text);
+    at(`live-${id}`).replaceChildren(svg("path", { d: `M${LEFT} ${TOP} V${HIGH - BOTTOM} H${WIDE - RIGHT}`, class: "axis" }),
+      word((WIDE + LEFT) / 2, HIGH - 8, "middle", words[0]), word(LEFT + 8, TOP + 6, "start", words[1]),
+      word(WIDE - RIGHT, HIGH - BOTTOM + 16, "end", live.digits(high[0] * x, 3)), word(LEFT - 5, TOP + 6, "end", live.digits(high[1] * y, 3)), word(LEFT - 5, HIGH - BOTTOM, "end", "0"),
+      line(lines[1], "curve pinned"), line(lines[0], "curve"), ...(own?.events ?? []).map(cross), ...(own?.fold ? [ring(spot(own.fold), 7, "fold")] : []),
+      ...(own ? [ring(spot(own.at ?? [0, 0]), 9, "marker")] : []));
+    at(`live-${id}`).onpointerdown = at(`live-${id}`).onpointermove = (event) => {
+      if (event.buttons !== 1 || !own?.path.length) return;
+      const bounds = at(`live-${id}`).getBoundingClientRect(), ratio = WIDE / bounds.width;
+      const far = (point) => Math.hypot(spot(point)[0] - ratio * (event.clientX - bounds.left), spot(point)[1] - ratio * (event.clientY - bounds.top));
+      live.draw(load, own.path.reduce((best, point) => (far(point) < far(best) ? point : best))[2]);
+    };
+    const slider = at(`live-${id}-share`);
+    slider.value = live.drawn[load];
+    slider.setAttribute("aria-valuetext", at(load === 0 ? "live-needle-words" : "live-bent-words").textContent);
+  };
+
+  LOADS.forEach(({ id }, load) => {
+    at(`live-${id}`).setAttribute("viewBox", `0 0 ${WIDE} ${HIGH}`);
+    at(`live-${id}-share`).addEventListener("input", (event) => live.draw(load, Number(event.target.value)));
+  });
+  live.listen("answered", () => LOADS.forEach(draw));
+})();

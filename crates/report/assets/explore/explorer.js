@@ -1,0 +1,76 @@
+"use strict";
+// What the buttons do, and what is shown first.
+
+(() => {
+  const { at, live } = squama;
+  const told = (button, text) => {
+    const before = button.dataset.text ?? button.textContent;
+    Object.assign(button.dataset, { text: before });
+    button.textContent = text;
+    setTimeout(() => { button.textContent = before; }, 1500);
+  };
+  const copies = (id, text) => at(id).addEventListener("click", async () => {
+    try { await navigator.clipboard.writeText(text()); told(at(id), "Copied"); }
+    catch { prompt("Copy this", text()); }
+  });
+  const command = () => `squama design ${live.data.file} ${(live.answer?.settings ?? []).join(" ")}`;
+  copies("live-link", () => `${location.href.split("#")[0]}#${squama.written?.() ?? live.written()}`);
+  copies("live-copy-command", command);
+  copies("live-copy-toml", () => live.answer?.toml ?? "");
+  at("live-print").addEventListener("click", () => print());
+  at("live-pin").addEventListener("click", live.pin);
+  at("live-back").addEventListener("click", () => live.set(live.pinned.values));
+  at("live-sheet").addEventListener("click", () => {
+    const open = at("live-sheet").getAttribute("aria-expanded") !== "true";
+    at("live-sheet").setAttribute("aria-expanded", String(open));
+  });
+
+  /** Puts a design under the hand, by the keys and values of its parameters. */
+  squama.take = (pairs) => live.set(Object.fromEntries(pairs.filter(([, value]) => value !== null)));
+  const chosen = () => {
+    squama.take(live.controls().map(({ key }) => [key, squama.cell(squama.state.design, key)]));
+    live.moved = false;
+  };
+  at("live-closest").addEventListener("click", () => {
+    const { closest } = live.answer, row = squama.rowOf?.(closest.design) ?? null;
+    if (row === null) squama.take(closest.values);
+    else squama.choose(row);
+  });
+
+  live.listen("answered", () => {
+    const { closest } = live.answer ?? {};
+    at("live-closest").hidden = !closest;
+    if (closest) at("live-closest").textContent = `Closest of the sweep: ${closest.design}`;
+    at("live-pin").setAttribute("aria-pressed", String(Boolean(live.pinned)));
+    at("live-pin").textContent = live.pinned ? "Unpin" : "Pin to compare";
+    at("live-back").hidden = !live.pinned;
+    at("live-command").textContent = command();
+    at("live").classList.remove("waiting");
+  });
+
+  /** On the page of a run: the best designs for what is required, and a design that is chosen comes under the hand. */
+  const joinPage = () => {
+    squama.listen("design", chosen);
+    squama.listen("selection", () => {
+      const best = squama.ranking.order(squama.contest, squama.weights(), 3).map(({ row }) => row);
+      at("live-best").replaceChildren(best.length > 0 ? "Best for what is required: " : "No design meets what is required.",
+        ...best.map((row) => squama.element("button", { type: "button", onclick: () => squama.choose(row) }, ...squama.warning(row), squama.title(row))));
+      live.solve();
+    });
+    squama.refresh();
+  };
+
+  addEventListener("hashchange", () => {
+    if (!location.hash.includes("live.")) return;
+    live.read(location.hash.slice(1));
+    live.set({});
+  });
+  const asked = location.hash.slice(1);
+  if (squama.state) joinPage();
+  if (squama.state && squama.state.design !== null) chosen();
+  live.read(asked);
+  live.show();
+  live.set({});
+  live.moved = asked.includes("live.");
+  squama.solver.begin(live.take);
+})();

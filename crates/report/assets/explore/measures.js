@@ -1,0 +1,42 @@
+"use strict";
+// What the skin does: its measures, what is required of it, and what stands in the way of trusting the numbers.
+
+(() => {
+  const { element, at, live } = squama;
+  const named = (answer, name) => answer?.values.find((value) => value.name === name);
+  /** A measure in physical units where the material tells, else as it is. */
+  const shown = (answer, { name, physical }) => named(answer, physical) ?? named(answer, name);
+  // Units of dimensionless values say what they are relative to, in symbols that only theory.md explains.
+  const unitOf = (value) => (/^(N|mm)/.test(value.unit) ? value.unit : "");
+
+  const compared = (value, measure) => {
+    const before = live.pinned ? shown(live.pinned.answer, measure)?.value : null;
+    if (!before || !value) return "";
+    const change = 100 * (value.value / before - 1);
+    return `${change < 0 ? "−" : "+"}${Math.abs(change).toFixed(Math.abs(change) < 10 ? 1 : 0)} % against the pinned`;
+  };
+
+  const card = (measure) => {
+    const value = shown(live.answer, measure), pressed = live.chosen === measure.name;
+    return element("button", { type: "button", class: "card", "data-measure": measure.name, "aria-pressed": String(pressed), title: value?.meaning ?? measure.label,
+      onclick: () => { live.chosen = measure.name; live.show(); at("live-cards").querySelector('[aria-pressed="true"]').focus(); } },
+    element("span", { class: "name" }, measure.label), element("span", { class: "value" }, value ? live.digits(value.value) : "–", element("small", {}, ` ${value ? unitOf(value) : ""}`)),
+    element("span", { class: "other" }, compared(value, measure) || measure.words));
+  };
+
+  /** `critical_force_N >= 2` as people write it. */
+  const inWords = (text) => text.replace(/(?:_(N|mm|deg))? (>=|<=|==|>|<) (\S+)$/, (_, unit, sign, limit) =>
+    ` ${{ ">=": "≥", "<=": "≤", "==": "=" }[sign] ?? sign} ${limit}${unit ? ` ${unit}` : ""}`).replaceAll("_", " ");
+
+  const requirement = ({ text, value, met, limits }) => element("li", { class: met ? "met" : "unmet" },
+    `${met ? "✓" : "✗"} ${inWords(text)}, here ${live.digits(value, 3)}${limits ? (met ? " (the tightest)" : " (stands in the way)") : ""}`);
+
+  live.listen("answered", () => {
+    const { answer } = live;
+    at("live-cards").replaceChildren(...live.data.measures.map(card));
+    const said = [...(live.error ? [live.error] : []), ...(answer?.warnings ?? [])];
+    at("live-warnings").replaceChildren(...said.map((text) => element("p", { class: "doubt" }, `⚠ ${text}`)));
+    at("live-required").replaceChildren(...(answer?.requirements ?? []).map(requirement));
+    at("live-said").textContent = live.said || `Arrows show which way ${live.data.measures.find(({ name }) => name === live.chosen).label.toLowerCase()} gets better; press one to go there.`;
+  });
+})();

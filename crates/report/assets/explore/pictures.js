@@ -1,0 +1,126 @@
+"use strict";
+// The skin to scale: at rest with the handles that a hand may drag, under the needle, and bent.
+
+(() => {
+  const { svg, at, live } = squama;
+  const radians = (degrees) => (degrees * Math.PI) / 180;
+  let grabbed = null;
+
+  /** Half the base, the gap, the shift of the top and the pitch, over the thickness. */
+  const form = (values) => {
+    const half = values.length_over_t / (live.data.base === "2L" ? 1 : 2), gap = values.gap_over_t;
+    return { half, gap, shift: Math.tan(radians(values.slant_deg)), pitch: 2 * half + gap };
+  };
+  const now = () => form({ length_over_t: live.value("length_over_t"), gap_over_t: live.value("gap_over_t"), slant_deg: live.value("slant_deg") });
+
+  const place = (view, [x, y]) => [view.left + view.scale * x, view.base - view.scale * y];
+  const points = (view, line) => line.map((point) => place(view, point).map((c) => c.toFixed(1)).join(",")).join(" ");
+  /** The outline of a scale that stands at x, y and has turned. */
+  const outline = ({ half, shift }, [x, y, turn]) => {
+    const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    return [[-half, 0], [half, 0], [half + shift, 1], [-half + shift, 1]].map(([u, v]) => [x + u * cos - v * sin, y + u * sin + v * cos]);
+  };
+  const box = (id) => {
+    const { width, height } = at(id).getBoundingClientRect();
+    at(id).setAttribute("viewBox", `0 0 ${width} ${height}`);
+    return { width, height };
+  };
+  const soil = (view, { width, height }) => svg("rect", { x: 0, y: view.base, width, height: Math.max(0, height - view.base), fill: "var(--soil)" });
+  const row = (view, own, poses, kind) => poses.map(({ number, pose }) =>
+    svg("polygon", { points: points(view, outline(own, pose)), class: `scale ${kind ?? (number === 0 ? "punctured" : "")}` }));
+  const dots = (view, contacts) => contacts.map((contact) => {
+    const [cx, cy] = place(view, contact);
+    return svg("circle", { cx, cy, r: 4, class: "contact" });
+  });
+  /** The scales that a picture of that width shows, at rest but for those that have `moved`. */
+  const poses = (own, view, width, moved = new Map()) => {
+    const [first, last] = [-view.left / view.scale - own.half - own.shift, (width - view.left) / view.scale + own.half].map((x) => x / own.pitch);
+    return Array.from({ length: Math.min(400, Math.floor(last) - Math.ceil(first) + 1) }, (_, k) => k + Math.ceil(first)).map((number) => {
+      const [x, y, turn] = moved.get(number) ?? [0, 0, 0];
+      return { number, pose: [number * own.pitch + x, y, radians(turn)] };
+    });
+  };
+  /** A row of about five scales, as large as there is room. */
+  const fitted = (own, { width, height }, most) => {
+    const scale = Math.min(width / Math.max(3.4, 4.5 * own.pitch + own.shift), height / 1.9, most);
+    return { scale, left: width / 2 - scale * own.shift / 2, base: 0.72 * height };
+  };
+
+  /** What a hand may drag: where it stands, and what it makes of the place to which it is dragged. */
+  const handles = (own, scale) => {
+    // The foot of a scale that is far enough from the first one for two fingers.
+    const far = Math.max(1, Math.ceil(130 / (scale * own.pitch)));
+    return [
+      { id: "slant", key: "slant_deg", spot: [own.half + own.shift, 1], above: true,
+        drag: ([x], { half }) => Math.atan(Math.max(0, x - half)) / radians(1) },
+      { id: "length", key: "length_over_t", spot: [-own.half, 0],
+        drag: ([x]) => Math.max(0, -x) * (live.data.base === "2L" ? 1 : 2) },
+      { id: "gap", key: "gap_over_t", spot: [far * own.pitch - own.half, 0],
+        drag: ([x], { half }) => (x + half) / far - 2 * half },
+    ];
+  };
+  const handle = (view, width, { id, key, spot, above, drag }) => {
+    const control = live.control(key), [x, y] = place(view, spot);
+    return svg("g", {
+      class: "handle", id: `live-handle-${id}`, tabindex: 0, role: "slider", "aria-label": `${control.label} of the scales, drag or use the arrow keys`,
+      "aria-valuemin": control.min, "aria-valuemax": control.max, "aria-valuenow": control.value, "aria-valuetext": live.text(key),
+      onpointerdown: (event) => { event.preventDefault(); grabbed = { view, key, drag, off: [x - event.offsetX, y - event.offsetY] }; },
+      onkeydown: (event) => {
+        const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+        if (!step) return;
+        event.preventDefault();
+        live.set({ [key]: control.value + step * control.step });
+        at(`live-handle-${id}`).focus();
+      },
+    }, svg("circle", { cx: x, cy: y, r: 24, class: "reach" }), svg("circle", { cx: x, cy: y, r: 9, class: "grip" }),
+    svg("text", { x: Math.min(width - 60, Math.max(60, x)), y: y + (above ? -16 : 30), "text-anchor": "middle" }, `${control.label.toLowerCase()} ${live.text(key)}`));
+  };
+
+  const rest = () => {
+    const own = now(), size = box("live-rest"), view = grabbed?.view ?? fitted(own, size, 170);
+    const pinned = live.pinned ? row(view, form(live.pinned.values), poses(form(live.pinned.values), view, size.width), "ghost") : [];
+    at("live-rest").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width)), ...pinned, ...handles(own, view.scale).map((one) => handle(view, size.width, one)));
+  };
+
+  const needle = () => {
+    const own = now(), size = box("live-needle"), view = fitted(own, size, 110), { puncture, units } = live.answer ?? {};
+    const moved = new Map((puncture?.scales ?? []).map(([number, ...pose]) => [number, pose]));
+    const stands = poses(own, view, size.width, moved), hit = stands.find(({ number }) => number === 0);
+    const [, , right, left] = outline(own, hit?.pose ?? [0, 0, 0]), share = puncture?.load_position ?? 1;
+    const [x, y] = place(view, [0, 1].map((k) => left[k] + share * (right[k] - left[k])));
+    at("live-needle").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width), "ghost"), ...row(view, own, stands), ...dots(view, puncture?.contacts ?? []),
+      svg("path", { d: `M${x} ${y} l-5 -16 V0 h10 V${y - 16} z`, class: "needle" }));
+    const [depth, force] = puncture?.at ?? [0, 0];
+    const text = units?.force ? `${live.digits(force * units.force, 3)} N` : `F* = ${live.digits(force, 3)}`;
+    const deep = units?.length ? `${live.digits(depth * units.length, 3)} mm` : `${live.digits(depth, 3)} t`;
+    at("live-needle-words").textContent = live.drawn[0] === 0 ? "at rest" : `${text} at a depth of ${deep}`;
+  };
+
+  const bent = () => {
+    const own = now(), size = box("live-bent"), { flexure, units } = live.answer ?? {};
+    const still = Array.from({ length: 13 }, (_, k) => [(k - 6) * own.pitch, 0, 0]);
+    const outlines = (flexure?.scales.length ? flexure.scales : still).map(([x, y, turn]) => outline(own, [x, y, radians(turn)]));
+    const [xs, ys] = [0, 1].map((k) => outlines.flat().map((point) => point[k]));
+    const [low, high] = [[Math.min(...xs), Math.min(...ys)], [Math.max(...xs), Math.max(...ys)]];
+    const scale = Math.min((size.width - 24) / (high[0] - low[0]), (size.height - 24) / (high[1] - low[1]), 90);
+    const view = { scale, left: size.width / 2 - (scale * (low[0] + high[0])) / 2, base: size.height / 2 + (scale * (low[1] + high[1])) / 2 };
+    const outlined = outlines.map((line) => `M${points(view, line)}Z`).join(" ");
+    const axes = (flexure?.membrane ?? []).map((line) => `M${points(view, line)}`).join(" ");
+    at("live-bent").replaceChildren(svg("path", { d: axes, class: "membrane" }), svg("path", { d: outlined, class: "scale" }), ...dots(view, flexure?.contacts ?? []));
+    const [curvature] = flexure?.at ?? [0];
+    const radius = curvature ? Math.abs(1 / curvature) * (units?.length ?? 1) : null;
+    at("live-bent-words").textContent = radius ? `to a radius of ${live.digits(radius, 3)} ${units?.length ? "mm" : "t"}` : "at rest";
+  };
+
+  addEventListener("pointermove", (event) => {
+    if (!grabbed) return;
+    const { left, top } = at("live-rest").getBoundingClientRect(), { view, key, drag, off } = grabbed;
+    const spot = [(event.clientX - left + off[0] - view.left) / view.scale, (view.base - (event.clientY - top + off[1])) / view.scale];
+    live.set({ [key]: drag(spot, now()) });
+  });
+  for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => { if (grabbed) { grabbed = null; rest(); } });
+  const loaded = () => { needle(); bent(); };
+  addEventListener("resize", () => { rest(); loaded(); });
+  live.listen("moved", rest);
+  live.listen("answered", loaded);
+})();

@@ -1,0 +1,109 @@
+"use strict";
+// The skin under the hand: its parameters, what is pinned, what the solver said last; and how it stands in the address.
+
+squama.live = (() => {
+  const data = JSON.parse(squama.at("live-data").textContent);
+  const controls = new Map(data.controls.map((control) => [control.key, control]));
+  const listeners = { moved: [], answered: [] };
+  const live = { data, answer: null, pinned: null, drawn: [1, 1], chosen: data.measures[1].name, said: "", times: [] };
+
+  // Whether a hand has moved something since a design was put under it.
+  live.moved = false;
+  live.listen = (topic, listener) => listeners[topic].push(listener);
+  const tell = (topic) => listeners[topic].forEach((listener) => listener());
+  live.show = () => tell("answered");
+
+  live.guided = () => controls.get("needle")?.value === "guided";
+  /** The controls that act: some do under a needle of one kind alone. */
+  live.controls = () => [...controls.values()].filter(({ only }) => !only || live.guided() === (only === "guided"));
+  live.control = (key) => controls.get(key);
+  live.value = (key) => controls.get(key).value;
+
+  live.digits = (number, count = 4) => (number === null || number === undefined ? "–" : String(Number(number.toPrecision(count))));
+  /** A millimetre for a length over t, where the thickness is known. */
+  live.millimetres = () => controls.get("thickness_mm")?.value ?? data.thickness;
+  /** What a value of a control is shown times, and its unit. */
+  live.shownAs = ({ unit }) => {
+    const thickness = live.millimetres();
+    if (unit === "t" && thickness) return [thickness, "mm"];
+    return [1, { "-": "", deg: "°" }[unit] ?? unit];
+  };
+  live.text = (key) => {
+    const control = controls.get(key), [factor, unit] = live.shownAs(control);
+    if (control.words) return control.value;
+    return `${live.digits(control.value * factor, 3)}${unit === "°" ? "" : " "}${unit}`.trim();
+  };
+
+  /** What is required: on the page of a run what its reader requires. */
+  live.required = () => squama.required?.().filter(({ sign }) => sign !== "~").map(squama.ranking.written) ?? data.requirements;
+
+  const request = () => ({
+    definition: data.definition, require: live.required(), drawn: live.drawn,
+    set: Object.fromEntries(live.controls().map(({ key, value }) => [key, value])),
+  });
+  live.solve = () => squama.solver.solve(request());
+
+  // Six digits, as an address has them.
+  const clamped = ({ words, min, max }, value) => {
+    if (words) return words.includes(value) ? value : words[0];
+    return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
+  };
+  for (const control of controls.values()) control.value = clamped(control, control.value);
+  /** Moves parameters, within their ranges, and solves. */
+  live.set = (values, said = "") => {
+    for (const [key, value] of Object.entries(values)) {
+      const control = controls.get(key);
+      if (control && (control.words || Number.isFinite(value))) control.value = clamped(control, value);
+    }
+    live.said = said;
+    live.moved = true;
+    tell("moved");
+    live.solve();
+    live.remember();
+  };
+  /** Draws the needle, or bending, at a share of its way. */
+  live.draw = (load, share) => {
+    live.drawn[load] = Math.min(1, Math.max(0, share));
+    tell("moved");
+    live.solve();
+  };
+  /** Follows a parameter to where the chosen measure, or something else, ends it. */
+  live.follow = (key, up) => {
+    const { min, max } = controls.get(key);
+    squama.solver.follow(request(), { key, to: up ? max : min, measure: live.chosen });
+  };
+  live.pin = () => {
+    live.pinned = live.pinned ? null : { answer: live.answer, values: Object.fromEntries(live.controls().map(({ key, value }) => [key, value])) };
+    tell("moved");
+    tell("answered");
+  };
+
+  live.take = (answer, question) => {
+    if (question) live.times.push(performance.now() - question.at);
+    if (answer.follow) {
+      live.set({ [answer.follow.key]: answer.follow.value }, `${controls.get(answer.follow.key).label}: ${answer.follow.reason}`);
+      return;
+    }
+    live.error = answer.error ?? null;
+    // An answer for a moving hand has no derivatives: those of the last rest are shown until the next.
+    if (!answer.error) live.answer = answer.fine ? answer : { ...answer, slopes: live.answer?.slopes ?? [] };
+    tell("answered");
+  };
+
+  const KEY = "live.";
+  /** The parameters as an address has them. */
+  live.written = () => (live.moved ? [...controls.values()].map(({ key, value }) => `${KEY}${key}=${value}`).join("&") : "");
+  live.read = (text) => {
+    const parts = new URLSearchParams(text);
+    for (const control of controls.values()) {
+      const value = parts.get(KEY + control.key);
+      if (value !== null && (control.words || (value !== "" && Number.isFinite(Number(value))))) control.value = clamped(control, control.words ? value : Number(value));
+    }
+  };
+  live.remember = () => {
+    // The page of a run writes its own address, in which this is a part.
+    if (squama.writeAddress) squama.writeAddress();
+    else try { history.replaceState(null, "", `#${live.written()}`); } catch { /* The page works without an address. */ }
+  };
+  return live;
+})();

@@ -1,0 +1,26 @@
+"use strict";
+// The solver in a thread of its own, so that the page never waits: one request at a time, text in, text out.
+let solver;
+
+const answer = (request) => {
+  const text = new TextEncoder().encode(JSON.stringify(request));
+  const room = solver.squama_room(text.length);
+  new Uint8Array(solver.memory.buffer, room, text.length).set(text);
+  const length = solver.squama_answer(text.length);
+  // The memory may have grown, so where the answer stands is asked for anew.
+  return JSON.parse(new TextDecoder().decode(new Uint8Array(solver.memory.buffer, solver.squama_room(0), length)));
+};
+
+self.onmessage = async ({ data }) => {
+  if (data instanceof WebAssembly.Module) {
+    solver = (await WebAssembly.instantiate(data, {})).exports;
+    self.postMessage({ ready: true });
+    return;
+  }
+  try {
+    self.postMessage(answer(data));
+  } catch (error) {
+    // A module that has trapped is of no use any more; the page starts another.
+    self.postMessage({ id: data.id, error: `The solver stopped: ${error.message}`, trapped: true });
+  }
+};

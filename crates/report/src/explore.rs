@@ -1,0 +1,264 @@
+//! The page that solves: sliders, the skin under the hand, and the solver itself, in one HTML file.
+
+use serde::Serialize;
+use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key, visible};
+
+use crate::page::{escaped, filled};
+
+const PAGE: &str = include_str!("../assets/explore/explore.html");
+/// What a page shows of it.
+const SECTION: &str = include_str!("../assets/explore/explorer.html");
+/// Its style on any page, and that of a page of its own.
+pub(crate) const STYLE: &str = include_str!("../assets/explore/explore.css");
+const STYLES: [&str; 2] =
+    [include_str!("../assets/page/styles/theme.css"), include_str!("../assets/explore/page.css")];
+const ELEMENTS: &str = include_str!("../assets/page/scripts/elements.js");
+/// The scripts of the page, in the order in which they run.
+pub(crate) const SCRIPTS: [&str; 7] = [
+    include_str!("../assets/explore/solver.js"),
+    include_str!("../assets/explore/skin.js"),
+    include_str!("../assets/explore/pictures.js"),
+    include_str!("../assets/explore/controls.js"),
+    include_str!("../assets/explore/measures.js"),
+    include_str!("../assets/explore/curves.js"),
+    include_str!("../assets/explore/explorer.js"),
+];
+/// The thread in which the page solves.
+const WORKER: &str = include_str!("../assets/explore/worker.js");
+/// The crate `live` as WebAssembly, compressed, in base 64: `scripts/live` makes it.
+const MODULE: &str = include_str!("../assets/explore/live.wasm.gz.base64");
+
+/// What a page that solves starts from.
+#[derive(Clone, Debug)]
+pub struct Explorer {
+    /// The definition.
+    pub sweep: Sweep,
+    /// The file of the definition, or the folder of its results, as commands name it.
+    pub file: String,
+    /// What a design must keep, as `coverage >= 0.5`.
+    pub requirements: Vec<String>,
+    /// The version of the program.
+    pub version: String,
+}
+
+/// A parameter under the hand.
+#[derive(Clone, Debug, Serialize)]
+struct Control {
+    key: &'static str,
+    label: &'static str,
+    unit: &'static str,
+    min: f64,
+    max: f64,
+    /// What one press of a key moves.
+    step: f64,
+    value: ControlValue,
+    /// The values of one that takes words.
+    words: Option<[&'static str; 2]>,
+    /// The only kind of needle for which it has a meaning.
+    only: Option<&'static str>,
+}
+
+/// The value with which a page opens.
+#[derive(Clone, Copy, Debug, Serialize)]
+#[serde(untagged)]
+enum ControlValue {
+    Number(f64),
+    Word(&'static str),
+}
+
+/// A parameter that a hand may move: its label, the range where the definition gives none, and the share of the range at which a
+/// page opens where the definition gives several values.
+struct Offered {
+    key: &'static str,
+    label: &'static str,
+    range: [f64; 2],
+    opens_at: f64,
+    /// Whether a definition that does not give it leaves it out.
+    if_given: bool,
+}
+
+impl Offered {
+    const fn new(key: &'static str, label: &'static str, range: [f64; 2], opens_at: f64) -> Self {
+        Self { key, label, range, opens_at, if_given: false }
+    }
+
+    const fn if_given(self) -> Self {
+        Self { if_given: true, ..self }
+    }
+}
+
+/// The parameters under the hand. A page opens with a skin of overlapping scales, because that is one that protects.
+const OFFERED: [Offered; 10] = [
+    Offered::new(key::GAP, "Gap", [0.02, 1.0], 0.1),
+    Offered::new(key::LENGTH, "Length", [0.05, 2.0], 0.5),
+    Offered::new(key::SLANT, "Slant", [0.0, 80.0], 0.7),
+    Offered::new(key::WIDTH, "Width", [0.25, 4.0], 0.5),
+    Offered::new(key::THICKNESS, "Thickness", [0.1, 10.0], 0.5).if_given(),
+    Offered::new("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5),
+    Offered::new(key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5).if_given(),
+    Offered::new(key::NEEDLE, "Needle", [0.0, 0.0], 0.0),
+    Offered::new(key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2),
+    Offered::new(key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5),
+];
+
+/// A measure that is shown.
+#[derive(Serialize)]
+struct Shown {
+    name: &'static str,
+    label: &'static str,
+    /// The column in physical units that takes its place where there is one.
+    physical: &'static str,
+    /// What it is, in words for everyone.
+    words: &'static str,
+}
+
+/// The measures that are shown.
+const SHOWN: [Shown; 6] = [
+    Shown {
+        name: "coverage",
+        label: "Coverage",
+        physical: "",
+        words: "share of the thickness filled with scales",
+    },
+    Shown {
+        name: "critical_force",
+        label: "Critical force",
+        physical: "critical_force_N",
+        words: "the needle tilts a scale too far",
+    },
+    Shown {
+        name: "penetration",
+        label: "Penetration",
+        physical: "penetration_mm",
+        words: "how deep the scales have sunk then",
+    },
+    Shown {
+        name: "compliance",
+        label: "Flexibility",
+        physical: "",
+        words: "1: the membrane alone bends as easily",
+    },
+    Shown {
+        name: "contact_curvature",
+        label: "Bends freely to",
+        physical: "bend_radius_mm",
+        words: "until scales touch",
+    },
+    Shown {
+        name: "sound_force",
+        label: "Trusted to",
+        physical: "sound_force_N",
+        words: "before the surface folds over",
+    },
+];
+
+/// What the scripts read.
+#[derive(Serialize)]
+struct Data<'a> {
+    definition: String,
+    file: &'a str,
+    base: String,
+    /// Thickness of the scales, mm, if it is known.
+    thickness: Option<f64>,
+    controls: Vec<Control>,
+    measures: &'static [Shown],
+    requirements: &'a [String],
+}
+
+impl Explorer {
+    /// Returns a page as HTML that needs no other file.
+    pub fn html(&self) -> String {
+        let scripts =
+            [ELEMENTS].iter().chain(&SCRIPTS).map(|script| format!("<script>\n{script}</script>"));
+        let parts = [
+            ("{{title}}", escaped(&visible(self.sweep.name()))),
+            ("{{version}}", escaped(&self.version)),
+            ("{{style}}", STYLES.concat() + STYLE),
+            ("{{explorer}}", self.section()),
+            ("{{scripts}}", scripts.collect::<Vec<_>>().join("\n")),
+        ];
+        filled(PAGE, &parts)
+    }
+
+    /// Returns the section of a page that solves, with the solver.
+    pub(crate) fn section(&self) -> String {
+        let base = self.sweep.grid().base();
+        let data = Data {
+            definition: self.sweep.to_toml(),
+            file: &self.file,
+            base: Parameter::named("base")
+                .map_or_else(String::new, |parameter| parameter.get(base).to_string()),
+            thickness: base.material.thickness_mm,
+            controls: OFFERED.iter().filter_map(|offered| self.control(offered)).collect(),
+            measures: &SHOWN,
+            requirements: &self.requirements,
+        };
+        // Neither `</script` nor `<!--` may end or bend the script that holds the data.
+        let data = serde_json::to_string(&data).unwrap_or_default().replace('<', "\\u003c");
+        let parts = [
+            ("{{module}}", MODULE.trim().to_owned()),
+            ("{{worker}}", WORKER.to_owned()),
+            ("{{live}}", data),
+        ];
+        filled(SECTION, &parts)
+    }
+
+    /// The control of a parameter: over the values of its axis or variable where there are several, over a range of its own elsewhere.
+    fn control(&self, offered: &Offered) -> Option<Control> {
+        let parameter = Parameter::named(offered.key)?;
+        let own = parameter.get(&self.sweep.grid().case(0));
+        let axis = self.sweep.grid().axis(offered.key).and_then(span);
+        let span = axis.or_else(|| {
+            self.sweep.variables().iter().find_map(|variable| interval(variable, offered.key))
+        });
+        if offered.if_given && span.is_none() && own.number().is_none() {
+            return None;
+        }
+        let base = self.sweep.grid().base();
+        let friction_is_given = base.needle_friction.is_some()
+            || self.sweep.grid().axis(key::NEEDLE_FRICTION).is_some();
+        let friction_says_tilt = friction_is_given && !self.sweep.is_guided();
+        let only = match offered.key {
+            key::NEEDLE_FRICTION if !friction_says_tilt => Some("guided"),
+            key::CRITICAL_TILT if friction_says_tilt => Some("guided"),
+            _ => None,
+        };
+        let (words, value) = match own {
+            Scalar::Word(word) if offered.key == key::NEEDLE => {
+                (Some(["free", "guided"]), ControlValue::Word(word))
+            }
+            _ => (None, ControlValue::Number(0.0)),
+        };
+        let [min, max] = span.unwrap_or(offered.range);
+        let middle = min + offered.opens_at * (max - min);
+        let number = own.number().filter(|_| span.is_none()).unwrap_or(middle);
+        let (min, max) = (min.min(number), max.max(number));
+        let value = if words.is_some() { value } else { ControlValue::Number(number) };
+        Some(Control {
+            key: offered.key,
+            label: offered.label,
+            unit: parameter.unit,
+            min,
+            max,
+            step: (max - min) / 100.0,
+            value,
+            words,
+            only,
+        })
+    }
+}
+
+/// The ends of an axis of several numbers.
+fn span(axis: &Axis) -> Option<[f64; 2]> {
+    let values = (0..axis.len()).filter_map(|k| axis.value(k).number());
+    let ends =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)]);
+    (ends[0] < ends[1]).then_some(ends)
+}
+
+/// The ends of a variable, if it is the one of `key` and its values are numbers.
+fn interval(variable: &Variable, key: &str) -> Option<[f64; 2]> {
+    let ends = [0.0, 1.0].map(|share| variable.at(share).number());
+    let [Some(low), Some(high)] = ends else { return None };
+    (variable.parameter().key == key).then_some([low, high])
+}

@@ -1,0 +1,142 @@
+// Tests of the page that solves: alone, and on top of the page of a run.
+import assert from "node:assert/strict";
+import { mkdtempSync, statSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const SIZES = [{ width: 1400, height: 900 }, { width: 390, height: 844 }];
+const STATES = 50;
+
+/** Waits for what the solver says of a hand that rests. */
+const settled = (page) => page.waitForFunction(() => squama.live.answer?.fine && squama.solver.idle(), null, { timeout: 60_000 });
+/** Does something, and waits for the answer to it. */
+const after = async (page, act) => {
+  await page.evaluate(() => { squama.live.answer.fine = false; });
+  await act();
+  await settled(page);
+};
+/** A number from 0 to 1, the same at every call. */
+const random = (seed) => { let state = seed; return () => { state = (1664525 * state + 1013904223) % 4294967296; return state / 4294967296; }; };
+/** Six digits; round-off about zero has none. */
+const sixDigits = (value) => (Math.abs(value) < 1e-12 ? "0" : Number(value).toPrecision(6));
+
+export default ({ openFile, open, place, results, run }) => {
+  const out = mkdtempSync(join(tmpdir(), "squama-explore-"));
+  const explore = async (size, state = "") => {
+    const page = await openFile(join(place, "explore.html"), state);
+    await page.setViewportSize(size);
+    await settled(page);
+    return page;
+  };
+  const values = (page) => page.evaluate(() => Object.fromEntries(squama.live.answer.values.map(({ name, value }) => [name, value])));
+  const of = (tests) => Object.fromEntries(SIZES.flatMap((size) => tests(size)));
+
+  return {
+    ...of((size) => [[`the explorer solves ${STATES} random states as the command does, at ${size.width} pixels`, async () => {
+      const page = await explore(size), next = random(size.width);
+      for (let k = 0; k < STATES; k++) {
+        const shares = Array.from({ length: 10 }, next);
+        await after(page, () => page.evaluate((own) => {
+          const pairs = squama.live.controls().filter(({ words }) => !words).map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
+          squama.live.set(Object.fromEntries(pairs));
+        }, shares));
+        const there = JSON.parse(run(await page.locator("#live-command").textContent(), "--json", "--out", out)).measures;
+        for (const [name, value] of Object.entries(await values(page))) {
+          if (typeof value === "number" && typeof there[name] === "number") assert.equal(sixDigits(value), sixDigits(there[name]), `${name} of ${await page.locator("#live-command").textContent()}`);
+        }
+      }
+      await page.close();
+    }], [`a drag redraws in time at ${size.width} pixels`, async () => {
+      const page = await explore(size);
+      await page.evaluate(() => { squama.live.times.length = 0; });
+      for (const [id, far] of [["slant", -50], ["gap", 40], ["length", -30]]) {
+        const spot = await page.locator(`#live-handle-${id} .grip`).boundingBox(), [x, y] = [spot.x + spot.width / 2, spot.y + spot.height / 2];
+        await page.mouse.move(x, y);
+        await page.mouse.down();
+        for (let step = 1; step <= 30; step++) { await page.mouse.move(x + (far * step) / 30, y); await page.waitForTimeout(20); }
+        await page.mouse.up();
+        await settled(page);
+      }
+      const times = (await page.evaluate(() => squama.live.times)).sort((a, b) => a - b), at = (share) => times[Math.floor(share * (times.length - 1))];
+      console.log(`        ${times.length} answers to three drags: median ${at(0.5).toFixed(0)} ms, 90 % within ${at(0.9).toFixed(0)} ms, slowest ${at(1).toFixed(0)} ms`);
+      assert.ok(times.length > 30 && at(0.5) < 1000, `${times.length} answers, ${at(0.5)} ms`);
+      await page.close();
+    }], [`handles, sliders and buttons are large enough and named, at ${size.width} pixels`, async () => {
+      const page = await explore(size);
+      assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), size.width);
+      for (const one of await page.locator("#live button:visible, #live input[type=range]:visible, #live .handle .reach").all()) assert.ok((await one.boundingBox()).height >= 44);
+      for (const one of await page.locator("#live [role=slider], #live input, #live button:visible").all()) assert.ok((await one.evaluate((own) => own.getAttribute("aria-label") ?? own.labels?.[0]?.textContent ?? own.textContent)).length > 0);
+      assert.match(await page.locator("#live-set-gap_over_t").getAttribute("aria-valuetext"), /^[\d.]+ mm$/);
+      await page.close();
+    }]]),
+    async "a guided needle has its own sliders"() {
+      const page = await explore(SIZES[0]), friction = page.locator("#live-set-needle_friction");
+      assert.equal(await friction.count(), 0);
+      await after(page, () => page.locator("#live-set-needle").selectOption("guided"));
+      assert.equal(await friction.count(), 1);
+      assert.match(await page.locator("#live-command").textContent(), /--set puncture\.needle=guided --set puncture\.needle_friction=/);
+      await page.close();
+    },
+    async "what is typed, pressed and dragged is solved, and what cannot be read is not"() {
+      const page = await explore(SIZES[0]), gap = () => page.evaluate(() => squama.live.value("gap_over_t") * squama.live.value("thickness_mm"));
+      const field = page.locator(".control", { hasText: "Gap" }).locator("input[type=text]");
+      await after(page, async () => { await field.fill("0,3"); await field.press("Enter"); });
+      assert.ok(Math.abs(await gap() - 0.3) < 1e-6);
+      await field.fill("abc");
+      await field.press("Enter");
+      assert.equal(await field.getAttribute("aria-invalid"), "true");
+      assert.ok(Math.abs(await gap() - 0.3) < 1e-6);
+      await after(page, async () => { await page.locator("#live-handle-gap").focus(); await page.keyboard.press("ArrowRight"); await page.keyboard.press("ArrowRight"); });
+      assert.ok(await gap() > 0.3);
+      await page.close();
+    },
+    async "an arrow is followed to a limit, which is named"() {
+      const page = await explore(SIZES[0]);
+      const before = (await values(page)).critical_force;
+      const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
+      await after(page, () => arrow.click());
+      assert.ok((await values(page)).critical_force >= before);
+      assert.match(await page.locator("#live-said").textContent(), /^Length: /);
+      await page.close();
+    },
+    async "a design is pinned, compared, and stands in the address"() {
+      const page = await explore(SIZES[0]);
+      await page.locator("#live-pin").click();
+      await after(page, () => page.evaluate(() => squama.live.set({ slant_deg: 20 })));
+      assert.match(await page.locator("#live-cards").textContent(), /% against the pinned/);
+      assert.ok(await page.locator("#live-rest .ghost").count() > 2);
+      const address = await page.evaluate(() => location.hash), own = await values(page);
+      const other = await explore(SIZES[0], address);
+      assert.equal((await values(other)).critical_force, own.critical_force);
+      await after(page, () => page.locator("#live-closest").click());
+      const closest = await values(page);
+      assert.ok([0.1, 0.2, 0.3, 0.4].includes(closest.gap_over_t) && [15, 30].includes(closest.slant_deg));
+      for (const one of [page, other]) await one.close();
+    },
+    async "requirements are watched, and the handle runs along both paths"() {
+      const page = await explore(SIZES[0]);
+      assert.equal(await page.locator("#live-required li").count(), 2);
+      const words = () => page.locator("#live-needle-words").textContent();
+      const far = await words();
+      await after(page, () => page.evaluate(() => squama.live.draw(0, 0.3)));
+      assert.notEqual(await words(), far);
+      await after(page, () => page.evaluate(() => squama.live.draw(1, 0.1)));
+      assert.match(await page.locator("#live-bent-words").textContent(), /radius of [\d.]+ mm/);
+      await page.close();
+    },
+    async "on the page of a run a design that is chosen comes under the hand"() {
+      const page = await open(results);
+      await settled(page);
+      for (const row of [3, 40]) {
+        await after(page, () => page.evaluate((own) => squama.choose(own), row));
+        const [own, table] = [await values(page), await page.evaluate((one) => ["critical_force", "coverage", "compliance"].map((name) => squama.cell(one, name)), row)];
+        ["critical_force", "coverage", "compliance"].forEach((name, k) => assert.equal(sixDigits(own[name]), sixDigits(table[k]), name));
+      }
+      await page.close();
+    },
+    async "the pages are small enough to be sent"() {
+      assert.ok(statSync(join(place, "explore.html")).size < 950_000, String(statSync(join(place, "explore.html")).size));
+      assert.ok(statSync(join(results, "report.html")).size < 2_000_000);
+    },
+  };
+};
