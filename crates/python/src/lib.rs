@@ -1,4 +1,4 @@
-//! The Python package squama: what needs the solver. The rest of the package is Python, in `squama/`.
+//! The Python package squama: what needs the solver. The rest of the package is Python, in `python/squama/`.
 //!
 //! | Module | Role |
 //! |---|---|

@@ -21,7 +21,7 @@ use sweep::{Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key, near
 use crate::error;
 use crate::gradient;
 use crate::solved::Solved;
-use crate::value::{place, value};
+use crate::value::{place, text, value};
 use crate::work::watched;
 
 /// The name of the sweep of a single skin.
@@ -71,7 +71,7 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let py = given.py();
     let mut sections: KeyValues = Vec::new();
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {
-        let name = name.to_string();
+        let name = text(&name)?;
         let Some(Named { parameter, in_mm }) = Named::of(&name) else {
             return Err(unknown(py, &name));
         };
@@ -208,7 +208,7 @@ impl Skin {
         if let Ok(skin) = definition.cast::<Self>() {
             return Self::parsed(py, &skin.get().sweep.to_toml(), settings);
         }
-        let text = definition.str()?.to_string();
+        let text = text(definition)?;
         // Every definition has a name, and no path has an equals sign in a line of several.
         if text.contains('\n') || text.trim_start().starts_with("name") && text.contains('=') {
             return Self::parsed(py, &text, settings);
@@ -281,7 +281,7 @@ impl Skin {
         let all = self.parameters(py)?;
         for (name, of) in parameters.into_iter().flatten() {
             // A length in mm takes the place of the same length over t.
-            if let Some(Named { parameter, in_mm: true }) = Named::of(&name.to_string())
+            if let Some(Named { parameter, in_mm: true }) = Named::of(&text(&name)?)
                 && all.contains(parameter.key)?
             {
                 all.del_item(parameter.key)?;

@@ -24,7 +24,7 @@ use sweep::{Setting, Subset};
 
 use crate::error;
 use crate::skin::Skin;
-use crate::value::{Array, arrays, value};
+use crate::value::{Array, arrays, text, value};
 use crate::work::{threads as threads_of, watched};
 
 /// This program, which a run notes in its folder.
@@ -37,10 +37,10 @@ const TABLES_EVERY: Duration = Duration::from_secs(30);
 /// The settings in place of what a definition says: dotted keys and their values.
 fn settings(given: Option<&Bound<'_, PyDict>>) -> PyResult<Vec<Setting>> {
     let setting = |(key, of): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let key = text(&key)?;
         let text = format!("{key}={}", value(&of)?);
         let expected = "a dotted key with a value, such as {\"puncture.scales\": 41}";
-        let wrong =
-            |_| error::invalid_parameter(of.py(), &key.to_string(), Some(of.clone()), expected);
+        let wrong = |_| error::invalid_parameter(of.py(), &key, Some(of.clone()), expected);
         Setting::parse(&text).map_err(wrong)
     };
     given.into_iter().flatten().map(setting).collect()

@@ -14,33 +14,38 @@ pub fn place() -> Place {
     Place::Argument("squama".into())
 }
 
+/// A thing as text. Not by `to_string`, which would take an interrupt for a text that cannot be made, and swallow it.
+pub fn text(of: &Bound<'_, PyAny>) -> PyResult<String> {
+    of.str()?.extract()
+}
+
 /// A value as a definition would write it. What no definition can hold is kept as text, to be refused by name.
 pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
     if of.is_instance_of::<PyBool>() {
-        return Ok(Value::Other(of.to_string().to_lowercase()));
+        return Ok(Value::Other(text(of)?.to_lowercase()));
     }
     if of.is_instance_of::<PyString>() {
-        return Ok(Value::Text(of.to_string()));
+        return Ok(Value::Text(text(of)?));
     }
     if of.is_instance_of::<PyInt>() {
-        return Ok(Value::Number(of.to_string()));
+        return Ok(Value::Number(text(of)?));
     }
     if of.is_instance_of::<PyFloat>() {
         return Ok(Value::Number(number::text(of.extract()?)));
     }
     if let Ok(entries) = of.cast::<PyDict>() {
         let entry = |(key, of): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
-            Ok(KeyValue { key: key.to_string(), value: value(&of)?, place: place() })
+            Ok(KeyValue { key: text(&key)?, value: value(&of)?, place: place() })
         };
         return entries.iter().map(entry).collect::<PyResult<_>>().map(Value::Table);
     }
     // Scalars and arrays of numpy become plain numbers and lists.
-    if let Ok(plain) = of.call_method0("tolist") {
-        return value(&plain);
+    if of.hasattr("tolist")? {
+        return value(&of.call_method0("tolist")?);
     }
     match of.try_iter() {
         Ok(items) => items.map(|item| value(&item?)).collect::<PyResult<_>>().map(Value::List),
-        Err(_) => Ok(Value::Other(of.repr()?.to_string())),
+        Err(_) => Ok(Value::Other(of.repr()?.extract()?)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 import copy
 import csv
+import doctest
 import os
 import pickle
 import signal
@@ -41,7 +42,7 @@ def designs(folder):
 
 
 def test_the_digits_are_those_of_the_command(tmp_path):
-    if "SQUAMA" not in os.environ:
+    if not os.environ.get("SQUAMA"):
         pytest.skip("SQUAMA names no command to compare with")
     guided = 'puncture.needle="guided"'
     for name, settings in (("plain", []), ("guided", ["--set", guided, "--set", "puncture.needle_friction=0.3"])):
@@ -84,6 +85,10 @@ def test_a_run_a_table_and_single_solutions_are_the_same(tmp_path):
                 assert values[name] == column[k] if values[name] is not None else column[k] is None or np.isnan(column[k])
     best = run.rank(require="coverage >= 0.1")
     assert best["rank"][0] == 1 and (best["coverage"] >= 0.1).all()
+    if os.environ.get("SQUAMA"):
+        assert Path(run.report(tmp_path / "page.html")).read_text().startswith("<!")
+        with pytest.raises(squama.Failed, match="nowhere"):
+            run.report(tmp_path / "nowhere" / "page.html")
     assert run.units["critical_force"] == "E_s L t/(1-nu^2)" and run.units["slant_deg"] == "deg"
 
 
@@ -145,8 +150,8 @@ def test_definitions_of_several_designs():
 @pytest.mark.parametrize(
     ("given", "key", "value", "expected"),
     [
-        ({"gap_over_t": -1}, "gap_over_t", -1, "above 0"),
-        ({"gap_over_t": float("nan")}, "gap_over_t", None, "above 0"),
+        ({"gap_over_t": -1}, "gap_over_t", -1, "a length"),
+        ({"gap_over_t": float("nan")}, "gap_over_t", None, "a length"),
         ({"slant_deg": "steep"}, "slant_deg", "steep", "an angle"),
         ({"slant_deg": [10, 20]}, "slant_deg", None, "one value"),
         ({"base": "3L"}, "base", "3L", '"L" or "2L"'),
@@ -275,7 +280,7 @@ def test_a_kink_tells_both_sides_and_can_be_an_error():
 
 LONG = {
     "solve": "skin.replace(gap_cv=0.1, samples=1_000_000).solve()",
-    "solve_many": "squama.solve_many([skin.replace(slant_deg=k / 1000) for k in range(60_000)])",
+    "solve_many": "squama.solve_many(skins)",
     "run": "squama.run(skin.replace(gap_cv=0.1, samples=1_000_000), sys.argv[1])",
     "tolerance": "squama.tolerance(skin, set={'tolerance.gap_over_t': {'batch_sd': 0.01}}, samples=1_000_000, out=sys.argv[1])",
 }
@@ -287,7 +292,7 @@ def test_ctrl_c_ends_a_call_within_a_second(call, tmp_path):
     code = f"""
 import sys, squama
 skin = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
-skin.solve()
+skins = [skin.replace(slant_deg=k / 10) for k in range(600)] * 100
 print("begun", flush=True)
 try:
     {LONG[call]}
@@ -363,11 +368,15 @@ def test_help_is_the_manual_and_the_stub_is_up_to_date():
         assert key in manual and meaning in manual and expected in manual
         assert hasattr(SKIN, key)
     assert "critical_force (E_s L t/(1-nu^2))" in manual
-    stub = Path(__file__).parents[1] / "squama/__init__.pyi"
-    assert _manual.stub(stub.read_text()) == stub.read_text(), "python -m squama._manual squama/__init__.pyi"
+    stub = Path(__file__).parents[1] / "python/squama/__init__.pyi"
+    assert _manual.stub(stub.read_text()) == stub.read_text(), "python -m squama._manual crates/python/python/squama/__init__.pyi"
     for name in squama.__all__:
         assert name in stub.read_text() and getattr(squama, name).__doc__
     assert "gap_over_t" in str(_manual.signature())
+
+
+def test_the_example_of_the_package_is_true():
+    assert doctest.testmod(squama) == (0, 4)
 
 
 def test_what_a_notebook_shows():

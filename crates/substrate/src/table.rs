@@ -108,11 +108,15 @@ pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Diffe
     if coupling == Coupling::Full {
         ratios.resize(NEIGHBOURS + 1, [Differentiated::default(); 3]);
         for direction in [1, 2] {
-            ratios.iter_mut().for_each(|k| k[direction] = k[direction] + reader.surface(ROW));
+            for k in &mut ratios {
+                k[direction] = k[direction] + reader.surface(ROW);
+            }
         }
         let size = (alpha[1] * alpha[2]).sqrt();
         cross = (0..NEIGHBOURS).map(|_| reader.surface(ROW) * size).collect();
-        ratios.iter_mut().for_each(|k| k[0] = k[0] + reader.solid(ROW));
+        for k in &mut ratios {
+            k[0] = k[0] + reader.solid(ROW);
+        }
     }
     let mut stiffness =
         ratios.into_iter().map(|k| [k[0] * alpha[0], k[1] * alpha[1], k[2] * alpha[2]]);

@@ -55,14 +55,15 @@ fn long_rows_are_those_of_boundary_elements() {
             let off = ((found - exact) / size).abs();
             assert!(off < row.error, "{off:.1e} for {footprint:?}");
         };
-        for k in 0..3 {
-            close(row.direct[k], exact[k], row.direct[k]);
+        for (own, exact) in row.direct.into_iter().zip(&exact) {
+            close(own, *exact, own);
         }
         let size = (row.direct[1] * row.direct[2]).sqrt();
         assert_eq!(row.neighbours.len(), NEIGHBOURS);
         for (neighbour, exact) in row.neighbours.iter().zip(exact[3..].chunks(5)) {
-            for k in 0..3 {
-                close(neighbour.direct[k], exact[k], row.direct[k]);
+            for (direct, (exact, own)) in neighbour.direct.iter().zip(exact.iter().zip(row.direct))
+            {
+                close(*direct, *exact, own);
             }
             close(neighbour.cross, f64::midpoint(exact[3], exact[4]), size);
         }

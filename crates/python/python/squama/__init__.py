@@ -4,7 +4,7 @@
 >>> skin = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
 >>> result = skin.solve()
 >>> round(result["critical_force"], 4)
-1.4477
+1.4478
 
 `Skin` is a design, `Skin.solve` gives a `Result`, `solve_many` a `Table`; `Skin.value_and_gradient` and `function` are
 for optimisers. `run`, `read`, `optimise` and `tolerance` do what the commands of that name do, in folders.

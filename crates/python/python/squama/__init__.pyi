@@ -56,6 +56,7 @@ class Run(Table):
         minimize: str | Iterable[str] = (),
         weights: Sequence[float] | None = None,
     ) -> Table: ...
+    def report(self, out: Path | None = None) -> str: ...
 
 class Result:
     skin: Skin
@@ -84,7 +85,7 @@ def function(
 ) -> tuple[Callable[[ArrayLike], float], Callable[[ArrayLike], Floats]]: ...
 @overload
 def function(
-    skin: Skin, keys: Iterable[str], measures: Sequence[str]
+    skin: Skin, keys: Iterable[str], measures: list[str] | tuple[str, ...]
 ) -> tuple[Callable[[ArrayLike], Floats], Callable[[ArrayLike], Floats]]: ...
 def solve_many(
     skins: Iterable[Skin], measures: Measures = "all", *, threads: int | None = None, progress: Progress = False
@@ -126,8 +127,8 @@ class Skin:
     def __init__(
         self,
         *,
-        gap_over_t: float,
-        length_over_t: float,
+        gap_over_t: float | None = None,
+        length_over_t: float | None = None,
         slant_deg: float,
         base: str | None = None,
         width_over_t: float | None = None,
@@ -170,12 +171,11 @@ class Skin:
         # Lengths in mm, together with thickness_mm.
         gap_mm: float | None = None,
         length_mm: float | None = None,
-        width_mm: float | None = None,
         load_inset_mm: float | None = None,
-        depth_mm: float | None = None,
+        membrane_axis_offset_mm: float | None = None,
         membrane_length_mm: float | None = None,
         membrane_thickness_mm: float | None = None,
-        membrane_axis_offset_mm: float | None = None,
+        width_mm: float | None = None,
     ) -> None: ...
     @property
     def gap_over_t(self) -> float: ...

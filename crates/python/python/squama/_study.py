@@ -1,10 +1,13 @@
 """Many skins, and studies that are kept in folders."""
 
 import os
+import shutil
+import subprocess
 import tempfile
 from array import array
 
 from . import _squama
+from ._errors import Failed
 from ._progress import Bar
 from ._table import Table
 
@@ -36,6 +39,20 @@ class Run(Table):
         """
         listed = lambda of: [of] if isinstance(of, str) else list(of)  # noqa: E731
         return Table(_squama.rank(self.folder, listed(require), listed(maximize), listed(minimize), weights))
+
+    def report(self, out=None):
+        """Writes one page with figures, ranking, table and drawings by ``squama report``, and returns its path.
+
+        The command of that name has to be on the path, or named by the environment variable ``SQUAMA``.
+        """
+        command = os.environ.get("SQUAMA") or shutil.which("squama")
+        if command is None:
+            raise Failed("report", "there is no command squama on the path; cargo install --path crates/cli installs it")
+        out = os.path.join(self.folder, "report.html") if out is None else os.fspath(out)
+        done = subprocess.run([command, "report", self.folder, "--out", out], capture_output=True, text=True)
+        if done.returncode:
+            raise Failed("report", done.stderr.strip())
+        return out
 
 
 def _numbers(name, cells):

@@ -74,8 +74,12 @@ def stub(text):
     """The text of ``__init__.pyi``, whose part behind the mark is made anew."""
     all_of = [(key, _type(expected), default) for key, *_, expected, default in parameters()]
     geometry = {key for key, section, *_ in parameters() if section == "designs"}
-    given = [f"        {key}: {of}{'' if key in geometry else ' | None = None'}," for key, of, _ in all_of]
-    in_mm = [key.removesuffix("_over_t") + "_mm" for key, *_ in all_of if key.endswith("_over_t")]
+    # A length may be given in mm in the place of this one.
+    required = {key for key in geometry if not key.endswith("_over_t")}
+    given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
+    known = {key for key, *_ in all_of}
+    in_mm = [key.removesuffix("_over_t") + "_mm" for key in sorted(known) if key.endswith("_over_t")]
+    in_mm = [key for key in in_mm if key not in known]
     # A parameter without a default is an attribute that may be None.
     attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry else ' | None'}: ..."
                   for key, of, default in all_of]
