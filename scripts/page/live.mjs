@@ -10,7 +10,7 @@ const DIFFERENCE = 1e-9;
 /** Estimates of errors and counts of steps: what compilers do with the last digit shows in them first, and no measure depends on them. */
 const OF_THE_SOLUTION = /_error$|_iterations$|_points$/;
 
-const packed = Buffer.from(readFileSync(new URL("../../crates/report/assets/explore/live.wasm.gz.base64", import.meta.url), "utf8"), "base64");
+const packed = readFileSync(new URL("../../crates/report/assets/explore/live.wasm.gz", import.meta.url));
 const solver = (await WebAssembly.instantiate(gunzipSync(packed), {})).instance.exports;
 const answer = (request) => {
   const text = new TextEncoder().encode(request);

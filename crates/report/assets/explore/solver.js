@@ -8,8 +8,13 @@ squama.solver = (() => {
   const GRACE = 60;
   let module, worker, listen, ready = false, asked = null, waiting = null, resting, giving = null, id = 0;
 
+  /** The module: seven bits stand in each letter of its text; the last are filled up. */
   const bytes = () => {
-    const packed = Uint8Array.from(atob(squama.at("live-module").textContent), (character) => character.charCodeAt(0));
+    const text = squama.at("live-module").textContent, packed = new Uint8Array(Math.floor((text.length * 7) / 8));
+    for (let held = 0, count = 0, at = 0, k = 0; at < packed.length; k++) {
+      [held, count] = [((held << 7) | (text.charCodeAt(k) & 127)) & 0x7fff, count + 7];
+      if (count >= 8) packed[at++] = held >> (count -= 8);
+    }
     return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
   };
 
