@@ -92,7 +92,7 @@ const OFFERED: [Offered; 10] = [
     Offered::new(key::GAP, "Gap", [0.02, 1.0], 0.1),
     Offered::new(key::LENGTH, "Length", [0.05, 2.0], 0.5),
     Offered::new(key::SLANT, "Slant", [0.0, 80.0], 0.7),
-    Offered::new(key::WIDTH, "Width", [0.25, 4.0], 0.5),
+    Offered::new(key::WIDTH, "Width", [0.25, 2.0], 0.5),
     Offered::new(key::THICKNESS, "Thickness", [0.1, 10.0], 0.5).if_given(),
     Offered::new("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5),
     Offered::new(key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5).if_given(),
@@ -142,7 +142,7 @@ const SHOWN: [Shown; 6] = [
         name: "contact_curvature",
         label: "Bends freely to",
         physical: "bend_radius_mm",
-        words: "until scales touch",
+        words: "radius, or curvature, at which scales touch",
     },
     Shown {
         name: "sound_force",
