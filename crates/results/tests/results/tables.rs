@@ -20,7 +20,7 @@ fn of_the_paper_sweep() {
 
 #[test]
 fn with_another_axis_and_another_measure() {
-    insta::assert_snapshot!(headers("name = 'x'\nmeasures = ['coverage']\ndesigns.c2 = [1, 2]"));
+    insta::assert_snapshot!(headers("name = 'x'\nmeasures = ['coverage']\ndesigns.c2 = [1, 1.5]"));
 }
 
 #[test]
