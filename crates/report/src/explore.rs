@@ -286,11 +286,13 @@ mod tests {
             let bytes: Vec<u8> = (0..length).map(|k| (k * k * 37 % 251) as u8).collect();
             let text = in_sevens(&bytes);
             assert!(!text.contains(['\0', '\r', '<']));
-            let bits: String =
-                text.chars().map(|letter| format!("{:07b}", u32::from(letter) & 127)).collect();
-            let back: Vec<u8> = (0..bits.len() / 8)
-                .map(|k| u8::from_str_radix(&bits[8 * k..8 * k + 8], 2).expect("bits"))
-                .collect();
+            let bits = text
+                .chars()
+                .flat_map(|letter| (0..7).rev().map(move |k| (u32::from(letter) >> k & 1) as u8));
+            let bits: Vec<u8> = bits.collect();
+            let bytes_of =
+                bits.chunks_exact(8).map(|eight| eight.iter().fold(0, |held, bit| held << 1 | bit));
+            let back: Vec<u8> = bytes_of.collect();
             assert_eq!(back, bytes);
         }
     }
