@@ -1,6 +1,6 @@
 //! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
 
-use super::Bound::Excluded;
+use super::Bound::{Excluded, Included};
 use super::{Parameter, ParameterKind, Scalar};
 use crate::case::Case;
 
@@ -40,6 +40,11 @@ impl Parameter {
             return None;
         };
         let value = self.own(case)?.number()?.abs();
-        Some(if matches!(range.low, Excluded(0.0)) { value } else { value.max(1.0) })
+        // A range that begins above zero has no place where a part of the value would be no step.
+        let may_vanish = match range.low {
+            Excluded(low) => low < 0.0,
+            Included(low) => low <= 0.0,
+        };
+        Some(if may_vanish { value.max(1.0) } else { value })
     }
 }

@@ -191,3 +191,14 @@ fn deviations_move_a_case_in_their_own_unit() {
     let stiff = modulus.moved(&case, 0.3).expect("a modulus");
     assert_eq!(stiff.puncture.contact_modulus_over_substrate, 9677.0 / 2.0);
 }
+
+/// Steps of differences are parts of these sizes.
+#[test]
+fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
+    let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.5\nslant_deg = 0.25";
+    let case = sweep(text).grid().case(0);
+    let size = |key| sweep::Parameter::named(key).expect("a parameter").size(&case);
+    let found = ["gap_over_t", "length_over_t", "membrane_thickness_over_t", "slant_deg"].map(size);
+    assert_eq!(found[..2], [Some(0.1), Some(0.5)]);
+    assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
+}
