@@ -2,7 +2,6 @@
 
 use std::sync::atomic::Ordering;
 
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use results::columns::{design_columns, header};
@@ -12,7 +11,7 @@ use sweep::{Case, PARAMETERS, Parameter, Role, Scalar};
 
 use crate::skin::{Skin, evaluator, measures as measures_of};
 use crate::value::{Cells, NamedCells};
-use crate::work::{Watch, pool, watched};
+use crate::work::{Watch, interrupted, pool, watched};
 
 /// Skins of which the whole results are held, before their cells are taken.
 const BATCH: usize = 4096;
@@ -32,7 +31,7 @@ pub fn solve_many(
         watch.all.store(skins.len(), Ordering::Relaxed);
         columns(&skins, |first, skins| pool.install(|| solve(skins, first, &evaluator, watch)))
     })?;
-    solved.ok_or_else(|| PyKeyboardInterrupt::new_err(()))
+    solved.ok_or_else(interrupted)
 }
 
 /// The rows of skins, numbered from `first`, in their order; `None` if the work was told to stop.
@@ -72,7 +71,12 @@ fn columns(
     let mut all: Vec<NamedCells> = Vec::new();
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
         if !all.iter().any(|(name, ..)| *name == column.name) {
-            all.push((column.name.to_string(), column.unit, column.meaning, Cells::default()));
+            all.push((
+                column.name.to_string(),
+                column.unit,
+                column.meaning,
+                Cells::Numbers(Vec::new()),
+            ));
         }
     }
     for (batch, skins) in skins.chunks(BATCH).enumerate() {
@@ -90,7 +94,7 @@ fn columns(
     }
     for parameter in differing(skins) {
         if !all.iter().any(|(name, ..)| name == header(parameter)) {
-            let mut cells = Cells::default();
+            let mut cells = Cells::Numbers(Vec::new());
             cells.extend(skins.iter().map(|skin| parameter.get(&skin.get().case()).into()));
             all.push((header(parameter).to_owned(), parameter.unit, parameter.meaning, cells));
         }

@@ -11,7 +11,6 @@ use ::tolerance::{
 use optimisation::{
     Answer, DesignGoal, FRONT, OPTIMUM, OPTIMUM_DEFINITION, SearchOptions, write_found,
 };
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use ranking::{
@@ -24,7 +23,7 @@ use sweep::{Setting, Subset, Sweep};
 use crate::error::{self, OrFailed as _};
 use crate::skin::Skin;
 use crate::value::{NamedCells, table, text, value};
-use crate::work::{pool, threads as threads_of, watched};
+use crate::work::{interrupted, pool, threads as threads_of, watched};
 
 /// This program, which a run notes in its folder.
 const PROGRAM: Program =
@@ -72,10 +71,6 @@ impl Keywords<'_> {
             _ => Start::New,
         }
     }
-}
-
-fn interrupted() -> PyErr {
-    PyKeyboardInterrupt::new_err(())
 }
 
 /// Solves the designs of a definition into a folder, and returns the folder.

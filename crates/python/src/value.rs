@@ -4,7 +4,9 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use arrow_array::ffi_stream::FFI_ArrowArrayStream;
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray};
+use arrow_array::{
+    ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray, StructArray,
+};
 use pyo3::prelude::*;
 use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyString};
@@ -84,12 +86,6 @@ pub enum Cells {
     Texts(Vec<PythonCell>),
 }
 
-impl Default for Cells {
-    fn default() -> Self {
-        Self::Numbers(Vec::new())
-    }
-}
-
 impl Extend<Cell> for Cells {
     /// Adds cells. The first text makes all of them texts.
     fn extend<T: IntoIterator<Item = Cell>>(&mut self, cells: T) {
@@ -115,7 +111,7 @@ impl Extend<Cell> for Cells {
 /// The cells of every column in some rows.
 pub fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<NamedCells> {
     let named = |column: &Column<R>| {
-        let mut cells = Cells::default();
+        let mut cells = Cells::Numbers(Vec::new());
         cells.extend(rows.iter().map(|row| column.cell(row)));
         (column.name.to_string(), column.unit, column.meaning, cells)
     };
@@ -125,8 +121,11 @@ pub fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<NamedCells> {
 /// The columns of a table as a stream of Arrow, of one batch, in the capsule by which libraries hand over such streams.
 #[pyfunction]
 pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bound<'_, PyCapsule>> {
-    let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));
-    let batch = RecordBatch::try_from_iter_with_nullable(arrays).or_failed("arrow")?;
+    let mut batch = RecordBatch::from(StructArray::new_empty_fields(0, None));
+    if !columns.is_empty() {
+        let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));
+        batch = RecordBatch::try_from_iter_with_nullable(arrays).or_failed("arrow")?;
+    }
     let schema = batch.schema();
     let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
     PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
@@ -147,8 +146,8 @@ impl ArrowCells {
                 let (numbers, _) = bytes.as_chunks();
                 let numbers = numbers.iter().map(|of| f64::from_ne_bytes(*of));
                 // What is NaN here is a value that does not exist, for which Arrow has a mark.
-                let array: Float64Array = numbers.map(|of| (!of.is_nan()).then_some(of)).collect();
-                Arc::new(array)
+                let numbers = numbers.map(|of| (!of.is_nan()).then_some(of));
+                Arc::new(numbers.collect::<Float64Array>())
             }
         }
     }

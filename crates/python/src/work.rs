@@ -7,7 +7,7 @@ use std::thread::{self, available_parallelism};
 use std::time::Duration;
 
 use optimisation::SearchMeter;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use run::{Progress, WorkMeter};
@@ -65,6 +65,11 @@ impl Watch {
 /// As many threads as are asked for, or one for each core.
 pub fn threads(asked: Option<usize>) -> usize {
     asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).max(1)
+}
+
+/// What Ctrl-C raises.
+pub fn interrupted() -> PyErr {
+    PyKeyboardInterrupt::new_err(())
 }
 
 /// The threads of work that has none of its own.

@@ -443,6 +443,7 @@ def test_arrow_if_it_is_there():
     assert read.column_names == list(table) and read.column("coverage").to_pylist() == table["coverage"].tolist()
     assert read.column("critical_force").to_pylist() == [table["critical_force"][0], None]
     assert read.column("puncture_status").to_pylist() == ["complete", "too many points"]
+    assert arrow.table(squama.solve_many([])).num_columns == 0
     # A stream that nobody takes frees what it holds.
     table.__arrow_c_stream__()
     frame = pytest.importorskip("polars").from_arrow(table).struct.unnest()

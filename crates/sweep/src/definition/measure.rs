@@ -84,9 +84,11 @@ impl Measure {
         let Value::Text(text) = value else {
             return Err(not_accepted(value, names()));
         };
-        Self::named(text).ok_or_else(|| match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
-            Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
-            None => not_accepted(value, names()),
+        Self::named(text).ok_or_else(|| {
+            match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
+                Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
+                None => not_accepted(value, names()),
+            }
         })
     }
 }
