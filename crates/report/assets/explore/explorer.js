@@ -28,7 +28,12 @@
   });
 
   /** Puts a design under the hand, by the keys and values of its parameters; what it does not name is as the page was opened with. */
-  squama.take = (pairs) => live.set({ ...live.opened, ...Object.fromEntries(pairs.filter(([, value]) => value !== null)) });
+  squama.take = (pairs) => {
+    const known = pairs.filter(([key, value]) => value !== null && live.control(key));
+    // What a search found may lie beyond the values of the sweep.
+    for (const [control, value] of known.map(([key, own]) => [live.control(key), own])) Object.assign(control, { min: Math.min(control.min, value), max: Math.max(control.max, value) });
+    live.set({ ...live.opened, ...Object.fromEntries(known) });
+  };
   const chosen = () => {
     squama.take(live.controls().map(({ key }) => [key, squama.cell(squama.state.design, key)]));
     live.moved = false;
