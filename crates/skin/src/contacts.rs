@@ -4,11 +4,13 @@ mod audit;
 mod change;
 mod closed;
 mod mode;
+mod rubbing;
 mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
 pub(crate) use mode::SkinMode;
+use rubbing::{Rub, WAY};
 
 use contact::{
     COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
@@ -22,8 +24,15 @@ use crate::arrangement::Arrangement;
 /// The levels of a pair, each with a contact of its own.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
 
-/// Contact forces between neighbours.
-pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
+/// Constraints of the contacts between two neighbours under this law: their forces, and what they rub with.
+pub(crate) fn pair_constraints(law: &ContactLaw) -> usize {
+    LEVELS.len() * slots(law)
+}
+
+/// Constraints of a contact under this law.
+fn slots(law: &ContactLaw) -> usize {
+    if law.friction() > 0.0 { FORCES + 2 } else { FORCES }
+}
 
 /// Value of the condition of a force that cannot act next: any number above zero, for it is neither violated nor solved
 /// for.
@@ -39,7 +48,7 @@ pub(crate) type SkinPoint = solver::Point<SkinMode>;
 ///
 /// Contact `2 i` is the upper, `2 i + 1` the lower one of the scales `i`, `i + 1`. Their forces are the
 /// constraints of the system: number `3 j` is the contact's own force `λ`, `3 j + 1` its partner's `λ'` and
-/// `3 j + 2` that of its flush contact, `λ''`.
+/// `3 j + 2` that of its flush contact, `λ''`. Where scales rub each contact has two more, its grip and its way.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     arrangement: Arrangement,
@@ -50,8 +59,12 @@ pub(crate) struct Contacts {
     scales: Vec<Option<usize>>,
     /// Whether each scale is placed in the frame of its left neighbour.
     relative: bool,
-    /// Unknown of each force.
+    /// Constraints of each contact.
+    slots: usize,
+    /// Unknown of each constraint.
     forces: Vec<usize>,
+    /// Numbers of the ways that contacts slip, which only grow.
+    growing: Vec<usize>,
 }
 
 impl Contacts {
@@ -61,9 +74,12 @@ impl Contacts {
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
     ) -> Self {
-        debug_assert_eq!(forces.len(), PAIR_FORCES * scales.len().saturating_sub(1));
+        let slots = slots(&law);
+        debug_assert_eq!(forces.len(), pair_constraints(&law) * scales.len().saturating_sub(1));
         let pair_shapes = arrangement.pairs();
-        Self { arrangement, pair_shapes, law, scales, relative: false, forces }
+        let ways = (0..forces.len()).filter(|number| number % slots == WAY);
+        let growing = ways.collect();
+        Self { arrangement, pair_shapes, law, scales, relative: false, slots, forces, growing }
     }
 
     /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
@@ -97,24 +113,44 @@ impl Contacts {
         &self.forces
     }
 
+    /// Numbers of the constraints whose unknown only grows.
+    pub(crate) fn growing(&self) -> &[usize] {
+        &self.growing
+    }
+
     /// The state of rest of all contacts.
     pub(crate) fn open(&self) -> SkinMode {
-        let contacts = vec![CornerContact::Open; self.forces.len() / FORCES];
-        SkinMode { contacts, ..SkinMode::default() }
+        let contacts = vec![CornerContact::Open; self.forces.len() / self.slots];
+        let rubs = if self.rub() { vec![Rub::None; contacts.len()] } else { Vec::new() };
+        SkinMode { contacts, rubs, ..SkinMode::default() }
+    }
+
+    /// The contact that a constraint belongs to, and its number there.
+    pub(crate) fn contact_of(&self, constraint: usize) -> (usize, usize) {
+        (constraint / self.slots, constraint % self.slots)
+    }
+
+    /// The constraints of the pair that a constraint belongs to.
+    pub(crate) fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        let pair = LEVELS.len() * self.slots;
+        let first = constraint / pair * pair;
+        first..first + pair
     }
 
     /// The left scale of the pair that a constraint belongs to.
-    pub(crate) fn left_of(constraint: usize) -> usize {
-        constraint / PAIR_FORCES
+    pub(crate) fn left_of(&self, constraint: usize) -> usize {
+        Self::left(constraint / self.slots)
     }
 
     /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
-    pub(crate) fn corner_edge(mode: &[CornerContact], constraint: usize) -> Option<CornerEdge> {
-        let edge = mode[constraint / FORCES].edge()?;
-        match Force::ALL[constraint % FORCES] {
-            Force::Own | Force::Partner => Some(edge),
-            Force::Flush => edge.flush(),
-        }
+    pub(crate) fn corner_edge(
+        &self,
+        mode: &[CornerContact],
+        constraint: usize,
+    ) -> Option<CornerEdge> {
+        let (contact, slot) = self.contact_of(constraint);
+        let edge = mode[contact].edge()?;
+        if slot == Force::Flush as usize { edge.flush() } else { Some(edge) }
     }
 
     /// Pose of a scale, in the frame in which it is placed.
@@ -178,6 +214,14 @@ impl Contacts {
             self.add_response(contact, acting, response, residual);
             self.add_derivatives(contact, acting, response, matrix);
         });
+        if self.rub() {
+            for left in 0..self.scales.len() - 1 {
+                if Self::contacts_of(left).any(|contact| state.mode.rubs[contact] != Rub::None) {
+                    let poses = [self.left_pose(&state.z, left), self.pose(&state.z, left + 1)];
+                    self.add_friction(state, left, &poses, residual, matrix);
+                }
+            }
+        }
     }
 
     /// Shows the response of every closed contact, and which of its forces act.
@@ -198,7 +242,12 @@ impl Contacts {
                     show(
                         contact,
                         mode.acting(),
-                        &mode.acting_response(&corners, &self.law, forces),
+                        &mode.acting_response(
+                            &corners,
+                            &self.law,
+                            forces,
+                            Self::held(&state.mode, contact),
+                        ),
                     );
                 }
             }
@@ -228,7 +277,7 @@ impl Contacts {
         values.clear();
         values.resize(self.forces.len(), HOLDS);
         self.for_each(state, |contact, corners| {
-            let values = &mut values[FORCES * contact..][..FORCES];
+            let values = &mut values[self.slots * contact..][..FORCES];
             match state.mode[contact] {
                 CornerContact::Open => {
                     values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
@@ -242,6 +291,7 @@ impl Contacts {
                 }
             }
         });
+        self.friction_conditions(state, values);
     }
 
     /// Replaces `slopes` by the derivatives of the conditions of all forces that do not act.
@@ -255,19 +305,24 @@ impl Contacts {
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
             let conditions = state.mode[contact].resting_conditions(corners);
-            for (slope, condition) in slopes[FORCES * contact..].iter_mut().zip(conditions) {
+            for (slope, condition) in slopes[self.slots * contact..].iter_mut().zip(conditions) {
                 *slope =
                     condition.map_or(0.0, |condition| self.along(contact, &condition, direction));
             }
         });
+        self.friction_slopes(state, direction, slopes);
     }
 
     /// The condition of a force that does not act.
     pub(crate) fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
-        let contact = constraint / FORCES;
+        let (contact, slot) = self.contact_of(constraint);
+        if slot >= FORCES {
+            let value = self.slot_condition(state, &state.z, contact, slot);
+            return value.unwrap_or(HOLDS);
+        }
         let poses = self.pair_poses(&state.z, contact);
         let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
-        conditions[constraint % FORCES].map_or(HOLDS, |condition| condition.value)
+        conditions[slot].map_or(HOLDS, |condition| condition.value)
     }
 
     fn add_derivatives(
@@ -355,12 +410,15 @@ impl Contacts {
 
     /// Derivative of the condition of a force along a direction; zero if there is no such condition.
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
-        let contact = constraint / FORCES;
+        let (contact, slot) = self.contact_of(constraint);
+        if slot >= FORCES {
+            return self.slot_condition(state, direction, contact, slot).unwrap_or(0.0);
+        }
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         let corners = self.corners(contact, &poses);
         let response = state.mode[contact].response(&corners, &self.law, forces);
-        let condition = response.conditions[constraint % FORCES];
+        let condition = response.conditions[slot];
         condition.map_or(0.0, |condition| self.along(contact, &condition, direction))
     }
 
@@ -379,8 +437,11 @@ impl Contacts {
     /// Takes the contact of a force that has changed sides to its next state. Returns the force whose condition has to
     /// hold as the path goes on, or `None` if the contact has no such transition.
     pub(crate) fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
-        let contact = change.constraint / FORCES;
-        let force = Force::ALL[change.constraint % FORCES];
+        let (contact, slot) = self.contact_of(change.constraint);
+        let first = self.slots * contact;
+        let Some(&force) = Force::ALL.get(slot) else {
+            return Some(first + self.change_friction(state, contact, slot, change.activated)?);
+        };
         let poses = self.pair_poses(&state.z, contact);
         let next = state.mode[contact].transition(
             force,
@@ -388,12 +449,15 @@ impl Contacts {
             &self.corners(contact, &poses),
             self.forces_of(&state.z, contact),
         )?;
+        let before = self.rub().then(|| state.clone());
         state.mode[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;
         }
-        let first = FORCES * contact;
         state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
+        if let Some(before) = before {
+            self.carry_friction(state, &before, contact, force == Force::Partner);
+        }
         Some(first + next.valid as usize)
     }
 
@@ -432,7 +496,7 @@ impl Contacts {
 
     /// Unknowns of the forces of a contact.
     fn unknowns_of(&self, contact: usize) -> [usize; FORCES] {
-        std::array::from_fn(|k| self.forces[FORCES * contact + k])
+        std::array::from_fn(|k| self.forces[self.slots * contact + k])
     }
 
     /// Values of the forces of a contact.

@@ -146,13 +146,14 @@ impl<S: Skin> Record<S> {
             // A guided needle has changes of its own.
             return None;
         }
-        let corner_edge = |mode| Contacts::corner_edge(mode, change.constraint);
+        let contacts = skin.contacts();
+        let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
         Some(ContactEvent {
             point,
-            left_scale: skin.number(Contacts::left_of(change.constraint)),
+            left_scale: skin.number(contacts.left_of(change.constraint)),
             // A contact that has opened had its corner and edge before.
             corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
-            change: ContactChange::of(after, change),
+            change: ContactChange::of(contacts, after, change),
         })
     }
 

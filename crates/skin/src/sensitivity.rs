@@ -10,7 +10,7 @@ mod places;
 use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
 
 use crate::ContactChange;
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::SkinState;
 use crate::record::Skin;
 
 pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
@@ -214,11 +214,12 @@ impl<S: Skin> Linearised<'_, S> {
         if change.constraint >= self.system.contacts().forces().len() {
             return "the needle moves otherwise".to_owned();
         }
-        let edge = |state: &SkinState| Contacts::corner_edge(&state.mode, change.constraint);
+        let contacts = self.system.contacts();
+        let edge = |state: &SkinState| contacts.corner_edge(&state.mode, change.constraint);
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
-        let scale = self.system.number(Contacts::left_of(change.constraint));
+        let scale = self.system.number(contacts.left_of(change.constraint));
         let scale = scale.map_or(String::new(), |scale| format!(" right of scale {scale}"));
-        format!("{edge}{scale} {}", ContactChange::of(after, change).name())
+        format!("{edge}{scale} {}", ContactChange::of(contacts, after, change).name())
     }
 }
 

@@ -83,7 +83,8 @@ impl<S: System> Path<S> {
             changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
         let valid = valid?;
         let leaving = self.direction(&mut next, arriving, valid[0]).ok()?;
-        self.most_violated(&next, &leaving, &valid).is_none().then_some((next, leaving))
+        let meeting = self.meeting(valid);
+        self.most_violated(&next, &leaving, &meeting).is_none().then_some((next, leaving))
     }
 
     /// Lets the first of `changes` happen and then, while the direction violates one of the constraints that meet, the one
@@ -94,14 +95,14 @@ impl<S: System> Path<S> {
         arriving: &[f64],
         changes: &mut Vec<Change>,
     ) -> Result<Vec<f64>, Stop> {
-        let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
+        let mut meeting = self.meeting(changes.iter().map(|change| change.constraint));
         let mut next = changes[0];
         changes.clear();
         for _ in 0..self.most_changes() {
             let valid = self.pivot(state, next).ok_or(Stop::Singular)?;
             // A transition may hand the condition on, from a corner to the edge behind it, say.
             if !meeting.contains(&valid) {
-                meeting.push(valid);
+                meeting.extend(self.system.companions(valid));
             }
             toggle(changes, next);
             let leaving = self.direction(state, arriving, valid)?;
@@ -111,6 +112,17 @@ impl<S: System> Path<S> {
             next = Change { constraint, activated: !state.active[constraint] };
         }
         Err(Stop::Cycling)
+    }
+
+    /// The constraints that may change sides where these do.
+    fn meeting(&self, changes: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let mut meeting: Vec<usize> = Vec::new();
+        for change in changes {
+            if !meeting.contains(&change) {
+                meeting.extend(self.system.companions(change));
+            }
+        }
+        meeting
     }
 
     /// Lets a constraint change sides. Returns the one whose condition has to hold as the path goes on, or `None` if the

@@ -88,6 +88,12 @@ pub trait System {
         &[]
     }
 
+    /// Constraints that may change sides where this one does, because of it: what was at rest may begin to slip, say. Itself alone unless
+    /// the system knows of others.
+    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        constraint..constraint + 1
+    }
+
     /// The mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 

@@ -4,12 +4,15 @@ use std::ops::{Deref, DerefMut};
 
 use contact::CornerContact;
 
+use super::rubbing::Rub;
 use crate::puncture::NeedleMode;
 
-/// The mode of a skin: the state of every contact, as which it is read, and that of a guided needle.
+/// The mode of a skin: the state of every contact, as which it is read, its friction, and that of a guided needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SkinMode {
     pub(crate) contacts: Vec<CornerContact>,
+    /// How each contact rubs; nothing without friction.
+    pub(crate) rubs: Vec<Rub>,
     pub(crate) needle: NeedleMode,
 }
 

@@ -110,7 +110,8 @@ impl<'a> FlexureProblem<'a> {
             row,
             half_base: design.half_base(),
             section: Section::new(design.width, parameters.membrane_thickness)?,
-            law: ContactLaw::new(common.law, design.length, design.width, modulus)?,
+            law: ContactLaw::new(common.law, design.length, design.width, modulus)?
+                .with_friction(common.friction)?,
             gaps,
             solved,
             contact_curvature: None,

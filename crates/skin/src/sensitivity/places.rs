@@ -1,6 +1,5 @@
 //! The places of a path at which measures are taken.
 
-use contact::FORCES;
 use solver::{
     AnchoredPoint, Change, Event, Newton, Path, PathAnchor, Point, Settings, State, Summit, System,
 };
@@ -116,8 +115,8 @@ pub(crate) fn vanished<S: Skin>(
 ) -> Option<usize> {
     let guards = Newton::guards(system, state);
     let changed = |constraint: &usize| {
-        let contact = constraint / FORCES;
-        changes.iter().any(|change| change.constraint / FORCES == contact)
+        let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
+        changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
     };
     let candidates = (0..guards.len()).filter(changed).map(|c| (c, guards[c].abs()));
     let (constraint, guard) = candidates.min_by(|a, b| a.1.total_cmp(&b.1))?;

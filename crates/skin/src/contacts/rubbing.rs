@@ -1,0 +1,430 @@
+//! Friction between neighbours: scales that stick and slip on each other.
+//!
+//! On an edge the contact force has a part `T` along it, on the left scale in the direction of the normal force turned counter-clockwise
+//! by a quarter. With the normal forces `Λ` that bear on the edge and the way `s` that the left scale has slid in that direction
+//!
+//! ```text
+//! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (R1)
+//! ```
+//!
+//! Sticking is an equality. Its unknown is the *grip* `a = T + μ Λ`, which vanishes where the contact begins to slip forward; backward it
+//! slips where `2 μ Λ − a` does. A contact that slips has the way that it has come as an unknown that only grows: where it turns back the
+//! contact sticks (R2). So a contact that rubs has two constraints more than one that does not:
+//!
+//! ```text
+//! 0 ≤ a   where it sticks          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
+//! ```
+//!
+//! Two contacts of a pair whose sides lie on each other slide along one line: only the sum of their friction counts, and one of them, the
+//! *host*, bears it for both. Corners that are together keep the ratio of `T` and `Λ` with which they came; it is that of sliding on, on
+//! the edge behind the corner.
+
+use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose};
+use geometry::Vec2;
+use solver::{Residual, Tangent};
+
+use super::{Contacts, HOLDS, LEVELS, SkinMode, SkinState};
+
+/// Constraints of a contact that rubs, behind those of its forces.
+pub(super) const GRIP: usize = FORCES;
+pub(super) const WAY: usize = FORCES + 1;
+
+/// A normal force smaller than this has just begun to act.
+const NO_FORCE: f64 = 1e-12;
+
+/// A ratio this near to the coefficient of friction is that of sliding.
+const SLIDES: f64 = 1e-9;
+
+/// How a contact rubs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Rub {
+    /// Not at all: it is open, or the other contact of the pair bears its friction.
+    #[default]
+    None,
+    /// It sticks where `s` is `at`, its anchor.
+    Stick {
+        /// `s₀`.
+        at: f64,
+    },
+    /// It slips with this sign of `ṡ`, since `s` was `from`.
+    Slip {
+        /// `σ`, 1 or −1.
+        sign: f64,
+        /// `s` where it began to.
+        from: f64,
+    },
+    /// The corners are together, with this ratio of `T` and `Λ`.
+    Held {
+        /// `T/Λ`.
+        ratio: f64,
+    },
+}
+
+impl Rub {
+    /// Whether the contact bears friction on an edge.
+    fn is_host(self) -> bool {
+        matches!(self, Self::Stick { .. } | Self::Slip { .. })
+    }
+
+    /// Whether it sticks, and whether it slips.
+    pub(super) fn acting(self) -> [bool; 2] {
+        [matches!(self, Self::Stick { .. }), matches!(self, Self::Slip { .. })]
+    }
+}
+
+/// How a closed contact slides: its friction, and the way with its derivatives.
+struct Sliding {
+    rub: Rub,
+    traction: f64,
+    /// `∂T/∂Λ`, with the grip held.
+    by_pressure: f64,
+    slide: Gap,
+}
+
+impl Contacts {
+    /// Whether neighbours rub.
+    pub(crate) fn rub(&self) -> bool {
+        self.law.friction() > 0.0
+    }
+
+    /// Whether friction acts anywhere.
+    pub(crate) fn rubs(&self, state: &SkinState) -> bool {
+        state.mode.rubs.iter().any(|rub| *rub != Rub::None)
+    }
+
+    /// Numbers of contacts that stick and that slip.
+    pub(crate) fn rubbing(state: &SkinState) -> [usize; 2] {
+        let count = |k: usize| state.mode.rubs.iter().filter(|rub| rub.acting()[k]).count();
+        [0, 1].map(count)
+    }
+
+    /// The ratio with which the corners of a contact are held together.
+    pub(super) fn held(mode: &SkinMode, contact: usize) -> f64 {
+        match mode.rubs.get(contact) {
+            Some(Rub::Held { ratio }) => *ratio,
+            _ => 0.0,
+        }
+    }
+
+    /// Adds the friction of a pair to its balance, and the equations of grips and ways.
+    pub(super) fn add_friction(
+        &self,
+        state: &SkinState,
+        left: usize,
+        poses: &[Pose; 2],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        for contact in Self::contacts_of(left) {
+            let Some(sliding) = self.sliding(state, contact, poses) else { continue };
+            let Sliding { rub, traction, by_pressure, slide } = sliding;
+            let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
+            let parts = self.parts(contact);
+            for row in parts.iter().flatten() {
+                let along = row.sign * slide.gradient[row.coordinate];
+                residual.add(row.unknown, -traction * along);
+                for column in parts.iter().flatten() {
+                    let turning = slide.hessian[row.coordinate][column.coordinate];
+                    matrix.add(
+                        row.unknown,
+                        column.unknown,
+                        -traction * row.sign * column.sign * turning,
+                    );
+                }
+                for force in self.pressing(&state.mode, contact) {
+                    matrix.add(row.unknown, force, -by_pressure * along);
+                }
+                if let Rub::Stick { .. } = rub {
+                    matrix.add(row.unknown, grip, -along);
+                }
+            }
+            let mut add_way = |row: usize, factor: f64, value: f64| {
+                residual.add(row, factor * value);
+                for part in parts.iter().flatten() {
+                    let along = part.sign * slide.gradient[part.coordinate];
+                    matrix.add(row, part.unknown, factor * along);
+                }
+            };
+            match rub {
+                Rub::Stick { at } => add_way(grip, 1.0, slide.value - at),
+                Rub::Slip { sign, from } => {
+                    add_way(way, -sign, slide.value - from);
+                    residual.add(way, state.z[way]);
+                    matrix.add(way, way, 1.0);
+                }
+                Rub::None | Rub::Held { .. } => {}
+            }
+        }
+    }
+
+    /// The condition of a grip or a way that does not act, or with a direction for `z` its derivative: that of the way of a contact that
+    /// sticks alone may be violated.
+    pub(super) fn slot_condition(
+        &self,
+        state: &SkinState,
+        z: &[f64],
+        contact: usize,
+        slot: usize,
+    ) -> Option<f64> {
+        let SkinState { mode, .. } = state;
+        let Rub::Stick { .. } = mode.rubs[contact] else { return None };
+        if slot != WAY {
+            return None;
+        }
+        let pressing: f64 = self.pressing(mode, contact).map(|force| z[force]).sum();
+        Some(2.0 * self.law.friction() * pressing - z[self.unknown(contact, GRIP)])
+    }
+
+    /// Replaces the conditions of grips and ways.
+    pub(super) fn friction_conditions(&self, state: &SkinState, values: &mut [f64]) {
+        for contact in 0..state.mode.rubs.len() {
+            values[self.slots * contact + WAY] =
+                self.slot_condition(state, &state.z, contact, WAY).unwrap_or(HOLDS);
+        }
+    }
+
+    /// Replaces the derivatives of these conditions along a direction, in which they are linear.
+    pub(super) fn friction_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        slopes: &mut [f64],
+    ) {
+        for contact in 0..state.mode.rubs.len() {
+            slopes[self.slots * contact + WAY] =
+                self.slot_condition(state, direction, contact, WAY).unwrap_or(0.0);
+        }
+    }
+
+    /// Power of friction along a direction of the path: what it takes, never negative.
+    pub(crate) fn friction_power(&self, state: &SkinState, direction: &[f64]) -> f64 {
+        let of_contact = |contact: usize| {
+            let poses = self.pair_poses(&state.z, contact);
+            let Some(Sliding { rub: Rub::Slip { .. }, traction, slide, .. }) =
+                self.sliding(state, contact, &poses)
+            else {
+                return 0.0;
+            };
+            let parts = self.parts(contact);
+            let rate = |part: &super::Part| {
+                part.sign * slide.gradient[part.coordinate] * direction[part.unknown]
+            };
+            -traction * parts.iter().flatten().map(rate).sum::<f64>()
+        };
+        (0..state.mode.rubs.len()).map(of_contact).sum()
+    }
+
+    /// Friction on the left scale at a contact whose normal force has this direction.
+    pub(super) fn traction_on_left(
+        &self,
+        state: &SkinState,
+        contact: usize,
+        normal_force: Vec2,
+    ) -> Vec2 {
+        let poses = self.pair_poses(&state.z, contact);
+        let quarter = |v: Vec2| Vec2::new(-v.y, v.x);
+        match (self.sliding(state, contact, &poses), normal_force.norm()) {
+            (Some(sliding), size) if size > 0.0 => {
+                sliding.traction * quarter(normal_force) / size
+            }
+            _ => Self::held(&state.mode, contact) * quarter(normal_force),
+        }
+    }
+
+    fn sliding(&self, state: &SkinState, contact: usize, poses: &[Pose; 2]) -> Option<Sliding> {
+        let rub = *state.mode.rubs.get(contact)?;
+        let by_pressure = match rub {
+            Rub::Stick { .. } => -self.law.friction(),
+            Rub::Slip { sign, .. } => -sign * self.law.friction(),
+            Rub::None | Rub::Held { .. } => return None,
+        };
+        let slide = self.slide(state.mode[contact].edge()?, contact, poses);
+        let pressing: f64 = self.pressing(&state.mode, contact).map(|force| state.z[force]).sum();
+        let grip = state.z[self.unknown(contact, GRIP)];
+        Some(Sliding { rub, traction: grip + by_pressure * pressing, by_pressure, slide })
+    }
+
+    fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
+        self.pair(Self::left(contact)).slide(edge, left, right)
+    }
+
+    /// Unknown of a constraint of a contact.
+    fn unknown(&self, contact: usize, slot: usize) -> usize {
+        self.forces[self.slots * contact + slot]
+    }
+
+    /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
+    fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
+        let other = Self::beside(contact);
+        let is_guest = mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open;
+        let both = [Some(contact), is_guest.then_some(other)];
+        let acting = both.map(|contact| contact.map(|contact| (contact, mode[contact].acting())));
+        acting.into_iter().flatten().flat_map(move |(contact, acting)| {
+            let forces = [Force::Own, Force::Flush].map(|force| force as usize);
+            forces.into_iter().filter(move |&force| acting[force]).map(move |force| (contact, force))
+        }).map(|(contact, force)| self.unknown(contact, force))
+    }
+
+    /// The other contact of a pair.
+    fn beside(contact: usize) -> usize {
+        let first = Self::contacts_of(Self::left(contact)).start;
+        2 * first + LEVELS.len() - 1 - contact
+    }
+
+    /// `T/Λ` of a contact.
+    fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
+        let other = Self::beside(contact);
+        match state.mode.rubs[contact] {
+            Rub::Held { ratio } => ratio,
+            Rub::Slip { sign, .. } => -sign * self.law.friction(),
+            Rub::Stick { .. } => {
+                let pressing = self.pressure(state, contact);
+                let grip = state.z[self.unknown(contact, GRIP)];
+                if pressing > NO_FORCE { grip / pressing - self.law.friction() } else { 0.0 }
+            }
+            Rub::None if self.is_guest(state, contact) => self.ratio(state, other),
+            Rub::None => 0.0,
+        }
+    }
+
+    /// Whether the other contact of the pair bears the friction of this one.
+    fn is_guest(&self, state: &SkinState, contact: usize) -> bool {
+        state.mode.rubs[contact] == Rub::None
+            && state.mode[contact] != CornerContact::Open
+            && state.mode.rubs[Self::beside(contact)].is_host()
+    }
+
+    /// The normal forces on the edge of a contact that bears its friction.
+    fn pressure(&self, state: &SkinState, contact: usize) -> f64 {
+        self.pressing(&state.mode, contact).map(|force| state.z[force]).sum()
+    }
+
+    /// Takes friction along where a force of a contact has changed sides: `before` is the state in which it did. `is_back` tells of corners
+    /// that part whether they do so the way they came.
+    pub(super) fn carry_friction(
+        &self,
+        state: &mut SkinState,
+        before: &SkinState,
+        contact: usize,
+        is_back: bool,
+    ) {
+        let pair = [contact, Self::beside(contact)];
+        let ratios = pair.map(|contact| self.ratio(before, contact));
+        let mut rubs = pair.map(|contact| self.own_rub(before, contact, state));
+        match (before.mode[contact], state.mode[contact].edge()) {
+            (_, None) => rubs[0] = Rub::None,
+            (CornerContact::Open, Some(edge)) => {
+                rubs[0] = Rub::Stick { at: self.way(state, edge, contact) };
+            }
+            (CornerContact::Corner(_), Some(edge)) => {
+                let here = self.way(state, edge, contact);
+                let slides = ratios[0].abs() >= self.law.friction() * (1.0 - SLIDES);
+                rubs[0] = if slides && !is_back {
+                    Rub::Slip { sign: -ratios[0].signum(), from: here }
+                } else {
+                    Rub::Stick { at: here }
+                };
+            }
+            _ => {}
+        }
+        if let CornerContact::Corner(_) = state.mode[contact] {
+            rubs[0] = Rub::Held { ratio: ratios[0] };
+        }
+        if rubs.iter().all(|rub| rub.is_host()) && self.slide_along_one_line(state, contact) {
+            let guest = usize::from(before.mode.rubs[contact].is_host());
+            rubs[guest] = Rub::None;
+        }
+        for (contact, rub) in pair.into_iter().zip(rubs) {
+            state.mode.rubs[contact] = rub;
+        }
+        for (k, (contact, rub)) in pair.into_iter().zip(rubs).enumerate() {
+            let share = |k: usize| {
+                let forces = self.forces_of(&state.z, pair[k]);
+                let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
+                (ratios[k] + self.law.friction()) * normal
+            };
+            let guest = if self.is_guest(state, pair[1 - k]) { share(1 - k) } else { 0.0 };
+            let is_new = before.mode.rubs[contact] != rub;
+            self.set_friction(state, contact, share(k) + guest, is_new);
+        }
+    }
+
+    /// How a contact rubs by itself, on the edge on which it is in the state `now`.
+    fn own_rub(&self, before: &SkinState, contact: usize, now: &SkinState) -> Rub {
+        let is_guest = self.is_guest(before, contact);
+        let from = if is_guest { Self::beside(contact) } else { contact };
+        let rub = before.mode.rubs[from];
+        let Some(edge) = now.mode[contact].edge() else { return Rub::None };
+        if !is_guest && before.mode[contact].edge() == Some(edge) {
+            return rub;
+        }
+        // On another edge the way is counted from elsewhere.
+        let here = self.way(now, edge, contact);
+        match rub {
+            Rub::Stick { .. } => Rub::Stick { at: here },
+            Rub::Slip { sign, .. } => Rub::Slip { sign, from: here },
+            other => other,
+        }
+    }
+
+    /// Whether the contacts of a pair are both between its sides, which then lie on each other.
+    fn slide_along_one_line(&self, state: &SkinState, contact: usize) -> bool {
+        let is_side = |contact: usize| match state.mode[contact] {
+            CornerContact::Edge(edge) => {
+                !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
+            }
+            _ => false,
+        };
+        is_side(contact) && is_side(Self::beside(contact))
+    }
+
+    /// `s` of a contact.
+    fn way(&self, state: &SkinState, edge: CornerEdge, contact: usize) -> f64 {
+        self.slide(edge, contact, &self.pair_poses(&state.z, contact)).value
+    }
+
+    /// Sets what acts of grip and way of a contact.
+    fn set_friction(&self, state: &mut SkinState, contact: usize, grip: f64, is_new: bool) {
+        let [sticks, slips] = state.mode.rubs[contact].acting();
+        let first = self.slots * contact;
+        [state.active[first + GRIP], state.active[first + WAY]] = [sticks, slips];
+        let largest = 2.0 * self.law.friction() * self.pressure(state, contact);
+        state.z[self.unknown(contact, GRIP)] =
+            if sticks { grip.clamp(0.0, largest.max(0.0)) } else { 0.0 };
+        if is_new || !slips {
+            state.z[self.unknown(contact, WAY)] = 0.0;
+        }
+    }
+
+    /// Takes a contact that begins to slip, or ceases to, to its next state. Returns the constraint of the contact whose condition has to
+    /// hold as the path goes on, or `None` if there is no such change.
+    ///
+    /// | Before | Condition | After |
+    /// |---|---|---|
+    /// | sticks | `T = −μ Λ` | slips forward |
+    /// | sticks | `T = μ Λ` | slips backward |
+    /// | slips | `s` turns back | sticks where it is |
+    pub(super) fn change_friction(
+        &self,
+        state: &mut SkinState,
+        contact: usize,
+        slot: usize,
+        acts: bool,
+    ) -> Option<usize> {
+        let here = self.way(state, state.mode[contact].edge()?, contact);
+        let has_force = self.pressure(state, contact) > NO_FORCE;
+        let (rub, valid) = match (state.mode.rubs[contact], slot, acts) {
+            (Rub::Stick { .. }, GRIP, false) => (Rub::Slip { sign: 1.0, from: here }, WAY),
+            (Rub::Stick { .. }, WAY, true) => (Rub::Slip { sign: -1.0, from: here }, WAY),
+            (Rub::Slip { sign, .. }, WAY, false) => {
+                (Rub::Stick { at: here }, if sign > 0.0 { GRIP } else { WAY })
+            }
+            _ => return None,
+        };
+        let grip = (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
+        state.mode.rubs[contact] = rub;
+        self.set_friction(state, contact, grip, true);
+        // A contact that has just closed has to press, however it rubs.
+        Some(if has_force { valid } else { Force::Own as usize })
+    }
+}
