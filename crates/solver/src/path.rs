@@ -372,6 +372,20 @@ impl<S: System> Path<S> {
         lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
     }
 
+    /// Cosine of the angle between two directions in all coordinates, or in the controls of a system that tells of none.
+    pub(crate) fn cosine(&self, one: &[f64], other: &[f64]) -> f64 {
+        let all = self.coordinates.iter().map(|&index| (index, 1.0));
+        let controls = self.system.controls().iter().map(|c| (c.index, c.scale.powi(-2)));
+        let controls = controls.filter(|_| self.coordinates.is_empty());
+        let [mut product, mut of_one, mut of_other] = [0.0; 3];
+        for (index, weight) in all.chain(controls) {
+            product += weight * one[index] * other[index];
+            of_one += weight * one[index].powi(2);
+            of_other += weight * other[index].powi(2);
+        }
+        product / (of_one * of_other).sqrt()
+    }
+
     /// The next point of the path, or why there is none.
     fn advance(&mut self) -> Result<Point<S::Mode>, Stop> {
         loop {

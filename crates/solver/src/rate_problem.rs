@@ -51,7 +51,41 @@ impl<S: System> Path<S> {
             *state = next;
             return Ok(leaving);
         }
-        self.pivot_in_turn(state, arriving, changes)
+        let mut found: Option<Resolved<S::Mode>> = None;
+        let mut failure = Stop::Singular;
+        for start in self.starts(state, changes[0]) {
+            match self.pivot_in_turn(state, arriving, changes, &start) {
+                Err(stop) => failure = stop,
+                Ok(resolved) if found.as_ref().is_none_or(|best| best.along < resolved.along) => {
+                    found = Some(resolved);
+                }
+                Ok(_) => {}
+            }
+        }
+        let Resolved { state: next, leaving, changes: made, is_positive, .. } =
+            found.ok_or(failure)?;
+        (*state, *changes, self.is_positive) = (next, made, is_positive);
+        Ok(leaving)
+    }
+
+    /// The changes with which pivoting may begin: that of the event, or that and one of a companion which it leaves undecided. What
+    /// closes with friction may stick, or slip either way, and another beginning may come to another end.
+    fn starts(&self, state: &State<S::Mode>, change: Change) -> Vec<Vec<Change>> {
+        let mut starts = vec![vec![change]];
+        let companions = self.system.companions(change.constraint);
+        let mut after = state.clone();
+        if companions.len() > 1
+            && let Some(valid) = self.pivot(&mut after, change)
+        {
+            let guards = Newton::guards(&self.system, &after);
+            let is_undecided = |c: &usize| {
+                *c != change.constraint && *c != valid && guards[*c].abs() <= FLOOR
+            };
+            starts.extend(companions.filter(is_undecided).map(|constraint| {
+                vec![change, Change { constraint, activated: !after.active[constraint] }]
+            }));
+        }
+        starts
     }
 
     /// Stops what only grows where it turns back. Its rate vanishes there, so the path goes on as it came: on both sides of the event
@@ -87,27 +121,36 @@ impl<S: System> Path<S> {
         self.most_violated(&next, &leaving, &meeting).is_none().then_some((next, leaving))
     }
 
-    /// Lets the first of `changes` happen and then, while the direction violates one of the constraints that meet, the one
+    /// Lets the changes of `start` happen and then, while the direction violates one of the constraints that meet, the one
     /// that it violates fastest. A constraint that has changed sides may have to change back.
     fn pivot_in_turn(
         &mut self,
-        state: &mut State<S::Mode>,
+        state: &State<S::Mode>,
         arriving: &[f64],
-        changes: &mut Vec<Change>,
-    ) -> Result<Vec<f64>, Stop> {
+        changes: &[Change],
+        start: &[Change],
+    ) -> Result<Resolved<S::Mode>, Stop> {
+        let mut state = state.clone();
         let mut meeting = self.meeting(changes.iter().map(|change| change.constraint));
-        let mut next = changes[0];
-        changes.clear();
+        let mut made = Vec::new();
+        let mut waiting = start.iter().copied();
+        let mut next = waiting.next().ok_or(Stop::Singular)?;
         for _ in 0..self.most_changes() {
-            let valid = self.pivot(state, next).ok_or(Stop::Singular)?;
+            let valid = self.pivot(&mut state, next).ok_or(Stop::Singular)?;
             // A transition may hand the condition on, from a corner to the edge behind it, say.
             if !meeting.contains(&valid) {
                 meeting.extend(self.system.companions(valid));
             }
-            toggle(changes, next);
-            let leaving = self.direction(state, arriving, valid)?;
-            let Some(constraint) = self.most_violated(state, &leaving, &meeting) else {
-                return Ok(leaving);
+            toggle(&mut made, next);
+            if let Some(change) = waiting.next() {
+                next = change;
+                continue;
+            }
+            let leaving = self.direction(&mut state, arriving, valid)?;
+            let Some(constraint) = self.most_violated(&state, &leaving, &meeting) else {
+                let along = self.cosine(arriving, &leaving);
+                let is_positive = self.is_positive;
+                return Ok(Resolved { state, leaving, changes: made, is_positive, along });
             };
             next = Change { constraint, activated: !state.active[constraint] };
         }
@@ -197,6 +240,18 @@ impl<S: System> Path<S> {
         // Each constraint may change and change back; the rest is for rows of a few scales.
         2 * self.guards.len() + 8
     }
+}
+
+/// A way on from an event.
+struct Resolved<M> {
+    state: State<M>,
+    leaving: Vec<f64>,
+    /// The constraints that have changed sides.
+    changes: Vec<Change>,
+    /// The orientation (N7) behind the event.
+    is_positive: bool,
+    /// Cosine of the angle by which the path turns.
+    along: f64,
 }
 
 /// Adds a change to those made, or takes away the one that it undoes.
