@@ -3,7 +3,7 @@ use skin::{Base, Common, Design, flexure};
 fn main() {
     let args: Vec<f64> = std::env::args().skip(1).map(|a| a.parse().unwrap()).collect();
     let [gap, length, slant_deg, friction, scales] = args[..] else { panic!() };
-    let design = Design { gap, length, slant_deg, base: Base::L, width: 1.0 };
+    let design = Design { gap, length, slant_deg, base: if std::env::var("B").is_ok() { Base::TwoL } else { Base::L }, width: 1.0 };
     let common = Common { friction, ..Common::default() };
     if scales < 0.0 {
         let parameters = flexure::FlexureParameters { elements_per_gap: flexure::MembraneMesh::Elements(1), ..Default::default() };

@@ -53,13 +53,17 @@ impl<S: System> Path<S> {
         }
         let mut found: Option<Resolved<S::Mode>> = None;
         let mut failure = Stop::Singular;
+        let before = self.is_positive;
         for start in self.starts(state, changes[0]) {
+            self.is_positive = before;
             match self.pivot_in_turn(state, arriving, changes, &start) {
                 Err(stop) => failure = stop,
-                Ok(resolved) if found.as_ref().is_none_or(|best| best.along < resolved.along) => {
-                    found = Some(resolved);
+                Ok(resolved) => {
+                    let worth = |way: &Resolved<S::Mode>| (way.is_positive == before, way.along);
+                    if found.as_ref().is_none_or(|best| worth(best) < worth(&resolved)) {
+                        found = Some(resolved);
+                    }
                 }
-                Ok(_) => {}
             }
         }
         let Resolved { state: next, leaving, changes: made, is_positive, .. } =
