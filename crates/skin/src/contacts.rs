@@ -130,8 +130,11 @@ impl Contacts {
         (constraint / self.slots, constraint % self.slots)
     }
 
-    /// The constraints of the pair that a constraint belongs to.
+    /// The constraints of the pair that a constraint belongs to, where scales rub: each of them may begin to slip with it.
     pub(crate) fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        if !self.rub() {
+            return constraint..constraint + 1;
+        }
         let pair = LEVELS.len() * self.slots;
         let first = constraint / pair * pair;
         first..first + pair

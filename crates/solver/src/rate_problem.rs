@@ -122,11 +122,12 @@ impl<S: System> Path<S> {
         let valid = valid?;
         let leaving = self.direction(&mut next, arriving, valid[0]).ok()?;
         let meeting = self.meeting(valid);
-        self.most_violated(&next, &leaving, &meeting).is_none().then_some((next, leaving))
+        self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
 
     /// Lets the changes of `start` happen and then, while the direction violates one of the constraints that meet, the one
-    /// that it violates fastest. A constraint that has changed sides may have to change back.
+    /// that it violates fastest. A constraint that has changed sides may have to change back; where that leads to a set of changes that
+    /// has been tried, others that are violated change instead.
     fn pivot_in_turn(
         &mut self,
         state: &State<S::Mode>,
@@ -134,31 +135,71 @@ impl<S: System> Path<S> {
         changes: &[Change],
         start: &[Change],
     ) -> Result<Resolved<S::Mode>, Stop> {
-        let mut state = state.clone();
-        let mut meeting = self.meeting(changes.iter().map(|change| change.constraint));
-        let mut made = Vec::new();
-        let mut waiting = start.iter().copied();
-        let mut next = waiting.next().ok_or(Stop::Singular)?;
-        for _ in 0..self.most_changes() {
-            let valid = self.pivot(&mut state, next).ok_or(Stop::Singular)?;
-            // A transition may hand the condition on, from a corner to the edge behind it, say.
-            if !meeting.contains(&valid) {
-                meeting.extend(self.system.companions(valid));
-            }
-            toggle(&mut made, next);
-            if let Some(change) = waiting.next() {
-                next = change;
-                continue;
-            }
-            let leaving = self.direction(&mut state, arriving, valid)?;
-            let Some(constraint) = self.most_violated(&state, &leaving, &meeting) else {
-                let along = self.cosine(arriving, &leaving);
-                let is_positive = self.is_positive;
-                return Ok(Resolved { state, leaving, changes: made, is_positive, along });
-            };
-            next = Change { constraint, activated: !state.active[constraint] };
+        let meeting = self.meeting(changes.iter().map(|change| change.constraint));
+        let first = Pivoted { state: state.clone(), meeting, made: Vec::new(), holds: None };
+        let (&last, before) = start.split_last().ok_or(Stop::Singular)?;
+        let mut at = first;
+        for &change in before {
+            at = self.pivoted(&at, change)?;
         }
-        Err(Stop::Cycling)
+        let mut waiting = vec![(at, last)];
+        let mut tried = Vec::new();
+        let mut failure = Stop::Cycling;
+        while let Some((from, change)) = waiting.pop() {
+            if tried.len() >= self.most_changes() {
+                break;
+            }
+            let way = self.pivoted(&from, change).and_then(|mut at| {
+                let is_known = tried.iter().any(|(active, mode)| {
+                    *active == at.state.active && self.system.is_same_form(mode, &at.state.mode)
+                });
+                if is_known {
+                    return Err(Stop::Cycling);
+                }
+                tried.push((at.state.active.clone(), at.state.mode.clone()));
+                let leaving = self.direction(&mut at.state, arriving, at.holds.unwrap_or_default())?;
+                Ok((at, leaving))
+            });
+            let (at, leaving) = match way {
+                Ok(way) => way,
+                Err(stop) => {
+                    failure = stop;
+                    continue;
+                }
+            };
+            let violated = self.violated(&at.state, &leaving, &at.meeting);
+            if violated.is_empty() {
+                let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
+                let Pivoted { state, made: changes, .. } = at;
+                return Ok(Resolved { state, leaving, changes, is_positive, along });
+            }
+            let next = violated.into_iter().map(|constraint| {
+                Change { constraint, activated: !at.state.active[constraint] }
+            });
+            // The one that is violated fastest is tried next.
+            waiting.extend(next.rev().map(|change| (at.clone(), change)));
+        }
+        Err(failure)
+    }
+
+    /// What one change more makes of a set of changes.
+    fn pivoted(
+        &self,
+        from: &Pivoted<S::Mode>,
+        change: Change,
+    ) -> Result<Pivoted<S::Mode>, Stop> {
+        let mut next = from.clone();
+        let valid = self.pivot(&mut next.state, change).ok_or(Stop::Singular)?;
+        // A transition may hand the condition on, from a corner to the edge behind it, say.
+        if !next.meeting.contains(&valid) {
+            next.meeting.extend(self.system.companions(valid));
+        }
+        toggle(&mut next.made, change);
+        // What changes elsewhere because of friction does not tell which way the path goes: that is said by what has happened.
+        let companions = self.system.companions(change.constraint);
+        let is_elsewhere = |holds: &usize| companions.len() > 1 && !companions.contains(holds);
+        next.holds = next.holds.filter(is_elsewhere).or(Some(valid));
+        Ok(next)
     }
 
     /// The constraints that may change sides where these do.
@@ -221,13 +262,13 @@ impl<S: System> Path<S> {
         rows.map(|row| Condition::through(row, &state.z)).collect()
     }
 
-    /// The constraint that a direction violates fastest, of those that it violates at no distance.
-    fn most_violated(
+    /// The constraints that a direction violates, of those that it violates at no distance, the one that it violates fastest first.
+    fn violated(
         &mut self,
         state: &State<S::Mode>,
         direction: &[f64],
         constraints: &[usize],
-    ) -> Option<usize> {
+    ) -> Vec<usize> {
         let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
@@ -236,7 +277,10 @@ impl<S: System> Path<S> {
         let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
         let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
         let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
-        meeting.chain(turned).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, _)| c)
+        let mut violated: Vec<(usize, f64)> = meeting.chain(turned).collect();
+        violated.sort_by(|a, b| a.1.total_cmp(&b.1));
+        violated.dedup_by_key(|(constraint, _)| *constraint);
+        violated.into_iter().map(|(constraint, _)| constraint).collect()
     }
 
     /// More pivots than this do not happen at one place.
@@ -244,6 +288,18 @@ impl<S: System> Path<S> {
         // Each constraint may change and change back; the rest is for rows of a few scales.
         2 * self.guards.len() + 8
     }
+}
+
+/// A state at an event after some changes.
+#[derive(Clone)]
+struct Pivoted<M> {
+    state: State<M>,
+    /// The constraints that may be violated there.
+    meeting: Vec<usize>,
+    /// The changes made so far.
+    made: Vec<Change>,
+    /// The constraint that has to hold as the path goes on.
+    holds: Option<usize>,
 }
 
 /// A way on from an event.

@@ -97,6 +97,11 @@ pub trait System {
     /// The mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
 
+    /// Whether the equations have the same form in two modes, whatever each has kept of its way.
+    fn is_same_form(&self, one: &Self::Mode, other: &Self::Mode) -> bool {
+        one == other
+    }
+
     /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
     /// [`System::conditions`] of its own.
     ///

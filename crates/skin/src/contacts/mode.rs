@@ -16,6 +16,16 @@ pub(crate) struct SkinMode {
     pub(crate) needle: NeedleMode,
 }
 
+impl SkinMode {
+    /// Whether contacts do and rub alike in two modes.
+    pub(crate) fn is_same_form(&self, other: &Self) -> bool {
+        let rubs = self.rubs.iter().zip(&other.rubs);
+        self.contacts == other.contacts
+            && self.needle == other.needle
+            && rubs.into_iter().all(|(one, other)| one.is_same_form(*other))
+    }
+}
+
 impl Deref for SkinMode {
     type Target = Vec<CornerContact>;
 

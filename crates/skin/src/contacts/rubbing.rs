@@ -66,6 +66,14 @@ impl Rub {
         matches!(self, Self::Stick { .. } | Self::Slip { .. })
     }
 
+    /// Whether both stick, or slip the same way.
+    pub(super) fn is_same_form(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Slip { sign, .. }, Self::Slip { sign: of_other, .. }) => sign == of_other,
+            _ => std::mem::discriminant(&self) == std::mem::discriminant(&other),
+        }
+    }
+
     /// Whether it sticks, and whether it slips.
     pub(super) fn acting(self) -> [bool; 2] {
         [matches!(self, Self::Stick { .. }), matches!(self, Self::Slip { .. })]

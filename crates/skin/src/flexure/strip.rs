@@ -330,6 +330,10 @@ impl System for Strip {
         self.contacts.companions(constraint)
     }
 
+    fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {
+        one.is_same_form(other)
+    }
+
     fn mode_at_rest(&self) -> SkinMode {
         self.contacts.open()
     }

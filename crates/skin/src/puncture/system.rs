@@ -372,6 +372,10 @@ impl System for Chain {
         &self.constraints
     }
 
+    fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {
+        one.is_same_form(other)
+    }
+
     fn mode_at_rest(&self) -> SkinMode {
         self.contacts.open()
     }
