@@ -65,6 +65,8 @@ pub(crate) struct Contacts {
     forces: Vec<usize>,
     /// Numbers of the ways that contacts slip, which only grow.
     growing: Vec<usize>,
+    /// Contacts whose anchor differs from that of a row of which this is a neighbour, and by how much.
+    moved: Vec<(usize, f64)>,
 }
 
 impl Contacts {
@@ -79,7 +81,8 @@ impl Contacts {
         let pair_shapes = arrangement.pairs();
         let ways = (0..forces.len()).filter(|number| number % slots == WAY);
         let growing = ways.collect();
-        Self { arrangement, pair_shapes, law, scales, relative: false, slots, forces, growing }
+        let (relative, moved) = (false, Vec::new());
+        Self { arrangement, pair_shapes, law, scales, relative, slots, forces, growing, moved }
     }
 
     /// The contacts of a row whose scales are each placed in the frame of their left neighbour.

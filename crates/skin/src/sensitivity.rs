@@ -223,6 +223,30 @@ impl<S: Skin> Linearised<'_, S> {
     }
 }
 
+/// Derivatives that are not known, because what sticks keeps something of the way that a parameter changes in an unknown way.
+pub(crate) fn missing<S: Skin>(
+    skin: &S,
+    spots: &[MeasuredPoint<S>],
+    parameters: usize,
+) -> Vec<Derivative> {
+    let mut derivatives = Vec::new();
+    for MeasuredPoint { place, quantities } in spots {
+        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
+            let value = place.as_ref().map_or(0.0, |place| quantity.at(skin, place));
+            let kink = "something sticks where something else changes, too";
+            derivatives.extend((0..parameters).map(|parameter| Derivative {
+                measure: quantity.measure,
+                parameter,
+                value,
+                left: None,
+                right: None,
+                kink: Some(kink.to_owned()),
+            }));
+        }
+    }
+    derivatives
+}
+
 impl<S: Skin> MeasuredQuantity<S> {
     /// The value at a place.
     pub(crate) fn at(&self, system: &S, place: &AnchoredPoint<S::Mode>) -> f64 {

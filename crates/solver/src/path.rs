@@ -85,6 +85,8 @@ pub struct Path<S: System> {
     coordinates: Vec<usize>,
     /// The orientation ([`Newton::is_positive`]) with which the path leaves `point`.
     pub(crate) is_positive: bool,
+    /// Whether no event had another way on among those that were looked at.
+    pub(crate) is_unique: bool,
     step: f64,
     points: usize,
     stop: Option<Stop>,
@@ -114,6 +116,7 @@ impl<S: System> Path<S> {
             point: Arc::new(point.clone()),
             guards: Vec::new(),
             slopes: Vec::new(),
+            is_unique: true,
             step: settings.first_step.min(settings.max_step),
             points: 0,
             stop: None,
@@ -156,6 +159,11 @@ impl<S: System> Path<S> {
     /// Why the path ended; `None` while it has not.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
+    }
+
+    /// Whether no event of the path had another way on, among those that were looked at.
+    pub fn is_unique(&self) -> bool {
+        self.is_unique
     }
 
     /// The system.

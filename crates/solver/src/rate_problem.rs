@@ -10,6 +10,9 @@ use crate::system::{State, System};
 /// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
 const APART: f64 = 1e-10;
 
+/// Directions whose cosine differs from 1 by less are one way on.
+const SAME_WAY: f64 = 1e-6;
+
 /// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
 /// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
 /// problem of the rates,
@@ -59,6 +62,10 @@ impl<S: System> Path<S> {
             match self.pivot_in_turn(state, arriving, changes, &start) {
                 Err(stop) => failure = stop,
                 Ok(resolved) => {
+                    if let Some(other) = &found {
+                        let cosine = self.cosine(&other.leaving, &resolved.leaving);
+                        self.is_unique &= cosine > 1.0 - SAME_WAY;
+                    }
                     let worth = |way: &Resolved<S::Mode>| (way.is_positive == before, way.along);
                     if found.as_ref().is_none_or(|best| worth(best) < worth(&resolved)) {
                         found = Some(resolved);
@@ -82,9 +89,8 @@ impl<S: System> Path<S> {
             && let Some(valid) = self.pivot(&mut after, change)
         {
             let guards = Newton::guards(&self.system, &after);
-            let is_undecided = |c: &usize| {
-                *c != change.constraint && *c != valid && guards[*c].abs() <= FLOOR
-            };
+            let is_undecided =
+                |c: &usize| *c != change.constraint && *c != valid && guards[*c].abs() <= FLOOR;
             starts.extend(companions.filter(is_undecided).map(|constraint| {
                 vec![change, Change { constraint, activated: !after.active[constraint] }]
             }));
@@ -157,7 +163,8 @@ impl<S: System> Path<S> {
                     return Err(Stop::Cycling);
                 }
                 tried.push((at.state.active.clone(), at.state.mode.clone()));
-                let leaving = self.direction(&mut at.state, arriving, at.holds.unwrap_or_default())?;
+                let leaving =
+                    self.direction(&mut at.state, arriving, at.holds.unwrap_or_default())?;
                 Ok((at, leaving))
             });
             let (at, leaving) = match way {
@@ -173,9 +180,9 @@ impl<S: System> Path<S> {
                 let Pivoted { state, made: changes, .. } = at;
                 return Ok(Resolved { state, leaving, changes, is_positive, along });
             }
-            let next = violated.into_iter().map(|constraint| {
-                Change { constraint, activated: !at.state.active[constraint] }
-            });
+            let next = violated
+                .into_iter()
+                .map(|constraint| Change { constraint, activated: !at.state.active[constraint] });
             // The one that is violated fastest is tried next.
             waiting.extend(next.rev().map(|change| (at.clone(), change)));
         }
@@ -183,11 +190,7 @@ impl<S: System> Path<S> {
     }
 
     /// What one change more makes of a set of changes.
-    fn pivoted(
-        &self,
-        from: &Pivoted<S::Mode>,
-        change: Change,
-    ) -> Result<Pivoted<S::Mode>, Stop> {
+    fn pivoted(&self, from: &Pivoted<S::Mode>, change: Change) -> Result<Pivoted<S::Mode>, Stop> {
         let mut next = from.clone();
         let valid = self.pivot(&mut next.state, change).ok_or(Stop::Singular)?;
         // A transition may hand the condition on, from a corner to the edge behind it, say.

@@ -23,7 +23,7 @@ use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose};
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
-use super::{Contacts, HOLDS, LEVELS, SkinMode, SkinState};
+use super::{Contacts, HOLDS, LEVELS, SkinMode, SkinPoint, SkinState};
 
 /// Constraints of a contact that rubs, behind those of its forces.
 pub(super) const GRIP: usize = FORCES;
@@ -106,6 +106,25 @@ impl Contacts {
         [0, 1].map(count)
     }
 
+    /// The contacts that stick, each with its anchor.
+    pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
+        let rubs = state.mode.rubs.iter().enumerate();
+        rubs.filter_map(|(contact, rub)| match rub {
+            Rub::Stick { at } => Some((contact, *at)),
+            _ => None,
+        })
+    }
+
+    /// `s` of a contact, on the edge on which it is in the state `to`.
+    pub(crate) fn way_of(&self, state: &SkinState, contact: usize, to: &SkinState) -> Option<f64> {
+        Some(self.way(state, to.mode[contact].edge()?, contact))
+    }
+
+    /// Moves the anchor of a contact that sticks, to that of a neighbour of a row which has come to the same state on its own way.
+    pub(crate) fn move_anchor(&mut self, contact: usize, by: f64) {
+        self.moved.push((contact, by));
+    }
+
     /// The ratio with which the corners of a contact are held together.
     pub(super) fn held(mode: &SkinMode, contact: usize) -> f64 {
         match mode.rubs.get(contact) {
@@ -154,7 +173,11 @@ impl Contacts {
                 }
             };
             match rub {
-                Rub::Stick { at } => add_way(grip, 1.0, slide.value - at),
+                Rub::Stick { at } => {
+                    let moved = self.moved.iter().find(|(moved, _)| *moved == contact);
+                    let at = at + moved.map_or(0.0, |(_, by)| *by);
+                    add_way(grip, 1.0, slide.value - at);
+                }
                 Rub::Slip { sign, from } => {
                     add_way(way, -sign, slide.value - from);
                     residual.add(way, state.z[way]);
@@ -192,34 +215,42 @@ impl Contacts {
     }
 
     /// Replaces the derivatives of these conditions along a direction, in which they are linear.
-    pub(super) fn friction_slopes(
-        &self,
-        state: &SkinState,
-        direction: &[f64],
-        slopes: &mut [f64],
-    ) {
+    pub(super) fn friction_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut [f64]) {
         for contact in 0..state.mode.rubs.len() {
             slopes[self.slots * contact + WAY] =
                 self.slot_condition(state, direction, contact, WAY).unwrap_or(0.0);
         }
     }
 
-    /// Power of friction along a direction of the path: what it takes, never negative.
-    pub(crate) fn friction_power(&self, state: &SkinState, direction: &[f64]) -> f64 {
-        let of_contact = |contact: usize| {
-            let poses = self.pair_poses(&state.z, contact);
-            let Some(Sliding { rub: Rub::Slip { .. }, traction, slide, .. }) =
-                self.sliding(state, contact, &poses)
-            else {
-                return 0.0;
+    /// What friction takes between two neighbouring points of a path, `∫ μ Λ |ds|`. `spans` are the units of the directions in which the
+    /// path leaves the one and comes to the other ([`solver::Path::spans`]): with them both factors are known to the third order.
+    pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
+        let slips = from.state.mode.rubs.iter().enumerate();
+        let work = |(contact, rub): (usize, &Rub)| {
+            let Rub::Slip { sign, from: start } = *rub else { return 0.0 };
+            let Some(edge) = from.state.mode[contact].edge() else { return 0.0 };
+            let pressing = |z: &[f64]| -> f64 {
+                // A force may have been handed on at the second point.
+                let mode = &from.state.mode;
+                let contacts = [Some(contact), self.guest_of(mode, contact)];
+                let both = contacts.into_iter().flatten().map(|contact| self.forces_of(z, contact));
+                both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
             };
-            let parts = self.parts(contact);
-            let rate = |part: &super::Part| {
-                part.sign * slide.gradient[part.coordinate] * direction[part.unknown]
-            };
-            -traction * parts.iter().flatten().map(rate).sum::<f64>()
+            let way = self.unknown(contact, WAY);
+            let end = sign * (self.way(&to.state, edge, contact) - start);
+            let ways = [from.state.z[way], end];
+            let rates = [spans[0] * from.leaving[way], spans[1] * to.arriving[way]];
+            let forces = [pressing(&from.state.z), pressing(&to.state.z)];
+            let growth = [spans[0] * pressing(&from.leaving), spans[1] * pressing(&to.arriving)];
+            self.law.friction() * product_integral([forces, growth], [ways, rates])
         };
-        (0..state.mode.rubs.len()).map(of_contact).sum()
+        slips.map(work).sum()
+    }
+
+    /// The contact whose friction a contact bears besides its own.
+    fn guest_of(&self, mode: &SkinMode, contact: usize) -> Option<usize> {
+        let other = Self::beside(contact);
+        (mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open).then_some(other)
     }
 
     /// Friction on the left scale at a contact whose normal force has this direction.
@@ -232,9 +263,7 @@ impl Contacts {
         let poses = self.pair_poses(&state.z, contact);
         let quarter = |v: Vec2| Vec2::new(-v.y, v.x);
         match (self.sliding(state, contact, &poses), normal_force.norm()) {
-            (Some(sliding), size) if size > 0.0 => {
-                sliding.traction * quarter(normal_force) / size
-            }
+            (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
             _ => Self::held(&state.mode, contact) * quarter(normal_force),
         }
     }
@@ -263,14 +292,19 @@ impl Contacts {
 
     /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
     fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
-        let other = Self::beside(contact);
-        let is_guest = mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open;
-        let both = [Some(contact), is_guest.then_some(other)];
+        let both = [Some(contact), self.guest_of(mode, contact)];
         let acting = both.map(|contact| contact.map(|contact| (contact, mode[contact].acting())));
-        acting.into_iter().flatten().flat_map(move |(contact, acting)| {
-            let forces = [Force::Own, Force::Flush].map(|force| force as usize);
-            forces.into_iter().filter(move |&force| acting[force]).map(move |force| (contact, force))
-        }).map(|(contact, force)| self.unknown(contact, force))
+        acting
+            .into_iter()
+            .flatten()
+            .flat_map(move |(contact, acting)| {
+                let forces = [Force::Own, Force::Flush].map(|force| force as usize);
+                forces
+                    .into_iter()
+                    .filter(move |&force| acting[force])
+                    .map(move |force| (contact, force))
+            })
+            .map(|(contact, force)| self.unknown(contact, force))
     }
 
     /// The other contact of a pair.
@@ -429,10 +463,32 @@ impl Contacts {
             }
             _ => return None,
         };
-        let grip = (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
+        let grip =
+            (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
         state.mode.rubs[contact] = rub;
         self.set_friction(state, contact, grip, true);
         // A contact that has just closed has to press, however it rubs.
         Some(if has_force { valid } else { Force::Own as usize })
     }
+}
+
+/// `∫ f dg` over a unit interval, of cubics through values and slopes at both ends: exact with three points of Gauss.
+fn product_integral([values, slopes]: [[f64; 2]; 2], [of_g, slopes_of_g]: [[f64; 2]; 2]) -> f64 {
+    let points = [
+        (0.5, 4.0 / 9.0),
+        (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),
+        (0.5 + 0.15_f64.sqrt(), 5.0 / 18.0),
+    ];
+    let integrand = |x: f64| {
+        let [start, end] = values;
+        let cubic = start * (1.0 + 2.0 * x) * (1.0 - x).powi(2)
+            + end * x * x * (3.0 - 2.0 * x)
+            + slopes[0] * x * (1.0 - x).powi(2)
+            + slopes[1] * x * x * (x - 1.0);
+        let rate = 6.0 * x * (1.0 - x) * (of_g[1] - of_g[0])
+            + slopes_of_g[0] * (1.0 - x) * (1.0 - 3.0 * x)
+            + slopes_of_g[1] * x * (3.0 * x - 2.0);
+        cubic * rate
+    };
+    points.into_iter().map(|(x, weight)| weight * integrand(x)).sum()
 }

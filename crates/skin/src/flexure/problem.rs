@@ -247,7 +247,7 @@ impl<'a> FlexureProblem<'a> {
 }
 
 /// A strip that is so many times as stiff as at rest is held by its scales alone.
-const LOCKED: f64 = 100.0;
+pub(super) const LOCKED: f64 = 100.0;
 
 /// A strain of a membrane of which its law, for small strains, says nothing.
 const BEYOND_LAW: f64 = 1.0;

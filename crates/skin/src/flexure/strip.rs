@@ -111,11 +111,8 @@ impl Strip {
         section: Section,
         StripExtent { gaps, repeats, rotation }: StripExtent,
     ) -> Self {
-        let layout = Layout {
-            gaps,
-            interior: membranes[0].interior(),
-            pair: pair_constraints(&law),
-        };
+        let layout =
+            Layout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
         let mut units = vec![1.0; layout.size()];

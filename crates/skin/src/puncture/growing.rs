@@ -182,7 +182,11 @@ impl Chain {
         copy_to(&mut state.active, contacts[1], of_needle);
         copy_to(&mut state.mode, Contacts::contacts_of(added).start, &point.state.mode);
         if self.contacts.rub() {
-            copy_to(&mut state.mode.rubs, Contacts::contacts_of(added).start, &point.state.mode.rubs);
+            copy_to(
+                &mut state.mode.rubs,
+                Contacts::contacts_of(added).start,
+                &point.state.mode.rubs,
+            );
         }
         state.mode.needle = point.state.mode.needle;
         SkinPoint {

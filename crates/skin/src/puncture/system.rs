@@ -79,11 +79,7 @@ impl Layout {
     fn blocks(self) -> Blocks {
         let scales = 0..self.scales();
         let start = |scale: usize| {
-            if scale <= self.left {
-                self.scale(scale)
-            } else {
-                self.force(self.pair * (scale - 1))
-            }
+            if scale <= self.left { self.scale(scale) } else { self.force(self.pair * (scale - 1)) }
         };
         Blocks {
             starts: scales.clone().map(start).collect(),

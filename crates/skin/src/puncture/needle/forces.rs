@@ -187,9 +187,12 @@ impl Chain {
         slopes.extend(before.iter().zip(after).map(|(a, b)| (b - a) / (2.0 * step)));
     }
 
-    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row: its forces have no
-    /// energy then.
+    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row, or scales rub: their
+    /// forces have no energy then.
     pub(in crate::puncture) fn rubs(&self, state: &SkinState) -> bool {
+        if self.contacts.rubs(state) {
+            return true;
+        }
         let Some(needle) = &self.needle else { return false };
         state.mode.needle.touches.iter().flatten().any(|touch| match touch.rub {
             Rub::Slip { sign, .. } => sign * needle.friction != 0.0,
