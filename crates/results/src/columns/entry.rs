@@ -159,7 +159,7 @@ impl MeasuredValue {
         Self { is_of_guided_needle: true, ..self }
     }
 
-    /// Only runs that give one of these parameters have it.
+    /// Only runs that set one of these parameters have it.
     pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
         Self { needs, ..self }
     }

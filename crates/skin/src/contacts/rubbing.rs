@@ -30,10 +30,7 @@ pub(super) const GRIP: usize = FORCES;
 pub(super) const WAY: usize = FORCES + 1;
 
 /// A normal force smaller than this has just begun to act.
-const NO_FORCE: f64 = 1e-12;
-
-/// A ratio this near to the coefficient of friction is that of sliding.
-const SLIDES: f64 = 1e-9;
+pub(super) const NO_FORCE: f64 = 1e-12;
 
 /// How a contact rubs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -62,7 +59,7 @@ pub(crate) enum Rub {
 
 impl Rub {
     /// Whether the contact bears friction on an edge.
-    fn is_host(self) -> bool {
+    pub(super) fn is_host(self) -> bool {
         matches!(self, Self::Stick { .. } | Self::Slip { .. })
     }
 
@@ -104,6 +101,17 @@ impl Contacts {
     pub(crate) fn rubbing(state: &SkinState) -> [usize; 2] {
         let count = |k: usize| state.mode.rubs.iter().filter(|rub| rub.acting()[k]).count();
         [0, 1].map(count)
+    }
+
+    /// Whether a constraint is one of friction.
+    pub(crate) fn is_friction(&self, constraint: usize) -> bool {
+        constraint < self.forces.len() && self.contact_of(constraint).1 >= FORCES
+    }
+
+    /// Whether a constraint is one of friction of a contact that slips.
+    pub(crate) fn slips(&self, state: &SkinState, constraint: usize) -> bool {
+        self.is_friction(constraint)
+            && state.mode.rubs[self.contact_of(constraint).0].acting() == [false, true]
     }
 
     /// The contacts that stick, each with its anchor.
@@ -286,7 +294,7 @@ impl Contacts {
     }
 
     /// Unknown of a constraint of a contact.
-    fn unknown(&self, contact: usize, slot: usize) -> usize {
+    pub(super) fn unknown(&self, contact: usize, slot: usize) -> usize {
         self.forces[self.slots * contact + slot]
     }
 
@@ -308,13 +316,13 @@ impl Contacts {
     }
 
     /// The other contact of a pair.
-    fn beside(contact: usize) -> usize {
+    pub(super) fn beside(contact: usize) -> usize {
         let first = Self::contacts_of(Self::left(contact)).start;
         2 * first + LEVELS.len() - 1 - contact
     }
 
     /// `T/Λ` of a contact.
-    fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
+    pub(super) fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
         let other = Self::beside(contact);
         match state.mode.rubs[contact] {
             Rub::Held { ratio } => ratio,
@@ -330,145 +338,20 @@ impl Contacts {
     }
 
     /// Whether the other contact of the pair bears the friction of this one.
-    fn is_guest(&self, state: &SkinState, contact: usize) -> bool {
+    pub(super) fn is_guest(&self, state: &SkinState, contact: usize) -> bool {
         state.mode.rubs[contact] == Rub::None
             && state.mode[contact] != CornerContact::Open
             && state.mode.rubs[Self::beside(contact)].is_host()
     }
 
     /// The normal forces on the edge of a contact that bears its friction.
-    fn pressure(&self, state: &SkinState, contact: usize) -> f64 {
+    pub(super) fn pressure(&self, state: &SkinState, contact: usize) -> f64 {
         self.pressing(&state.mode, contact).map(|force| state.z[force]).sum()
     }
 
-    /// Takes friction along where a force of a contact has changed sides: `before` is the state in which it did. `is_back` tells of corners
-    /// that part whether they do so the way they came.
-    pub(super) fn carry_friction(
-        &self,
-        state: &mut SkinState,
-        before: &SkinState,
-        contact: usize,
-        is_back: bool,
-    ) {
-        let pair = [contact, Self::beside(contact)];
-        let ratios = pair.map(|contact| self.ratio(before, contact));
-        let mut rubs = pair.map(|contact| self.own_rub(before, contact, state));
-        match (before.mode[contact], state.mode[contact].edge()) {
-            (_, None) => rubs[0] = Rub::None,
-            (CornerContact::Open, Some(edge)) => {
-                rubs[0] = Rub::Stick { at: self.way(state, edge, contact) };
-            }
-            (CornerContact::Corner(_), Some(edge)) => {
-                let here = self.way(state, edge, contact);
-                let slides = ratios[0].abs() >= self.law.friction() * (1.0 - SLIDES);
-                rubs[0] = if slides && !is_back {
-                    Rub::Slip { sign: -ratios[0].signum(), from: here }
-                } else {
-                    Rub::Stick { at: here }
-                };
-            }
-            _ => {}
-        }
-        if let CornerContact::Corner(_) = state.mode[contact] {
-            rubs[0] = Rub::Held { ratio: ratios[0] };
-        }
-        if rubs.iter().all(|rub| rub.is_host()) && self.slide_along_one_line(state, contact) {
-            let guest = usize::from(before.mode.rubs[contact].is_host());
-            rubs[guest] = Rub::None;
-        }
-        for (contact, rub) in pair.into_iter().zip(rubs) {
-            state.mode.rubs[contact] = rub;
-        }
-        for (k, (contact, rub)) in pair.into_iter().zip(rubs).enumerate() {
-            let share = |k: usize| {
-                let forces = self.forces_of(&state.z, pair[k]);
-                let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
-                (ratios[k] + self.law.friction()) * normal
-            };
-            let guest = if self.is_guest(state, pair[1 - k]) { share(1 - k) } else { 0.0 };
-            let is_new = before.mode.rubs[contact] != rub;
-            self.set_friction(state, contact, share(k) + guest, is_new);
-        }
-    }
-
-    /// How a contact rubs by itself, on the edge on which it is in the state `now`.
-    fn own_rub(&self, before: &SkinState, contact: usize, now: &SkinState) -> Rub {
-        let is_guest = self.is_guest(before, contact);
-        let from = if is_guest { Self::beside(contact) } else { contact };
-        let rub = before.mode.rubs[from];
-        let Some(edge) = now.mode[contact].edge() else { return Rub::None };
-        if !is_guest && before.mode[contact].edge() == Some(edge) {
-            return rub;
-        }
-        // On another edge the way is counted from elsewhere.
-        let here = self.way(now, edge, contact);
-        match rub {
-            Rub::Stick { .. } => Rub::Stick { at: here },
-            Rub::Slip { sign, .. } => Rub::Slip { sign, from: here },
-            other => other,
-        }
-    }
-
-    /// Whether the contacts of a pair are both between its sides, which then lie on each other.
-    fn slide_along_one_line(&self, state: &SkinState, contact: usize) -> bool {
-        let is_side = |contact: usize| match state.mode[contact] {
-            CornerContact::Edge(edge) => {
-                !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
-            }
-            _ => false,
-        };
-        is_side(contact) && is_side(Self::beside(contact))
-    }
-
     /// `s` of a contact.
-    fn way(&self, state: &SkinState, edge: CornerEdge, contact: usize) -> f64 {
+    pub(super) fn way(&self, state: &SkinState, edge: CornerEdge, contact: usize) -> f64 {
         self.slide(edge, contact, &self.pair_poses(&state.z, contact)).value
-    }
-
-    /// Sets what acts of grip and way of a contact.
-    fn set_friction(&self, state: &mut SkinState, contact: usize, grip: f64, is_new: bool) {
-        let [sticks, slips] = state.mode.rubs[contact].acting();
-        let first = self.slots * contact;
-        [state.active[first + GRIP], state.active[first + WAY]] = [sticks, slips];
-        let largest = 2.0 * self.law.friction() * self.pressure(state, contact);
-        state.z[self.unknown(contact, GRIP)] =
-            if sticks { grip.clamp(0.0, largest.max(0.0)) } else { 0.0 };
-        if is_new || !slips {
-            state.z[self.unknown(contact, WAY)] = 0.0;
-        }
-    }
-
-    /// Takes a contact that begins to slip, or ceases to, to its next state. Returns the constraint of the contact whose condition has to
-    /// hold as the path goes on, or `None` if there is no such change.
-    ///
-    /// | Before | Condition | After |
-    /// |---|---|---|
-    /// | sticks | `T = −μ Λ` | slips forward |
-    /// | sticks | `T = μ Λ` | slips backward |
-    /// | slips | `s` turns back | sticks where it is |
-    pub(super) fn change_friction(
-        &self,
-        state: &mut SkinState,
-        contact: usize,
-        slot: usize,
-        acts: bool,
-    ) -> Option<usize> {
-        let here = self.way(state, state.mode[contact].edge()?, contact);
-        let has_force = self.pressure(state, contact) > NO_FORCE;
-        let (rub, valid) = match (state.mode.rubs[contact], slot, acts) {
-            (Rub::Stick { .. }, GRIP, false) => (Rub::Slip { sign: 1.0, from: here }, WAY),
-            (Rub::Stick { .. }, WAY, true) => (Rub::Slip { sign: -1.0, from: here }, WAY),
-            (Rub::Slip { sign, .. }, WAY, false) => {
-                (Rub::Stick { at: here }, if sign > 0.0 { GRIP } else { WAY })
-            }
-            _ => return None,
-        };
-        let grip =
-            (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
-        state.mode.rubs[contact] = rub;
-        self.set_friction(state, contact, grip, true);
-        // A contact that has just closed has to press, however it rubs.
-        Some(if has_force { valid } else { Force::Own as usize })
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod bars;
 mod needle;
+mod rubbing;
 
 use std::collections::HashSet;
 
@@ -17,7 +18,7 @@ use super::surroundings::{Beyond, Reach, Surroundings};
 use super::system::{Chain, Layout};
 use super::{Problem, PunctureParameters, Rows};
 use crate::arrangement::Arrangement;
-use crate::contacts::{SkinPoint, SkinState};
+use crate::contacts::{SkinPoint, SkinState, pair_constraints};
 use crate::record::Skin;
 use crate::{Base, Common, Design, Status};
 
@@ -69,7 +70,7 @@ fn path_on(
     law: ContactLaw,
     load_position: f64,
 ) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10, needle: 0, pair: 6 };
+    let layout = Layout { left: 10, right: 10, needle: 0, pair: pair_constraints(&law) };
     let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
     let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
