@@ -15,8 +15,8 @@ use rayon::prelude::*;
 use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
-    Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
-    SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
+    Analysis, DesignTolerance, NoAnalysis, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
+    YIELD_COLUMNS,
 };
 
 use super::selection::ranges;
@@ -197,37 +197,17 @@ fn analysed(
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
-    let measures = all.iter().flat_map(|design| {
-        let number = design.nominal.number;
-        let row = move |measure: &tolerance::MeasureTolerance| DesignMeasureTolerance {
-            design: number,
-            measure: measure.clone(),
-        };
-        design.measures.iter().map(row)
-    });
     let format = CsvFormat::Plain;
+    let measures = all.iter().flat_map(DesignTolerance::measure_rows);
     write_rows(folder, "tolerance.csv", format, TOLERANCE_COLUMNS, measures)?;
     files.push("tolerance.csv".to_owned());
-    let sources = all.iter().flat_map(sources);
+    let sources = all.iter().flat_map(DesignTolerance::source_rows);
     write_rows(folder, "tolerance_sources.csv", format, SOURCE_COLUMNS, sources)?;
     files.push("tolerance_sources.csv".to_owned());
-    let yields = all.iter().flat_map(|design| {
-        let number = design.nominal.number;
-        design.yields.iter().map(move |of| DesignYield { design: number, of: of.clone() })
-    });
     if all.iter().any(|design| !design.yields.is_empty()) {
+        let yields = all.iter().flat_map(DesignTolerance::yield_rows);
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
     }
     Ok(files)
-}
-
-fn sources(design: &DesignTolerance) -> impl Iterator<Item = DesignSource> {
-    let of = |measure: &tolerance::MeasureTolerance| {
-        let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
-        let (design, measure) = (design.nominal.number, measure.name.clone());
-        let row = move |source| DesignSource { design, measure: measure.clone(), source };
-        sources.map(row).collect::<Vec<_>>()
-    };
-    design.measures.iter().flat_map(of)
 }
