@@ -268,7 +268,7 @@ impl Contacts {
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
         if slot >= FORCES {
-            return self.slot_condition(state, direction, contact, slot).unwrap_or(0.0);
+            return self.slot_slope(state, direction, contact, slot);
         }
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);

@@ -214,6 +214,28 @@ impl Contacts {
         Some(2.0 * self.law.friction() * pressing - z[self.unknown(contact, GRIP)])
     }
 
+    /// The derivative of the equation of a grip or a way that acts, or of the condition of one that does not.
+    pub(super) fn slot_slope(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        contact: usize,
+        slot: usize,
+    ) -> f64 {
+        let poses = self.pair_poses(&state.z, contact);
+        let along = |sliding: Sliding| -> f64 {
+            let parts = self.parts(contact).into_iter().flatten();
+            let slope = |part: super::Part| part.sign * sliding.slide.gradient[part.coordinate];
+            parts.map(|part| slope(part) * direction[part.unknown]).sum()
+        };
+        let along = || self.sliding(state, contact, &poses).map_or(0.0, along);
+        match (state.mode.rubs[contact], slot) {
+            (Rub::Stick { .. }, GRIP) => along(),
+            (Rub::Slip { sign, .. }, WAY) => direction[self.unknown(contact, WAY)] - sign * along(),
+            _ => self.slot_condition(state, direction, contact, slot).unwrap_or(0.0),
+        }
+    }
+
     /// Replaces the conditions of grips and ways.
     pub(super) fn friction_conditions(&self, state: &SkinState, values: &mut [f64]) {
         for contact in 0..state.mode.rubs.len() {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use approx::assert_relative_eq;
 use contact::{CornerContact, Law};
-use solver::check_tangent;
+use solver::{System as _, check_tangent};
 use substrate::calibrate;
 
 use super::{BLOCKS, DOMINO, FOLDING, HARD, LIVELY, SLIDING, for_segments, law, path};
@@ -27,8 +27,15 @@ fn the_tangent_agrees_with_finite_differences_where_contacts_stick_and_slip() {
                         .filter(|s| s.1 > 0)
                         .map(|s| s.0),
                 );
-                // Of a grip that is next to nothing the difference is round-off.
-                check_tangent(path.system(), &point.state, 1e-5).unwrap();
+                // Next to nothing a grip or a way has differences of round-off alone.
+                let (chain, mut state) = (path.system(), point.state);
+                for number in (0..chain.constraints().len()).filter(|&c| state.active[c]) {
+                    let unknown = chain.constraints()[number];
+                    if chain.contacts.is_friction(number) {
+                        state.z[unknown] = state.z[unknown].max(1e-3);
+                    }
+                }
+                check_tangent(chain, &state, 1e-6).unwrap();
             });
         }
     }
