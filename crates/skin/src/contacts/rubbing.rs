@@ -93,7 +93,7 @@ impl Contacts {
     }
 
     /// Whether friction acts anywhere.
-    pub(crate) fn rubs(&self, state: &SkinState) -> bool {
+    pub(crate) fn rubs(state: &SkinState) -> bool {
         state.mode.rubs.iter().any(|rub| *rub != Rub::None)
     }
 
@@ -262,7 +262,7 @@ impl Contacts {
             let pressing = |z: &[f64]| -> f64 {
                 // A force may have been handed on at the second point.
                 let mode = &from.state.mode;
-                let contacts = [Some(contact), self.guest_of(mode, contact)];
+                let contacts = [Some(contact), Self::guest_of(mode, contact)];
                 let both = contacts.into_iter().flatten().map(|contact| self.forces_of(z, contact));
                 both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
             };
@@ -278,7 +278,7 @@ impl Contacts {
     }
 
     /// The contact whose friction a contact bears besides its own.
-    fn guest_of(&self, mode: &SkinMode, contact: usize) -> Option<usize> {
+    fn guest_of(mode: &SkinMode, contact: usize) -> Option<usize> {
         let other = Self::beside(contact);
         (mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open).then_some(other)
     }
@@ -322,7 +322,7 @@ impl Contacts {
 
     /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
     fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
-        let both = [Some(contact), self.guest_of(mode, contact)];
+        let both = [Some(contact), Self::guest_of(mode, contact)];
         let acting = both.map(|contact| contact.map(|contact| (contact, mode[contact].acting())));
         acting
             .into_iter()
@@ -354,13 +354,13 @@ impl Contacts {
                 let grip = state.z[self.unknown(contact, GRIP)];
                 if pressing > NO_FORCE { grip / pressing - self.law.friction() } else { 0.0 }
             }
-            Rub::None if self.is_guest(state, contact) => self.ratio(state, other),
+            Rub::None if Self::is_guest(state, contact) => self.ratio(state, other),
             Rub::None => 0.0,
         }
     }
 
     /// Whether the other contact of the pair bears the friction of this one.
-    pub(super) fn is_guest(&self, state: &SkinState, contact: usize) -> bool {
+    pub(super) fn is_guest(state: &SkinState, contact: usize) -> bool {
         state.mode.rubs[contact] == Rub::None
             && state.mode[contact] != CornerContact::Open
             && state.mode.rubs[Self::beside(contact)].is_host()

@@ -40,7 +40,7 @@ impl Contacts {
         if let CornerContact::Corner(_) = state.mode[contact] {
             rubs[0] = Rub::Held { ratio: ratios[0] };
         }
-        if rubs.iter().all(|rub| rub.is_host()) && self.slide_along_one_line(state, contact) {
+        if rubs.iter().all(|rub| rub.is_host()) && Self::slide_along_one_line(state, contact) {
             let guest = usize::from(before.mode.rubs[contact].is_host());
             rubs[guest] = Rub::None;
         }
@@ -53,7 +53,7 @@ impl Contacts {
                 let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
                 (ratios[k] + self.law.friction()) * normal
             };
-            let guest = if self.is_guest(state, pair[1 - k]) { share(1 - k) } else { 0.0 };
+            let guest = if Self::is_guest(state, pair[1 - k]) { share(1 - k) } else { 0.0 };
             let is_new = before.mode.rubs[contact] != rub;
             self.set_friction(state, contact, share(k) + guest, is_new);
         }
@@ -61,7 +61,7 @@ impl Contacts {
 
     /// How a contact rubs by itself, on the edge on which it is in the state `now`.
     fn own_rub(&self, before: &SkinState, contact: usize, now: &SkinState) -> Rub {
-        let is_guest = self.is_guest(before, contact);
+        let is_guest = Self::is_guest(before, contact);
         let from = if is_guest { Self::beside(contact) } else { contact };
         let rub = before.mode.rubs[from];
         let Some(edge) = now.mode[contact].edge() else { return Rub::None };
@@ -78,7 +78,7 @@ impl Contacts {
     }
 
     /// Whether the contacts of a pair are both between its sides, which then lie on each other.
-    fn slide_along_one_line(&self, state: &SkinState, contact: usize) -> bool {
+    fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
         let is_side = |contact: usize| match state.mode[contact] {
             CornerContact::Edge(edge) => {
                 !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)

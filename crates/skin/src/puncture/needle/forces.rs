@@ -5,7 +5,7 @@ use solver::{Residual, Tangent};
 use super::mode::{Place, Rub, Touch};
 use super::outline::{COORDINATES, Tip};
 use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
-use crate::contacts::SkinState;
+use crate::contacts::{Contacts, SkinState};
 use crate::puncture::system::Chain;
 
 /// Value of a condition that does not exist: any number above zero.
@@ -190,7 +190,7 @@ impl Chain {
     /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row, or scales rub: their
     /// forces have no energy then.
     pub(in crate::puncture) fn rubs(&self, state: &SkinState) -> bool {
-        if self.contacts.rubs(state) {
+        if Contacts::rubs(state) {
             return true;
         }
         let Some(needle) = &self.needle else { return false };
