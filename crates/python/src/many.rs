@@ -1,16 +1,17 @@
 //! Many skins, on all cores.
 
+use std::slice;
 use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use results::columns::{design_columns, header};
+use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
 use run::Evaluator;
 use sweep::{Case, PARAMETERS, Parameter, Role, Scalar};
 
 use crate::skin::{Skin, evaluator, measures as measures_of};
-use crate::value::{Cells, NamedCells};
+use crate::value::{NamedCells, table};
 use crate::work::{Watch, interrupted, pool, watched};
 
 /// Skins of which the whole results are held, before their cells are taken.
@@ -71,12 +72,7 @@ fn columns(
     let mut all: Vec<NamedCells> = Vec::new();
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
         if !all.iter().any(|(name, ..)| *name == column.name) {
-            all.push((
-                column.name.to_string(),
-                column.unit,
-                column.meaning,
-                Cells::Numbers(Vec::new()),
-            ));
+            all.extend(table(slice::from_ref(column), &[]));
         }
     }
     for (batch, skins) in skins.chunks(BATCH).enumerate() {
@@ -93,10 +89,10 @@ fn columns(
         }
     }
     for parameter in differing(skins) {
-        if !all.iter().any(|(name, ..)| name == header(parameter)) {
-            let mut cells = Cells::Numbers(Vec::new());
-            cells.extend(skins.iter().map(|skin| parameter.get(&skin.get().case()).into()));
-            all.push((header(parameter).to_owned(), parameter.unit, parameter.meaning, cells));
+        let value = |skin: &Py<Skin>| parameter.get(&skin.get().case()).into();
+        let column = Column::parameter(parameter, value);
+        if !all.iter().any(|(name, ..)| *name == column.name) {
+            all.extend(table(&[column], skins));
         }
     }
     Some(all)

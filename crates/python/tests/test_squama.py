@@ -451,10 +451,11 @@ def test_arrow_if_it_is_there():
 
 
 @pytest.mark.parametrize("file", sorted((Path(__file__).parents[1] / "examples").glob("*.py")), ids=lambda file: file.stem)
-def test_the_examples_run(file):
+def test_the_examples_run(file, tmp_path):
     module = {"scipy_slsqp": "scipy", "openmdao_component": "openmdao", "pymoo_front": "pymoo", "jax_function": "jax"}
     pytest.importorskip(module[file.stem])
-    subprocess.run([sys.executable, file], check=True, capture_output=True)
+    # Some write reports where they are run.
+    subprocess.run([sys.executable, file], check=True, capture_output=True, cwd=tmp_path)
 
 
 def test_the_notebook_runs():

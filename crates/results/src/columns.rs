@@ -24,7 +24,7 @@ use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
-pub use column::{Column, header, number, parameter_of};
+pub use column::{Column, number, parameter_of};
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{

@@ -135,6 +135,7 @@ class Skin:
         base: str | None = None,
         width_over_t: float | None = None,
         poisson_ratio: float | None = None,
+        tissue_thickness_over_t: float | None = None,
         coupling: str | None = None,
         law: str | None = None,
         c1: float | None = None,
@@ -191,6 +192,8 @@ class Skin:
     def width_over_t(self) -> float: ...
     @property
     def poisson_ratio(self) -> float: ...
+    @property
+    def tissue_thickness_over_t(self) -> float | None: ...
     @property
     def coupling(self) -> str: ...
     @property

@@ -70,7 +70,7 @@ pub fn number<R>(cell: fn(&R) -> Cell) -> Column<R> {
 
 /// The header of the column of a parameter: its key, but for those that are also values. A row may have more scales than
 /// were asked for, and a strip as many gaps as its length holds.
-pub fn header(parameter: &Parameter) -> &'static str {
+fn header(parameter: &Parameter) -> &'static str {
     match parameter.key {
         "scales" => "scales_asked",
         "gaps" => "gaps_asked",
