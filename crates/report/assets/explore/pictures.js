@@ -79,7 +79,7 @@
 
   const rest = () => {
     const own = now(), size = box("live-rest"), view = { ...(grabbed?.view ?? fitted(own, size, 170)) };
-    if (grabbed?.id === "slant") view.scale *= grabbed.half / own.half;
+    if (grabbed?.id === "slant") view.scale = Math.min(view.scale * grabbed.half / own.half, 0.7 * size.height);
     const pinned = live.pinned ? row(view, form(live.pinned.values), poses(form(live.pinned.values), view, size.width), "ghost") : [];
     at("live-rest").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width)), ...pinned, ...handles(own, view.scale).map((one) => handle(view, size.width, one)));
   };
