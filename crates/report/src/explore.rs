@@ -91,7 +91,7 @@ impl Offered {
 }
 
 /// The parameters under the hand. A page opens with a skin of overlapping scales, because that is one that protects.
-const OFFERED: [Offered; 10] = [
+const OFFERED: [Offered; 11] = [
     Offered::new(key::GAP, "Gap", [0.02, 1.0], 0.1),
     Offered::new(key::LENGTH, "Length", [0.05, 2.0], 0.5),
     Offered::new(key::SLANT, "Slant", [0.0, 80.0], 0.7),
@@ -99,6 +99,7 @@ const OFFERED: [Offered; 10] = [
     Offered::new(key::THICKNESS, "Thickness", [0.1, 10.0], 0.5).if_given(),
     Offered::new("membrane_thickness_over_t", "Membrane", [0.02, 0.5], 0.5),
     Offered::new(key::SUBSTRATE_MODULUS, "Tissue", [0.01, 10.0], 0.5).if_given(),
+    Offered::new(key::FRICTION, "Scales rub", [0.0, 0.5], 0.0),
     Offered::new(key::NEEDLE, "Needle", [0.0, 0.0], 0.0),
     Offered::new(key::NEEDLE_FRICTION, "Friction", [0.0, 1.0], 0.2),
     Offered::new(key::CRITICAL_TILT, "Critical tilt", [2.0, 30.0], 0.5),

@@ -150,10 +150,10 @@ impl<S: System> Path<S> {
         }
         let mut waiting = vec![(at, last)];
         let mut tried = Vec::new();
-        let mut failure = Stop::Cycling;
+        let has_companions = self.system.companions(last.constraint).len() > 1;
         while let Some((from, change)) = waiting.pop() {
             if tried.len() >= self.most_changes() {
-                break;
+                return Err(Stop::Cycling);
             }
             let way = self.pivoted(&from, change).and_then(|mut at| {
                 let is_known = tried.iter().any(|(active, mode)| {
@@ -169,10 +169,9 @@ impl<S: System> Path<S> {
             });
             let (at, leaving) = match way {
                 Ok(way) => way,
-                Err(stop) => {
-                    failure = stop;
-                    continue;
-                }
+                // Without companions there is one way to go on, and it has failed.
+                Err(stop) if changes.len() == 1 && !has_companions => return Err(stop),
+                Err(_) => continue,
             };
             let violated = self.violated(&at.state, &leaving, &at.meeting);
             if violated.is_empty() {
@@ -186,7 +185,7 @@ impl<S: System> Path<S> {
             // The one that is violated fastest is tried next.
             waiting.extend(next.rev().map(|change| (at.clone(), change)));
         }
-        Err(failure)
+        Err(if has_companions { Stop::Jumps } else { Stop::Cycling })
     }
 
     /// What one change more makes of a set of changes.

@@ -19,6 +19,9 @@ pub enum Stop {
     TooManyPoints,
     /// Constraints change sides again and again at one point, without the path moving on.
     Cycling,
+    /// At an event no set of changes of constraints and their companions leads on, of all that pivoting comes to: there is no path on
+    /// which the control parameter, or anything else, changes slowly.
+    Jumps,
     /// A residual is no longer a finite number.
     NotFinite,
 }
@@ -32,6 +35,7 @@ impl fmt::Display for Stop {
             Self::Singular => "singular tangent",
             Self::TooManyPoints => "too many points",
             Self::Cycling => "cycling constraints",
+            Self::Jumps => "jumps",
             Self::NotFinite => "not finite",
         })
     }

@@ -42,11 +42,13 @@ pub enum Outcome {
     Untilted,
     /// The scales of a strip locked.
     Locked,
+    /// Scales that rub stick or slip in no way that goes on slowly.
+    Jumps,
 }
 
 impl Outcome {
     /// All outcomes.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::Complete,
         Self::NoConvergence,
         Self::Singular,
@@ -62,6 +64,7 @@ impl Outcome {
         Self::LimitPoint,
         Self::Untilted,
         Self::Locked,
+        Self::Jumps,
     ];
 
     /// The text of the outcome in the tables.
@@ -77,6 +80,7 @@ impl Outcome {
             Self::Interpenetration => "interpenetration",
             Self::OffEdge => "off the edge",
             Self::Locked => "locked",
+            Self::Jumps => "jumps",
             Self::Calibration => "no calibration",
             Self::Internal => "internal error",
             Self::Unloaded => "unloaded",
@@ -101,6 +105,9 @@ impl Outcome {
             }
             Self::Locked => {
                 "the scales of a strip lock: the moment grows, and what still gives is a membrane stretched beyond its law"
+            }
+            Self::Jumps => {
+                "scales that rub can neither stick nor slip so that the path goes on: the skin jumps"
             }
             Self::Calibration => "the springs of the substrate could not be found",
             Self::Internal => "the program is at fault; please report the design",
@@ -143,6 +150,7 @@ impl From<Stop> for Outcome {
             Stop::Singular => Self::Singular,
             Stop::TooManyPoints => Self::TooManyPoints,
             Stop::Cycling => Self::Cycling,
+            Stop::Jumps => Self::Jumps,
             Stop::NotFinite => Self::NotFinite,
             Stop::Unloaded => Self::Unloaded,
             // A path that reached its target has not stopped early.

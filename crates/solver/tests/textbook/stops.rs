@@ -106,6 +106,7 @@ fn stops_have_names() {
         Stop::Singular,
         Stop::TooManyPoints,
         Stop::Cycling,
+        Stop::Jumps,
         Stop::NotFinite,
     ];
     let names = stops.map(|stop| stop.to_string());
@@ -118,6 +119,7 @@ fn stops_have_names() {
             "singular tangent",
             "too many points",
             "cycling constraints",
+            "jumps",
             "not finite"
         ]
     );
