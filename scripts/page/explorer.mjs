@@ -26,6 +26,10 @@ export default ({ openFile, open, place, results, run }) => {
   const out = mkdtempSync(join(tmpdir(), "squama-explore-"));
   const explore = async (size, state = "") => {
     const page = await openFile(join(place, "explore.html"), state);
+    await page.evaluate(() => {
+      globalThis.longTasks = [];
+      new PerformanceObserver((list) => globalThis.longTasks.push(...list.getEntries().map(({ startTime, duration }) => [startTime, duration]))).observe({ type: "longtask", buffered: true });
+    });
     await page.setViewportSize(size);
     await settled(page);
     return page;
@@ -50,7 +54,7 @@ export default ({ openFile, open, place, results, run }) => {
       await page.close();
     }], [`a drag redraws in time at ${size.width} pixels`, async () => {
       const page = await explore(size);
-      await page.evaluate(() => { squama.live.times.length = 0; });
+      const opened = await page.evaluate(() => { squama.live.times.length = 0; return performance.now(); });
       for (const [id, far] of [["slant", -50], ["gap", 40], ["length", -30]]) {
         const spot = await page.locator(`#live-handle-${id} .grip`).boundingBox(), [x, y] = [spot.x + spot.width / 2, spot.y + spot.height / 2];
         await page.mouse.move(x, y);
@@ -59,6 +63,9 @@ export default ({ openFile, open, place, results, run }) => {
         await page.mouse.up();
         await settled(page);
       }
+      const tasks = await page.evaluate(() => globalThis.longTasks);
+      const told = (own) => own.map(([, duration]) => `${Math.round(duration)} ms`).join(" ") || "none";
+      console.log(`        tasks of the page above 50 ms: as it opens ${told(tasks.filter(([at]) => at < opened))}, under the hand ${told(tasks.filter(([at]) => at >= opened))}`);
       const times = (await page.evaluate(() => squama.live.times)).sort((a, b) => a - b), at = (share) => times[Math.floor(share * (times.length - 1))];
       console.log(`        ${times.length} answers to three drags: median ${at(0.5).toFixed(0)} ms, 90 % within ${at(0.9).toFixed(0)} ms, slowest ${at(1).toFixed(0)} ms`);
       assert.ok(times.length > 30 && at(0.5) < 1000, `${times.length} answers, ${at(0.5)} ms`);
@@ -92,13 +99,41 @@ export default ({ openFile, open, place, results, run }) => {
       assert.ok(await gap() > 0.3);
       await page.close();
     },
-    async "an arrow is followed to a limit, which is named"() {
+    async "a corner that is dragged stays under the hand, and changes slant and length"() {
+      const page = await explore(SIZES[0]), grip = async () => { const { x, y, width, height } = await page.locator("#live-handle-slant .grip").boundingBox(); return [x + width / 2, y + height / 2]; };
+      const parameters = () => page.evaluate(() => ["slant_deg", "length_over_t", "gap_over_t"].map(squama.live.value));
+      const [x, y] = await grip(), [slant, length, gap] = await parameters();
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      for (let step = 1; step <= 10; step++) { await page.mouse.move(x - 3 * step, y - 2 * step); await page.waitForTimeout(20); }
+      const [left, top] = await grip(), [less, shorter, same] = await parameters();
+      assert.ok(Math.abs(left - x + 30) < 1.5 && Math.abs(top - y + 20) < 1.5, `${left - x} ${top - y}`);
+      assert.ok(less < slant && shorter < length && same === gap, `${less} ${shorter}`);
+      await page.mouse.up();
+      await settled(page);
+      await page.close();
+    },
+    async "an arrow is followed in sight to a limit, which is named"() {
       const page = await explore(SIZES[0]);
       const before = (await values(page)).critical_force;
       const arrow = page.locator(".control", { hasText: "Length" }).locator(".arrow");
+      await page.evaluate(() => { globalThis.seen = []; squama.live.listen("moved", () => globalThis.seen.push(squama.live.value("length_over_t"))); });
       await after(page, () => arrow.click());
+      const seen = await page.evaluate(() => globalThis.seen), ways = seen.slice(1).map((own, k) => Math.sign(own - seen[k]));
+      assert.ok(seen.length > 10 && ways.every((way) => way === 0 || way === ways.find(Boolean)), `${seen.length} steps`);
       assert.ok((await values(page)).critical_force >= before);
       assert.match(await page.locator("#live-said").textContent(), /^Length: /);
+      await page.close();
+    },
+    async "on a phone the sheet leaves the skin and its needle in sight"() {
+      const page = await explore(SIZES[1]);
+      await page.locator("#live-sheet").click();
+      const sheet = (await page.locator("#live .sheet").boundingBox()).y;
+      for (const id of ["live-rest", "live-needle"]) {
+        const { y, height } = await page.locator(`#${id}`).boundingBox();
+        assert.ok(y >= 0 && y + height <= sheet, `${id} from ${y} to ${y + height}, the sheet at ${sheet}`);
+      }
+      assert.ok(await page.locator("#live-set-gap_over_t").isVisible());
       await page.close();
     },
     async "a design is pinned, compared, and stands in the address"() {

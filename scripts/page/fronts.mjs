@@ -31,13 +31,22 @@ export default ({ open, page, place, folders }) => ({
     const rows = await own.locator("#front-table tbody tr").allTextContents();
     assert.equal(rows.length, front.length);
     assert.ok(rows.some((row) => /slant_deg <= 60|upper end/.test(row)), rows.join());
-    // A diamond tells what holds it, and chooses nothing; a mark of the grid is chosen.
+    // A diamond tells what holds it, and comes under the hand, as its row does; a mark of the grid is chosen.
     const chosen = await own.locator("#detail-title").textContent();
     const diamond = marks.find(({ row }) => row === null);
     await own.mouse.move(diamond.x, diamond.y);
     assert.match(await own.locator("#tip").textContent(), /^Front \d+: .*Held by /);
+    const isUnderHand = async (k) => {
+      const values = await own.evaluate(() => Object.fromEntries(squama.live.controls().map(({ key, value }) => [key, value])));
+      for (const name of ["gap_over_t", "length_over_t", "slant_deg"]) assert.ok(Math.abs(values[name] - Number(front[k][name])) <= 1e-5 * values[name], `${name} of front ${k + 1}`);
+    };
     await own.mouse.click(diamond.x, diamond.y);
     assert.equal(await own.locator("#detail-title").textContent(), chosen);
+    await isUnderHand(Number(await own.evaluate(() => squama.charts.find(({ id }) => id === "front").marks.find(({ row }) => row === null).front)));
+    await own.evaluate(() => squama.live.set({ critical_tilt_deg: 5 }));
+    await own.locator('#front-table [data-found="1"]').click();
+    await isUnderHand(1);
+    assert.equal(await own.evaluate(() => squama.live.value("critical_tilt_deg")), 10, "what the search did not vary is as in the definition");
     const far = marks.find(({ row, x, y }) => row !== null && marks.every((other) => other.row !== null || Math.hypot(other.x - x, other.y - y) > 20));
     await own.mouse.click(far.x, far.y);
     const now = await own.evaluate(() => squama.state.design);

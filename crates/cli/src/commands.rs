@@ -22,6 +22,7 @@ mod report;
 mod rerun;
 mod results_folder;
 mod run;
+mod sampled;
 mod selection;
 mod sensitivity;
 mod slurm;

@@ -7,7 +7,7 @@ use run::{Evaluator, GapChange};
 use skin::Imperfection;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, At};
-use sweep::{Case, Measure, Sweep};
+use sweep::{Case, Measure, Sweep, key};
 
 use crate::answer::{Answer, Required, Slope, Units, Value, written};
 use crate::follow::follow;
@@ -50,6 +50,12 @@ impl Solver {
         // Samples of imperfect rows take hundreds of times as long as the design that is under the hand.
         let base = Case { imperfection: Imperfection::default(), ..sweep.grid().case(0) };
         let case = request.case(&base)?;
+        if case.tissue_thickness.is_some() {
+            let key = key::TISSUE;
+            return Err(format!(
+                "{key}: a page solves skins on a half-space alone, `squama run` those on a layer"
+            ));
+        }
         let own = written::alone(&sweep, &base, &case)?;
         let requirements = request.require.iter().map(|text| text.parse());
         let requirements: Vec<Requirement> = requirements

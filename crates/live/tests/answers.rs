@@ -27,6 +27,10 @@ fn what_is_wrong_is_answered_with_its_reason() {
         (refused(json!({ "gap": 1 }), &[]), "gap: no such parameter"),
         (refused(json!({ "slant_deg": 90 }), &[]), "slant_deg: 90"),
         (refused(json!({}), &["coverage"]), "coverage is not accepted"),
+        (
+            refused(json!({ "tissue_thickness_over_t": 2 }), &[]),
+            "tissue_thickness_over_t: a page solves skins on a half-space alone",
+        ),
     ];
     for (answer, reason) in answers {
         assert_eq!(answer["id"], 7);

@@ -11,7 +11,7 @@ jax.config.update("jax_enable_x64", True)
 
 def jax_function(skin, keys, measure):
     """A function of an array of the values of ``keys``, for ``jax.grad`` and ``jax.jit``."""
-    f, jac = squama.function(skin, keys, measure)
+    f, jac = squama.function(skin, keys, measure, at_kinks="mean")
     number, row = jax.ShapeDtypeStruct((), jnp.float64), jax.ShapeDtypeStruct((len(keys),), jnp.float64)
 
     @jax.custom_vjp

@@ -15,7 +15,7 @@ class SkinComponent(om.ExplicitComponent):
 
     def setup(self):
         skin, keys, measures = (self.options[name] for name in ("skin", "keys", "measures"))
-        self.f, self.jac = squama.function(skin, keys, measures)
+        self.f, self.jac = squama.function(skin, keys, measures, at_kinks="mean")
         for key in keys:
             self.add_input(key, val=getattr(skin, key))
         for measure in measures:

@@ -6,12 +6,12 @@ from scipy.optimize import minimize
 
 import squama
 
-warnings.simplefilter("ignore", squama.KinkWarning)  # SLSQP can do nothing about kinks; squama.optimise can.
+warnings.simplefilter("ignore", squama.KinkWarning)  # SLSQP can do nothing about kinks, not even with a mean; squama.optimise can.
 
 keys = ["gap_over_t", "slant_deg"]
 skin = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
-compliance, slope = squama.function(skin, keys, "compliance")
-coverage, by = squama.function(skin, keys, "coverage")
+compliance, slope = squama.function(skin, keys, "compliance", at_kinks="mean")
+coverage, by = squama.function(skin, keys, "coverage", at_kinks="mean")
 
 found = minimize(
     lambda x: -compliance(x),

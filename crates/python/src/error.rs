@@ -1,19 +1,10 @@
 //! Errors as exceptions of the package, which are written in Python so that they pickle.
 
-use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyType};
-use sweep::{InvalidDefinition, Problem, WrongValue};
+use std::fmt::Display;
 
-/// The class of that name in a module of the package.
-pub fn class<'py>(
-    py: Python<'py>,
-    known: &PyOnceLock<Py<PyType>>,
-    module: &str,
-    name: &str,
-) -> PyResult<Bound<'py, PyType>> {
-    known.import(py, module, name).cloned()
-}
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use sweep::{InvalidDefinition, Problem, WrongValue};
 
 /// The exception `name` with such arguments.
 fn exception<'py>(
@@ -36,13 +27,20 @@ pub fn invalid_parameter(
 }
 
 /// Work that could not be done, for a reason.
-pub fn failed(py: Python<'_>, what: &str, reason: &str) -> PyErr {
-    exception(py, "Failed", (what, reason))
+pub fn failed(what: &str, reason: &str) -> PyErr {
+    Python::attach(|py| exception(py, "Failed", (what, reason)))
 }
 
-/// An error of a crate, about `what`.
-pub fn of(py: Python<'_>, what: &str, error: &impl std::fmt::Display) -> PyErr {
-    failed(py, what, &error.to_string())
+/// Errors of the crates as exceptions.
+pub trait OrFailed<T> {
+    /// The value, or the exception that `what` failed.
+    fn or_failed(self, what: &str) -> PyResult<T>;
+}
+
+impl<T, E: Display> OrFailed<T> for Result<T, E> {
+    fn or_failed(self, what: &str) -> PyResult<T> {
+        self.map_err(|error| failed(what, &error.to_string()))
+    }
 }
 
 /// What is wrong with a definition, where `given` are the values that came from Python.

@@ -1,14 +1,16 @@
 //! Derivatives of measures, and of all that columns make of them.
 
+use std::collections::BTreeSet;
+
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 use results::columns::{design_columns, measure_name, measure_of};
 use results::{Column, DesignRow, SlopeSide};
 use sweep::{Measure, Parameter, Role};
 
 use crate::error;
-use crate::skin::{Named, Skin, evaluator, unknown};
-use crate::solved::no_column;
+use crate::skin::{Skin, evaluator, named, unknown};
+use crate::solved::reason;
 
 /// Step of the differences along rows that are extrapolated on straight lines: they have the rounding of a formula alone.
 const STEP: f64 = 1e-6;
@@ -16,43 +18,39 @@ const STEP: f64 = 1e-6;
 /// The derivatives where a parameter decreases and where it increases, and what changes between them.
 type Slopes = (Option<f64>, Option<f64>, Option<String>);
 
-/// The values of `measures`, and the derivatives of each by `keys`.
-pub fn gradients<'py>(
-    skin: &Bound<'py, Skin>,
-    measures: &[String],
-    keys: &[String],
-) -> PyResult<Bound<'py, PyList>> {
+/// The values of `measures`, and of each the derivatives by `keys`.
+#[pyfunction]
+pub fn gradients(
+    skin: &Bound<'_, Skin>,
+    measures: Vec<String>,
+    keys: Vec<String>,
+) -> PyResult<Vec<(f64, Vec<Slopes>)>> {
     let (py, of) = (skin.py(), skin.get());
-    let named = keys.iter().map(|key| parameter(skin, key)).collect::<PyResult<Vec<_>>>()?;
+    let by = keys.iter().map(|key| parameter(skin, key)).collect::<PyResult<Vec<_>>>()?;
     let columns = design_columns(&of.sweep);
     let column = |name: &String| {
         let found = columns.iter().find(|column| column.name == *name);
-        found.ok_or_else(|| no_column(&columns, name))
+        found.ok_or_else(|| PyKeyError::new_err(format!("there is no measure {name}")))
     };
     let asked = measures.iter().map(column).collect::<PyResult<Vec<_>>>()?;
     // Only what the columns are made of is solved; a column of parameters alone needs nothing, and coverage costs nothing.
-    let mut needed: Vec<_> =
-        asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage)).collect();
-    needed.push(Measure::Sensitivity);
-    needed.sort();
-    needed.dedup();
-    let (evaluator, number, case) = (evaluator(&needed), of.sweep.grid().number(0), of.case);
-    let row = py.detach(|| evaluator.solve(number, &case).row);
-    let all = PyList::empty(py);
-    for column in asked {
-        all.append(gradient(py, column, &row, &named)?)?;
-    }
-    Ok(all)
+    let needed = asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
+    let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
+    let (evaluator, number) = (evaluator(&Vec::from_iter(needed)), of.sweep.grid().number(0));
+    let row = py.detach(|| evaluator.solve(number, &of.case()).row);
+    asked.into_iter().map(|column| gradient(py, column, &row, &by)).collect()
 }
 
 /// The parameter of a key, which has to be continuous.
 fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<(&'static Parameter, f64)> {
-    let (py, case) = (skin.py(), &skin.get().case);
-    let named = Named::of(key).ok_or_else(|| unknown(py, key))?;
-    let is_smooth = |p: &Parameter| p.has(Role::Continuous) || p.has(Role::Made);
-    let parameter = Some(named.parameter).filter(|p| is_smooth(p) && p.size(case).is_some());
+    let (py, case) = (skin.py(), skin.get().case());
+    let (parameter, in_mm) = named(key).ok_or_else(|| unknown(py, key))?;
+    let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+    let unit = if in_mm { case.material.thickness_mm } else { Some(1.0) };
+    let unit = unit.filter(|_| is_smooth && parameter.size(&case).is_some());
     let expected = "a parameter that is given as a number and changes continuously";
-    parameter.zip(named.unit(case)).ok_or_else(|| error::invalid_parameter(py, key, None, expected))
+    let unit = unit.ok_or_else(|| error::invalid_parameter(py, key, None, expected))?;
+    Ok((parameter, unit))
 }
 
 /// The value of a column, and its derivatives.
@@ -63,11 +61,8 @@ fn gradient(
     by: &[(&'static Parameter, f64)],
 ) -> PyResult<(f64, Vec<Slopes>)> {
     let Some(value) = column.cell(row).number() else {
-        let of_measure =
-            |failure: &&results::Failure| Some(failure.measure) == measure_of(&column.name);
-        let failure = row.result.failures.iter().find(of_measure);
-        let reason = failure.map_or("the skin has no such value", |failure| failure.outcome.text());
-        return Err(error::failed(py, &column.name, reason));
+        let reason = reason(row, &column.name).unwrap_or("the skin has no such value");
+        return Err(error::failed(&column.name, reason));
     };
     let source = measure_name(&column.name);
     let differentiated = row.result.sensitivity.iter().any(|d| d.measure == source);

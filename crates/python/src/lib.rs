@@ -19,6 +19,7 @@ mod study;
 mod value;
 mod work;
 
+use error::OrFailed as _;
 use pyo3::prelude::*;
 use results::columns::design_columns;
 use sweep::{PARAMETERS, Parameter, Role, Sweep};
@@ -43,23 +44,25 @@ fn columns() -> PyResult<Vec<(String, &'static str, &'static str)>> {
     let text = "name = 'x'\nmaterial = { thickness_mm = 1, substrate_modulus_MPa = 1, membrane_modulus_MPa = 1, \
                 scale_density_kg_m3 = 1 }\npuncture.needle = 'guided'\nimperfection.gap_cv = 0.1";
     let sweep = Sweep::parse(text, "x.toml", &[]);
-    let sweep = sweep.map_err(|e| pyo3::exceptions::PyRuntimeError::new_err(e.to_string()))?;
-    let columns = design_columns(&sweep).into_iter().skip(1);
+    let columns = design_columns(&sweep.or_failed("columns")?).into_iter().skip(1);
     Ok(columns.map(|column| (column.name.into_owned(), column.unit, column.meaning)).collect())
 }
 
 #[pymodule]
-fn _squama(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add_class::<skin::Skin>()?;
-    module.add_class::<solved::Solved>()?;
-    module.add_function(wrap_pyfunction!(parameters, module)?)?;
-    module.add_function(wrap_pyfunction!(columns, module)?)?;
-    module.add_function(wrap_pyfunction!(many::solve_many, module)?)?;
-    module.add_function(wrap_pyfunction!(study::run, module)?)?;
-    module.add_function(wrap_pyfunction!(study::read, module)?)?;
-    module.add_function(wrap_pyfunction!(study::rank, module)?)?;
-    module.add_function(wrap_pyfunction!(study::optimise, module)?)?;
-    module.add_function(wrap_pyfunction!(study::tolerance, module)?)?;
-    Ok(())
+mod _squama {
+    #[pymodule_export]
+    use super::{
+        columns,
+        gradient::gradients,
+        many::solve_many,
+        parameters,
+        skin::Skin,
+        solved::Solved,
+        study::{optimise, rank, read, run, tolerance},
+        value::arrow,
+    };
+
+    #[expect(non_upper_case_globals, reason = "Python's name")]
+    #[pymodule_export]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

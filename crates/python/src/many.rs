@@ -1,154 +1,129 @@
 //! Many skins, on all cores.
 
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::slice;
+use std::sync::atomic::Ordering;
 
-use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use rayon::prelude::*;
 use results::columns::design_columns;
 use results::{Cell, Column, DesignRow};
-use sweep::{Case, DesignNumber, PARAMETERS, Parameter, Role, Scalar};
+use run::Evaluator;
+use sweep::{Case, PARAMETERS, Parameter, Role, Scalar};
 
 use crate::skin::{Skin, evaluator, measures as measures_of};
-use crate::value::{Array, array};
-use crate::work::{Watch, threads as threads_of, watched};
+use crate::value::{NamedCells, table};
+use crate::work::{Watch, interrupted, pool, watched};
 
-/// Skins that a thread takes at a time: neighbours often share their springs.
-const TAKEN: usize = 16;
+/// Skins of which the whole results are held, before their cells are taken.
+const BATCH: usize = 4096;
 
 /// Solves skins, and gives the columns of `designs.csv`, with those of the parameters in which they differ.
 #[pyfunction]
 #[pyo3(signature = (skins, measures=None, threads=None, progress=None))]
-pub fn solve_many<'py>(
-    py: Python<'py>,
+pub fn solve_many(
+    py: Python<'_>,
     skins: Vec<Py<Skin>>,
-    measures: Option<&Bound<'py, PyAny>>,
+    measures: Option<&Bound<'_, PyAny>>,
     threads: Option<usize>,
-    progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Vec<Array<'py>>> {
-    let evaluator = evaluator(&measures_of(measures)?);
-    let task =
-        |(k, skin): (usize, &Py<Skin>)| (skin.get().sweep.grid().number(k as u64), skin.get().case);
-    let tasks: Vec<(DesignNumber, Case)> = skins.iter().enumerate().map(task).collect();
-    let threads = threads_of(threads);
-    let rows = watched(py, progress, move |watch| {
-        solve(&tasks, threads, watch, |number, case| evaluator.solve(number, case).row)
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Vec<NamedCells>> {
+    let (evaluator, pool) = (evaluator(&measures_of(measures)?), pool(threads)?);
+    let solved = watched(py, progress, move |watch| {
+        watch.all.store(skins.len(), Ordering::Relaxed);
+        columns(&skins, |first, skins| pool.install(|| solve(skins, first, &evaluator, watch)))
     })?;
-    let rows = rows.ok_or_else(|| PyKeyboardInterrupt::new_err(()))?;
-    columns(py, &skins, &rows)
+    solved.ok_or_else(interrupted)
 }
 
-/// The rows of all tasks, in their order; `None` if the work was told to stop.
+/// The rows of skins, numbered from `first`, in their order; `None` if the work was told to stop.
 fn solve(
-    tasks: &[(DesignNumber, Case)],
-    threads: usize,
+    skins: &[Py<Skin>],
+    first: usize,
+    evaluator: &Evaluator,
     watch: &Watch,
-    solve: impl Fn(DesignNumber, &Case) -> DesignRow + Sync,
 ) -> Option<Vec<DesignRow>> {
-    watch.all.store(tasks.len(), Ordering::Relaxed);
-    let next = AtomicUsize::new(0);
-    let rows: Vec<OnceLock<DesignRow>> = tasks.iter().map(|_| OnceLock::new()).collect();
-    let work = || loop {
-        let begin = next.fetch_add(TAKEN, Ordering::Relaxed);
-        if begin >= tasks.len() {
-            return;
-        }
-        for k in begin..tasks.len().min(begin + TAKEN) {
-            if watch.stop.load(Ordering::Relaxed) {
-                return;
-            }
-            let (number, case) = &tasks[k];
-            let _ = rows[k].set(solve(*number, case));
-            watch.done.fetch_add(1, Ordering::Relaxed);
-        }
+    let solve = |(k, skin): (usize, &Py<Skin>)| {
+        let skin = skin.get();
+        let number = skin.sweep.grid().number((first + k) as u64);
+        let go_on = !watch.stop.load(Ordering::Relaxed);
+        let row = go_on.then(|| evaluator.solve(number, &skin.case()).row);
+        watch.done.fetch_add(1, Ordering::Relaxed);
+        row
     };
-    thread::scope(|scope| {
-        for _ in 1..threads.min(tasks.len()) {
-            scope.spawn(work);
-        }
-        work();
-    });
-    rows.into_iter().map(OnceLock::into_inner).collect()
+    skins.par_iter().enumerate().map(solve).collect()
 }
 
-/// The columns of rows whose skins need not be alike.
-fn columns<'py>(
-    py: Python<'py>,
+/// The columns of skins that need not be alike, which are solved batch by batch.
+fn columns(
     skins: &[Py<Skin>],
-    rows: &[DesignRow],
-) -> PyResult<Vec<Array<'py>>> {
+    mut solve: impl FnMut(usize, &[Py<Skin>]) -> Option<Vec<DesignRow>>,
+) -> Option<Vec<NamedCells>> {
     // Skins of one kind have the same columns, which are made once.
     let mut kinds: Vec<(Kind, Vec<Column<DesignRow>>)> = Vec::new();
     let mut kind_of = Vec::with_capacity(skins.len());
     for skin in skins {
-        let kind = Kind::of(skin.get());
+        let kind = kind(skin.get());
         let known = kinds.iter().position(|(other, _)| *other == kind);
         kind_of.push(known.unwrap_or(kinds.len()));
         if known.is_none() {
             kinds.push((kind, design_columns(&skin.get().sweep)));
         }
     }
-    let mut names: Vec<(&str, &'static str, &'static str)> = Vec::new();
+    let mut all: Vec<NamedCells> = Vec::new();
     for column in kinds.iter().flat_map(|(_, columns)| columns) {
-        if !names.iter().any(|(name, ..)| *name == column.name) {
-            names.push((&column.name, column.unit, column.meaning));
+        if !all.iter().any(|(name, ..)| *name == column.name) {
+            all.extend(table(slice::from_ref(column), &[]));
         }
     }
-    let mut all = Vec::new();
-    for (name, unit, meaning) in &names {
-        let of_kind: Vec<_> =
-            kinds.iter().map(|(_, columns)| columns.iter().find(|c| c.name == *name)).collect();
-        let cell =
-            |(row, kind): (&DesignRow, &usize)| of_kind[*kind].map_or(Cell::Empty, |c| c.cell(row));
-        let cells: Vec<Cell> = rows.iter().zip(&kind_of).map(cell).collect();
-        all.push(((*name).to_owned(), *unit, *meaning, array(py, cells.into_iter())?));
-    }
-    for parameter in differing(rows) {
-        let column =
-            Column::parameter(parameter, |row: &DesignRow| parameter.get(&row.case).into());
-        if !names.iter().any(|(name, ..)| *name == column.name) {
-            let cells = array(py, rows.iter().map(|row| column.cell(row)))?;
-            all.push((column.name.to_string(), column.unit, column.meaning, cells));
+    for (batch, skins) in skins.chunks(BATCH).enumerate() {
+        let rows = solve(batch * BATCH, skins)?;
+        for (name, .., cells) in &mut all {
+            let named = |(_, columns): &'_ (_, Vec<Column<DesignRow>>)| {
+                columns.iter().position(|c| c.name == *name)
+            };
+            let place: Vec<_> = kinds.iter().map(named).collect();
+            let rows = rows.iter().zip(&kind_of[batch * BATCH..]);
+            cells.extend(rows.map(|(row, &kind)| {
+                place[kind].map_or(Cell::Empty, |k| kinds[kind].1[k].cell(row))
+            }));
         }
     }
-    Ok(all)
+    for parameter in differing(skins) {
+        let value = |skin: &Py<Skin>| parameter.get(&skin.get().case()).into();
+        let column = Column::parameter(parameter, value);
+        if !all.iter().any(|(name, ..)| *name == column.name) {
+            all.extend(table(&[column], skins));
+        }
+    }
+    Some(all)
 }
 
-/// The parameters in which designs differ, but for the geometry, which every table has.
-fn differing(rows: &[DesignRow]) -> impl Iterator<Item = &'static Parameter> {
-    let differ = |p: &&Parameter| rows.iter().any(|row| p.get(&row.case) != p.get(&rows[0].case));
-    PARAMETERS.iter().filter(|parameter| !parameter.has(Role::Geometry)).filter(differ)
+/// The parameters in which skins differ, but for the geometry, which every table has.
+fn differing(skins: &[Py<Skin>]) -> impl Iterator<Item = &'static Parameter> {
+    let all = || PARAMETERS.iter().filter(|parameter| !parameter.has(Role::Geometry));
+    let mut same: Vec<_> = all().collect();
+    for pair in skins.windows(2) {
+        let (one, next) = (pair[0].get().case(), pair[1].get().case());
+        same.retain(|parameter| parameter.get(&one) == parameter.get(&next));
+    }
+    all().filter(move |parameter| !same.iter().any(|other| other.key == parameter.key))
 }
 
 /// What the columns of a skin depend on.
-#[derive(PartialEq)]
-struct Kind {
-    is_imperfect: bool,
-    is_guided: bool,
-    material: [bool; 4],
-    ends: Scalar,
-    friction: Option<Scalar>,
-}
+type Kind = ([bool; 7], [Option<Scalar>; 2]);
 
-impl Kind {
-    fn of(skin: &Skin) -> Self {
-        let Skin { sweep, case } = skin;
-        let material = case.material;
-        // Of a single tilt no column has the value in its name.
-        let list =
-            |scalar: Scalar| if let Scalar::List(_) = scalar { scalar } else { Scalar::Word("") };
-        Self {
-            is_imperfect: sweep.is_imperfect(),
-            is_guided: sweep.is_guided(),
-            material: [
-                material.thickness_mm.is_some(),
-                material.substrate_modulus_mpa.is_some(),
-                material.membrane_modulus_mpa.is_some(),
-                material.scale_density_kg_m3.is_some(),
-            ],
-            ends: list(case.critical_tilt),
-            friction: case.needle_friction.map(list),
-        }
-    }
+fn kind(skin: &Skin) -> Kind {
+    let Case { material, critical_tilt, needle_friction, .. } = skin.case();
+    // Of a single tilt no column has the value in its name.
+    let list = |scalar: Scalar| matches!(scalar, Scalar::List(_)).then_some(scalar);
+    let has = [
+        skin.sweep.is_imperfect(),
+        skin.sweep.is_guided(),
+        needle_friction.is_some(),
+        material.thickness_mm.is_some(),
+        material.substrate_modulus_mpa.is_some(),
+        material.membrane_modulus_mpa.is_some(),
+        material.scale_density_kg_m3.is_some(),
+    ];
+    (has, [list(critical_tilt), needle_friction.and_then(list)])
 }

@@ -1,7 +1,7 @@
 //! A skin with everything that it is solved with.
 
+use std::collections::BTreeMap;
 use std::collections::hash_map::DefaultHasher;
-use std::fmt::Write as _;
 use std::hash::{Hash as _, Hasher as _};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,17 +9,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
+use pyo3::types::{IntoPyDict as _, PyDict, PyTuple};
 use report::drawings::PunctureDrawing;
 use run::Evaluator;
 use skin::flexure::Method;
 use skin::puncture::{At, snapshots};
 use substrate::{Coupling, RowStiffness};
-use sweep::toml_source::{KeyValue, KeyValues, Value};
-use sweep::{Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key, nearest};
+use sweep::toml_source::{KeyValue, Value};
+use sweep::{Axis, Case, Measure, PARAMETERS, Parameter, Role, Scalar, Sweep, key, nearest};
 
-use crate::error;
-use crate::gradient;
+use crate::error::{self, OrFailed as _};
 use crate::solved::Solved;
 use crate::value::{place, text, value};
 use crate::work::watched;
@@ -31,83 +30,50 @@ const NAME: &str = "skin";
 #[pyclass(frozen, module = "squama")]
 pub struct Skin {
     pub(crate) sweep: Sweep,
-    pub(crate) case: Case,
 }
 
-/// A parameter by its key, or by that of the same length in mm.
-#[derive(Clone, Copy)]
-pub struct Named {
-    pub parameter: &'static Parameter,
-    pub in_mm: bool,
-}
-
-impl Named {
-    /// The parameter of `key`.
-    pub fn of(key: &str) -> Option<Self> {
-        let plain = Parameter::named(key).map(|parameter| Self { parameter, in_mm: false });
-        let stem = || key.strip_suffix("_mm");
-        let in_mm = || Parameter::named(&format!("{}_over_t", stem()?));
-        plain.or_else(|| Some(Self { parameter: in_mm()?, in_mm: true }))
-    }
-
-    /// One unit of the parameter in the unit of the key; `None` in mm without a thickness.
-    pub fn unit(self, case: &Case) -> Option<f64> {
-        if self.in_mm { case.material.thickness_mm } else { Some(1.0) }
-    }
+/// The parameter of `key`, and whether that is the key of the same length in mm.
+pub fn named(key: &str) -> Option<(&'static Parameter, bool)> {
+    let stem = || key.strip_suffix("_mm");
+    let in_mm = || Some((Parameter::named(&format!("{}_over_t", stem()?))?, true));
+    Parameter::named(key).map(|parameter| (parameter, false)).or_else(in_mm)
 }
 
 /// The exception for a key that no parameter has.
 pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
     let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
-    let expected = match nearest(key, &known) {
-        Some(near) => format!("a parameter; did you mean {near}?"),
-        None => "a parameter, of those in help(squama.Skin)".to_owned(),
-    };
-    error::invalid_parameter(py, key, None, &expected)
+    let near = nearest(key, &known).map(|near| format!("did you mean {near}?"));
+    let near = near.unwrap_or_else(|| "help(squama.Skin) lists them".to_owned());
+    error::invalid_parameter(py, key, None, &format!("a parameter; {near}"))
 }
 
 /// The sweep of one skin with these parameters; those that are `None` are left at their defaults.
 fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let py = given.py();
-    let mut sections: KeyValues = Vec::new();
+    let entry = |key: &str, value| KeyValue { key: key.to_owned(), value, place: place() };
+    let mut sections = vec![entry("name", Value::Text(NAME.into()))];
+    let mut keys = Vec::new();
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {
         let name = text(&name)?;
-        let Some(Named { parameter, in_mm }) = Named::of(&name) else {
-            return Err(unknown(py, &name));
-        };
+        let (parameter, in_mm) = named(&name).ok_or_else(|| unknown(py, &name))?;
         let of = if in_mm { over_t(given, &name, &of)? } else { of };
-        let entry = KeyValue { key: parameter.key.to_owned(), value: value(&of)?, place: place() };
+        keys.push(parameter.key);
+        let of = entry(parameter.key, value(&of)?);
         // Geometry stands among the axes of a definition, each with one value.
         match sections.iter_mut().find(|section| section.key == parameter.section) {
-            Some(KeyValue { value: Value::Table(entries), .. }) => entries.push(entry),
-            _ => sections.push(section(parameter.section, vec![entry])),
+            Some(KeyValue { value: Value::Table(entries), .. }) => entries.push(of),
+            _ => sections.push(entry(parameter.section, Value::Table(vec![of]))),
         }
     }
-    for parameter in Parameter::with(Role::Geometry) {
-        let has = |section: &KeyValue| matches!(&section.value, Value::Table(entries) if entries.iter().any(|e| e.key == parameter.key));
-        if !sections.iter().any(has) {
-            return Err(error::invalid_parameter(py, parameter.key, None, &parameter.expected()));
-        }
+    if let Some(missing) = Parameter::with(Role::Geometry).find(|p| !keys.contains(&p.key)) {
+        return Err(error::invalid_parameter(py, missing.key, None, &missing.expected()));
     }
-    sections.push(KeyValue { key: "name".into(), value: Value::Text(NAME.into()), place: place() });
     let sweep = Sweep::of_entries(&sections, "squama.Skin");
     let sweep = sweep.map_err(|error| error::invalid_definition(py, &error, Some(given)))?;
-    match sweep.grid().len() {
-        1 => Ok(sweep),
-        _ => Err(several(py, &sweep)),
-    }
-}
-
-fn section(name: &str, entries: KeyValues) -> KeyValue {
-    KeyValue { key: name.to_owned(), value: Value::Table(entries), place: place() }
-}
-
-/// The exception for a list where one value is wanted.
-fn several(py: Python<'_>, sweep: &Sweep) -> PyErr {
-    let axis = sweep.grid().axes().iter().find(|axis| axis.len() > 1);
-    let (key, expected) = axis
-        .map_or(("", String::new()), |axis| (axis.parameter().key, axis.parameter().expected()));
-    error::invalid_parameter(py, key, None, &format!("one value, {expected}"))
+    let several = sweep.grid().axes().iter().find(|axis| axis.len() > 1);
+    let Some(several) = several.map(Axis::parameter) else { return Ok(sweep) };
+    let expected = format!("one value, {}", several.expected());
+    Err(error::invalid_parameter(py, several.key, None, &expected))
 }
 
 /// A length in mm over the thickness, which has to be given.
@@ -138,26 +104,17 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
 /// The measures of that name, or of a list of names; "all" are those that need no derivatives.
 pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
     let Some(of) = of.filter(|of| !of.is_none()) else { return Ok(Measure::USUAL.to_vec()) };
-    let names: Vec<String> =
-        of.extract::<String>().map(|name| vec![name]).or_else(|_| of.extract())?;
-    let mut measures = Vec::new();
-    for name in names {
-        let known = Measure::ALL.into_iter().find(|measure| measure.key() == name);
-        match known {
-            Some(measure) => measures.push(measure),
-            None if name == "all" => measures.extend(Measure::USUAL),
-            None => {
-                let expected =
-                    "all, coverage, puncture, flexure or sensitivity, or a list of these";
-                return Err(error::invalid_parameter(
-                    of.py(),
-                    "measures",
-                    Some(of.clone()),
-                    expected,
-                ));
-            }
+    let names = of.extract().map(|name: String| vec![name]).or_else(|_| of.extract())?;
+    let known = |name: &String| match Measure::named(name) {
+        Some(measure) => Ok(vec![measure]),
+        None if name == "all" => Ok(Measure::USUAL.to_vec()),
+        None => {
+            let expected = "all, coverage, puncture, flexure or sensitivity, or a list of these";
+            Err(error::invalid_parameter(of.py(), "measures", Some(of.clone()), expected))
         }
-    }
+    };
+    let measures: PyResult<Vec<_>> = names.iter().map(known).collect();
+    let mut measures = measures?.concat();
     measures.sort();
     measures.dedup();
     Ok(measures)
@@ -165,35 +122,36 @@ pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
 
 /// The evaluator of such measures, which keeps the springs that it has found.
 pub fn evaluator(measures: &[Measure]) -> Arc<Evaluator> {
-    static KNOWN: Mutex<Vec<(Vec<Measure>, Arc<Evaluator>)>> = Mutex::new(Vec::new());
+    static KNOWN: Mutex<BTreeMap<Vec<Measure>, Arc<Evaluator>>> = Mutex::new(BTreeMap::new());
     let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, evaluator)) = known.iter().find(|(of, _)| of == measures) {
-        return Arc::clone(evaluator);
-    }
-    let evaluator = Arc::new(Evaluator::new(measures));
-    known.push((measures.to_vec(), Arc::clone(&evaluator)));
-    evaluator
+    let new = || Arc::new(Evaluator::new(measures));
+    Arc::clone(known.entry(measures.to_vec()).or_insert_with(new))
 }
 
 impl Skin {
     /// The skins of a sweep.
     fn new(sweep: &Sweep, index: u64) -> Self {
-        let case = sweep.grid().case(index);
-        Self { sweep: sweep.only(index), case }
+        Self { sweep: sweep.only(index) }
+    }
+
+    /// The case of the one design. It is not kept: a list of a million skins would hold it twice.
+    pub(crate) fn case(&self) -> Case {
+        self.sweep.grid().case(0)
     }
 
     /// Whether it is solved in some milliseconds. Everything else is watched from outside, which costs a thread.
     fn is_quick(&self) -> bool {
-        let Case { imperfection, coupling, flexure, common, .. } = &self.case;
+        let Case { imperfection, coupling, flexure, common, .. } = self.case();
         imperfection.is_none()
-            && *coupling == Coupling::Nearest
+            && coupling == Coupling::Nearest
             && flexure.method == Method::UnitCell
             && common.solver == Case::default().common.solver
     }
 
     /// The parameters that are not at their defaults, and the geometry.
     fn given(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        let is_given = |p: &Parameter| p.has(Role::Geometry) || p.get(&self.case) != p.default();
+        let case = self.case();
+        let is_given = move |p: &Parameter| p.has(Role::Geometry) || p.get(&case) != p.default();
         let axes = self.sweep.grid().axes().iter();
         let axes = axes.map(|axis| (axis.parameter(), axis.value(0)));
         axes.chain(self.sweep.shared()).filter(move |(parameter, _)| is_given(parameter))
@@ -205,20 +163,18 @@ impl Skin {
         definition: &Bound<'_, PyAny>,
         settings: &[sweep::Setting],
     ) -> PyResult<Sweep> {
-        if let Ok(skin) = definition.cast::<Self>() {
-            return Self::parsed(py, &skin.get().sweep.to_toml(), settings);
-        }
-        let text = text(definition)?;
+        let text = match definition.cast::<Self>() {
+            Ok(skin) => skin.get().sweep.to_toml(),
+            Err(_) => text(definition)?,
+        };
         // Every definition has a name, and no path has an equals sign in a line of several.
-        if text.contains('\n') || text.trim_start().starts_with("name") && text.contains('=') {
-            return Self::parsed(py, &text, settings);
-        }
-        Sweep::read(Path::new(&text), settings).map_err(|e| error::invalid_definition(py, &e, None))
-    }
-
-    fn parsed(py: Python<'_>, text: &str, settings: &[sweep::Setting]) -> PyResult<Sweep> {
-        Sweep::parse(text, "definition", settings)
-            .map_err(|e| error::invalid_definition(py, &e, None))
+        let starts = text.trim_start().starts_with("name") && text.contains('=');
+        let sweep = if starts || text.contains('\n') {
+            Sweep::parse(&text, "definition", settings)
+        } else {
+            Sweep::read(Path::new(&text), settings)
+        };
+        sweep.map_err(|error| error::invalid_definition(py, &error, None))
     }
 }
 
@@ -227,37 +183,21 @@ impl Skin {
     #[new]
     #[pyo3(signature = (**parameters))]
     fn of(py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let empty = PyDict::new(py);
-        Ok(Self::new(&sweep_of(parameters.unwrap_or(&empty))?, 0))
+        let given = parameters.cloned().unwrap_or_else(|| PyDict::new(py));
+        Ok(Self::new(&sweep_of(&given)?, 0))
     }
 
-    /// The skin of a definition: a text in TOML, or the path of a file. Of several designs `design` is the number, from 1.
+    /// How many designs a definition has, and the skins of all or of the one at an index.
     #[staticmethod]
-    #[pyo3(signature = (definition, design=None))]
-    fn from_toml(
+    fn _designs(
         py: Python<'_>,
         definition: &Bound<'_, PyAny>,
-        design: Option<u64>,
-    ) -> PyResult<Self> {
+        index: Option<u64>,
+    ) -> PyResult<(u64, Vec<Self>)> {
         let sweep = Self::definition(py, definition, &[])?;
         let count = sweep.grid().len();
-        match design {
-            None if count == 1 => Ok(Self::new(&sweep, 0)),
-            Some(number) if (1..=count).contains(&number) => Ok(Self::new(&sweep, number - 1)),
-            number => {
-                let number = number.map(|number| number.into_pyobject(py)).transpose()?;
-                let number = number.map(Bound::into_any);
-                let expected = format!("the number of one of its {count} designs");
-                Err(error::invalid_parameter(py, "design", number, &expected))
-            }
-        }
-    }
-
-    /// All skins of a definition, in the order of their numbers: a text in TOML, or the path of a file.
-    #[staticmethod]
-    fn all_from_toml(py: Python<'_>, definition: &Bound<'_, PyAny>) -> PyResult<Vec<Self>> {
-        let sweep = Self::definition(py, definition, &[])?;
-        Ok((0..sweep.grid().len()).map(|index| Self::new(&sweep, index)).collect())
+        let asked = index.map_or(0..count, |index| index..count.min(index.saturating_add(1)));
+        Ok((count, asked.map(|index| Self::new(&sweep, index)).collect()))
     }
 
     /// The skin as a complete definition, which `squama run` and `Skin.from_toml` read.
@@ -268,38 +208,20 @@ impl Skin {
     /// The parameters that are not at their defaults, and the geometry.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        for (parameter, scalar) in self.given() {
-            all.set_item(parameter.key, python(py, scalar)?)?;
-        }
-        Ok(all)
-    }
-
-    /// A skin with other values of some parameters; `None` is the default.
-    #[pyo3(signature = (**parameters))]
-    fn replace(&self, py: Python<'_>, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let all = self.parameters(py)?;
-        for (name, of) in parameters.into_iter().flatten() {
-            // A length in mm takes the place of the same length over t.
-            if let Some(Named { parameter, in_mm: true }) = Named::of(&text(&name)?)
-                && all.contains(parameter.key)?
-            {
-                all.del_item(parameter.key)?;
-            }
-            all.set_item(name, of)?;
-        }
-        Ok(Self::new(&sweep_of(&all)?, 0))
+        let given = self.given().map(|(parameter, of)| Ok((parameter.key, python(py, of)?)));
+        given.collect::<PyResult<Vec<_>>>()?.into_py_dict(py)
     }
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
-        let named = Named::of(name).ok_or_else(no_such)?;
-        if !named.parameter.is_given(&self.case) {
+        let (parameter, in_mm) = named(name).ok_or_else(no_such)?;
+        let case = self.case();
+        if !parameter.is_given(&case) {
             return Ok(py.None().into_bound(py));
         }
-        match named.parameter.get(&self.case) {
-            Scalar::Number(number) if named.in_mm => {
-                let unit = named.unit(&self.case).ok_or_else(no_such)?;
+        match parameter.get(&case) {
+            Scalar::Number(number) if in_mm => {
+                let unit = case.material.thickness_mm.ok_or_else(no_such)?;
                 Ok((number * unit).into_pyobject(py)?.into_any())
             }
             scalar => python(py, scalar),
@@ -312,83 +234,52 @@ impl Skin {
         slf: &Bound<'py, Self>,
         measures: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        static RESULT: PyOnceLock<Py<PyType>> = PyOnceLock::new();
+        static RESULT: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
         let (py, skin) = (slf.py(), slf.get());
         let evaluator = evaluator(&self::measures(measures)?);
-        let (number, case) = (skin.sweep.grid().number(0), skin.case);
+        let (number, case) = (skin.sweep.grid().number(0), skin.case());
         let solved = if skin.is_quick() {
             py.detach(|| evaluator.solve(number, &case))
         } else {
             watched(py, None, move |_| evaluator.solve(number, &case))?
         };
-        let solved = Solved::new(slf.clone().unbind(), solved);
-        error::class(py, &RESULT, "squama._result", "Result")?.call1((slf, solved))
+        let solved = Solved { skin: slf.clone().unbind(), design: solved };
+        RESULT.import(py, "squama._result", "Result")?.call1((slf, solved))
     }
 
-    /// Values of measures, and of each the derivatives by parameters: where they decrease, where they increase, what changes.
-    fn _gradients<'py>(
-        slf: &Bound<'py, Self>,
-        measures: Vec<String>,
-        keys: Vec<String>,
-    ) -> PyResult<Bound<'py, PyList>> {
-        gradient::gradients(slf, &measures, &keys)
-    }
-
+    /// The row at rest and, if the path gets there, at the critical tilt.
     fn _repr_svg_(&self, py: Python<'_>) -> PyResult<String> {
-        let case = self.case;
-        py.detach(|| drawing(&case)).map_err(|reason| error::failed(py, "drawing", &reason))
+        py.detach(|| {
+            let case = self.case();
+            let footprint = case.footprint().or_failed("drawing")?;
+            let substrate = RowStiffness::of(&footprint, case.coupling).or_failed("drawing")?;
+            let at = [At::Tilt(case.puncture.critical_tilt_deg)];
+            let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at);
+            let states: Vec<_> = solved.or_failed("drawing")?.at.into_iter().flatten().collect();
+            let drawing = PunctureDrawing {
+                name: NAME,
+                design: &case.design,
+                load_position: case.puncture.load_position,
+                thickness_mm: case.material.thickness_mm,
+                states: &states,
+            };
+            drawing.svg().or_failed("drawing")
+        })
     }
 
     fn __repr__(&self) -> String {
-        let mut text = String::new();
-        for (parameter, scalar) in self.given() {
-            // Writing to a string cannot fail.
-            let _ = write!(
-                text,
-                "{}{}={}",
-                if text.is_empty() { "" } else { ", " },
-                parameter.key,
-                scalar.to_toml()
-            );
-        }
-        format!("Skin({text})")
+        let given =
+            self.given().map(|(parameter, of)| format!("{}={}", parameter.key, of.to_toml()));
+        format!("Skin({})", given.collect::<Vec<_>>().join(", "))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
-        other.cast::<Self>().is_ok_and(|other| other.get().case == self.case)
+        other.cast::<Self>().is_ok_and(|other| other.get().case() == self.case())
     }
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        for parameter in PARAMETERS {
-            parameter.get(&self.case).to_string().hash(&mut hasher);
-        }
+        self.__repr__().hash(&mut hasher);
         hasher.finish()
     }
-
-    fn __reduce__<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyDict>,))> {
-        Ok((py.import("squama")?.getattr("_skin")?, (self.parameters(py)?,)))
-    }
-}
-
-/// The row at rest and, if the path gets there, at the critical tilt.
-fn drawing(case: &Case) -> Result<String, String> {
-    let footprint = case.footprint().map_err(|error| error.to_string())?;
-    let substrate =
-        RowStiffness::of(&footprint, case.coupling).map_err(|error| error.to_string())?;
-    let at = [At::Tilt(case.puncture.critical_tilt_deg)];
-    let solved = snapshots(&case.design, &substrate, &case.common, &case.puncture, &at);
-    let states: Vec<_> =
-        solved.map_err(|error| error.to_string())?.at.into_iter().flatten().collect();
-    let drawing = PunctureDrawing {
-        name: NAME,
-        design: &case.design,
-        load_position: case.puncture.load_position,
-        thickness_mm: case.material.thickness_mm,
-        states: &states,
-    };
-    drawing.svg().map_err(|error| error.to_string())
 }

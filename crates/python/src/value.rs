@@ -1,13 +1,23 @@
 //! Between Python and the values of definitions and tables.
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use arrow_array::ffi_stream::FFI_ArrowArrayStream;
+use arrow_array::{
+    ArrayRef, Float64Array, RecordBatch, RecordBatchIterator, StringArray, StructArray,
+};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyByteArray, PyDict, PyFloat, PyInt, PyList, PyString};
+use pyo3::pybacked::PyBackedBytes;
+use pyo3::types::{PyBool, PyCapsule, PyDict, PyFloat, PyInt, PyString};
 use results::{Cell, Column};
 use sweep::number;
 use sweep::toml_source::{KeyValue, Place, Value};
 
-/// A column for Python: name, unit, meaning, and its cells, the bytes of numbers or a list of texts.
-pub type Array<'py> = (String, &'static str, &'static str, Bound<'py, PyAny>);
+use crate::error::OrFailed as _;
+
+/// A column for Python: name, unit, meaning, and its cells.
+pub type NamedCells = (String, &'static str, &'static str, Cells);
 
 /// The place of everything that comes from Python, for messages.
 pub fn place() -> Place {
@@ -50,42 +60,95 @@ pub fn value(of: &Bound<'_, PyAny>) -> PyResult<Value> {
 }
 
 /// The cell of a table: a number, a text, or `None`.
-pub fn cell(py: Python<'_>, cell: Cell) -> PyResult<Bound<'_, PyAny>> {
-    Ok(match cell {
-        Cell::Empty => py.None().into_bound(py),
-        Cell::Text(text) if text.is_empty() => py.None().into_bound(py),
-        Cell::Number(number) => number.into_pyobject(py)?.into_any(),
-        Cell::Count(count) => count.into_pyobject(py)?.into_any(),
-        Cell::Text(text) => text.into_pyobject(py)?.into_any(),
-    })
+#[derive(IntoPyObject)]
+pub enum PythonCell {
+    Empty(Option<()>),
+    Number(f64),
+    Count(i64),
+    Text(Cow<'static, str>),
+}
+
+impl From<Cell> for PythonCell {
+    fn from(cell: Cell) -> Self {
+        match cell {
+            Cell::Text(text) if !text.is_empty() => Self::Text(text),
+            Cell::Empty | Cell::Text(_) => Self::Empty(None),
+            Cell::Number(number) => Self::Number(number),
+            Cell::Count(count) => Self::Count(count),
+        }
+    }
+}
+
+/// The cells of a column: the bytes of numbers, of which one that does not exist is NaN, unless one of them is a text.
+#[derive(IntoPyObject)]
+pub enum Cells {
+    Numbers(Vec<u8>),
+    Texts(Vec<PythonCell>),
+}
+
+impl Extend<Cell> for Cells {
+    /// Adds cells. The first text makes all of them texts.
+    fn extend<T: IntoIterator<Item = Cell>>(&mut self, cells: T) {
+        let cells: Vec<Cell> = cells.into_iter().collect();
+        let is_text = |cell: &Cell| matches!(cell, Cell::Text(text) if !text.is_empty());
+        if let Self::Numbers(known) = self
+            && cells.iter().any(is_text)
+        {
+            let (known, _) = known.as_chunks();
+            let known = known.iter().map(|of| Cell::from(f64::from_ne_bytes(*of)).number());
+            *self = Self::Texts(known.map(|number| Cell::from(number).into()).collect());
+        }
+        match self {
+            Self::Texts(texts) => texts.extend(cells.into_iter().map(PythonCell::from)),
+            Self::Numbers(bytes) => {
+                let number = |cell: &Cell| cell.number().unwrap_or(f64::NAN).to_ne_bytes();
+                bytes.extend(cells.iter().flat_map(number));
+            }
+        }
+    }
 }
 
 /// The cells of every column in some rows.
-pub fn arrays<'py, R>(
-    py: Python<'py>,
-    columns: &[Column<R>],
-    rows: &[R],
-) -> PyResult<Vec<Array<'py>>> {
-    let array = |column: &Column<R>| {
-        let cells = array(py, rows.iter().map(|row| column.cell(row)))?;
-        Ok((column.name.to_string(), column.unit, column.meaning, cells))
+pub fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<NamedCells> {
+    let named = |column: &Column<R>| {
+        let mut cells = Cells::Numbers(Vec::new());
+        cells.extend(rows.iter().map(|row| column.cell(row)));
+        (column.name.to_string(), column.unit, column.meaning, cells)
     };
-    columns.iter().map(array).collect()
+    columns.iter().map(named).collect()
 }
 
-/// The cells of a column: the bytes of numbers, of which one that does not exist is NaN, or, if one is a text, a list.
-pub fn array(
-    py: Python<'_>,
-    cells: impl Iterator<Item = Cell> + Clone,
-) -> PyResult<Bound<'_, PyAny>> {
-    if cells.clone().any(|cell| matches!(cell, Cell::Text(text) if !text.is_empty())) {
-        let list = PyList::empty(py);
-        for of in cells {
-            list.append(cell(py, of)?)?;
-        }
-        return Ok(list.into_any());
+/// The columns of a table as a stream of Arrow, of one batch, in the capsule by which libraries hand over such streams.
+#[pyfunction]
+pub fn arrow(py: Python<'_>, columns: Vec<(String, ArrowCells)>) -> PyResult<Bound<'_, PyCapsule>> {
+    let mut batch = RecordBatch::from(StructArray::new_empty_fields(0, None));
+    if !columns.is_empty() {
+        let arrays = columns.into_iter().map(|(name, cells)| (name, cells.array(), true));
+        batch = RecordBatch::try_from_iter_with_nullable(arrays).or_failed("arrow")?;
     }
-    let bytes: Vec<u8> =
-        cells.flat_map(|cell| cell.number().unwrap_or(f64::NAN).to_ne_bytes()).collect();
-    Ok(PyByteArray::new(py, &bytes).into_any())
+    let schema = batch.schema();
+    let stream = FFI_ArrowArrayStream::new(Box::new(RecordBatchIterator::new([Ok(batch)], schema)));
+    PyCapsule::new_with_value(py, stream, c"arrow_array_stream")
+}
+
+/// The cells of a column as a table in Python has them.
+#[derive(FromPyObject)]
+pub enum ArrowCells {
+    Numbers(PyBackedBytes),
+    Texts(Vec<Option<String>>),
+}
+
+impl ArrowCells {
+    fn array(self) -> ArrayRef {
+        match self {
+            Self::Texts(texts) => Arc::new(StringArray::from(texts)),
+            Self::Numbers(bytes) => {
+                let (numbers, _) = bytes.as_chunks();
+                let numbers = numbers.iter().map(|of| f64::from_ne_bytes(*of));
+                // What is NaN here is a value that does not exist, for which Arrow has a mark.
+                let numbers = numbers.map(|of| (!of.is_nan()).then_some(of));
+                Arc::new(numbers.collect::<Float64Array>())
+            }
+        }
+    }
 }

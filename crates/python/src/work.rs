@@ -7,9 +7,12 @@ use std::thread::{self, available_parallelism};
 use std::time::Duration;
 
 use optimisation::SearchMeter;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use run::{Progress, WorkMeter};
+
+use crate::error::OrFailed as _;
 
 /// How often a signal is looked for, and progress told.
 const PAUSE: Duration = Duration::from_millis(50);
@@ -62,6 +65,16 @@ impl Watch {
 /// As many threads as are asked for, or one for each core.
 pub fn threads(asked: Option<usize>) -> usize {
     asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).max(1)
+}
+
+/// What Ctrl-C raises.
+pub fn interrupted() -> PyErr {
+    PyKeyboardInterrupt::new_err(())
+}
+
+/// The threads of work that has none of its own.
+pub fn pool(asked: Option<usize>) -> PyResult<ThreadPool> {
+    ThreadPoolBuilder::new().num_threads(threads(asked)).build().or_failed("threads")
 }
 
 /// Does `work` in a thread of its own, so that this one sees signals and tells `progress`.

@@ -23,6 +23,7 @@ from squama import _manual
 
 ROOT = Path(__file__).parents[3]
 SMOKE = ROOT / "sweeps" / "smoke.toml"
+GOAL = ROOT / "sweeps/goals/strong-and-covered.toml"
 SKIN = squama.Skin(gap_over_t=0.1, length_over_t=0.3, slant_deg=60)
 
 
@@ -249,8 +250,8 @@ def test_several_measures_have_a_jacobian():
 
 def test_slsqp_finds_the_optimum_with_exact_gradients():
     keys = ["gap_over_t", "slant_deg"]
-    f, jac = squama.function(SKIN, keys, "compliance")
-    cover, by = squama.function(SKIN, keys, "coverage")
+    f, jac = squama.function(SKIN, keys, "compliance", at_kinks="mean")
+    cover, by = squama.function(SKIN, keys, "coverage", at_kinks="mean")
     at_least = {"type": "ineq", "fun": lambda x: cover(x) - 0.6, "jac": by}
     bounds = [(0.05, 1.0), (10.0, 70.0)]
     with warnings.catch_warnings():
@@ -266,8 +267,15 @@ def test_a_kink_tells_both_sides_and_can_be_an_error():
         _, gradient = skin.value_and_gradient("coverage", ["gap_over_t"])
     kink = caught[0].message
     assert (kink.measure, kink.key, kink.change) == ("coverage", "gap_over_t", "another scale under the line")
-    assert (kink.left, kink.right) == pytest.approx((0, -8)) and gradient[0] == (kink.left + kink.right) / 2
-    assert caught[0].filename == __file__
+    assert (kink.left, kink.right) == pytest.approx((0, -8)) and np.isnan(gradient[0])
+    assert caught[0].filename == __file__ and len(caught) == 1
+    for at_kinks, slope in {"left": kink.left, "right": kink.right, "mean": (kink.left + kink.right) / 2}.items():
+        with pytest.warns(squama.KinkWarning):
+            assert skin.value_and_gradient("coverage", ["gap_over_t"], at_kinks)[1] == [slope]
+        with pytest.warns(squama.KinkWarning):
+            assert squama.function(skin, ["gap_over_t"], "coverage", at_kinks)[1]([0.1]) == [slope]
+    with pytest.raises(squama.InvalidParameter, match="at_kinks"):
+        skin.value_and_gradient("coverage", ["gap_over_t"], "both")
     f, jac = squama.function(skin, ["gap_over_t"], "coverage")
     with warnings.catch_warnings():
         warnings.simplefilter("error", squama.KinkWarning)
@@ -282,6 +290,7 @@ LONG = {
     "solve": "skin.replace(gap_cv=0.1, samples=1_000_000).solve()",
     "solve_many": "squama.solve_many(skins)",
     "run": "squama.run(skin.replace(gap_cv=0.1, samples=1_000_000), sys.argv[1])",
+    "optimise": "squama.optimise(sys.argv[2], sys.argv[1], set={'goal.samples': 100_000})",
     "tolerance": "squama.tolerance(skin, set={'tolerance.gap_over_t': {'batch_sd': 0.01}}, samples=1_000_000, out=sys.argv[1])",
 }
 
@@ -299,7 +308,7 @@ try:
 except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
-    process = subprocess.Popen([sys.executable, "-c", code, tmp_path / "out"], stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([sys.executable, "-c", code, tmp_path / "out", GOAL], stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "begun\n"
     time.sleep(0.5)
     asked = time.monotonic()
@@ -335,6 +344,41 @@ def test_an_interrupted_run_goes_on(tmp_path):
             assert time.monotonic() < deadline
             time.sleep(0.1)
     assert run.rows == 1610 and "designs" in seen[0][1]
+
+
+def ended_early(begin, ending):
+    """Whether a command was begun and interrupted before its end."""
+    process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and not ending.exists():
+        time.sleep(0.01)
+    time.sleep(0.1)
+    process.send_signal(signal.SIGINT)
+    return process.wait() != 0
+
+
+@pytest.mark.skipif(not os.environ.get("SQUAMA") or os.name == "nt", reason="SQUAMA names no command to go on with")
+def test_command_and_package_go_on_with_each_others_runs(tmp_path):
+    command, part, other = os.environ["SQUAMA"], tmp_path / "part", tmp_path / "other"
+    definition = tmp_path / "long.toml"
+    definition.write_text(SMOKE.read_text().replace("smoke", "long") + "\n")
+    whole = {"designs.gap_over_t": {"from": 0.1, "to": 1, "step": 0.01}, "designs.slant_deg": {"from": 0, "to": 75, "step": 5}}
+    settings = [f"--set={key}={{ from = {of['from']}, to = {of['to']}, step = {of['step']} }}" for key, of in whole.items()]
+    assert ended_early([command, "run", definition, "--quiet", "--out", part, *settings], part / "journal.jsonl")
+    run = squama.run(definition, part, set=whole, resume=True)
+    assert run.rows > 1000
+
+    def stop(share, words):
+        if 0 < share < 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        squama.run(definition, other, set=whole, progress=stop)
+    deadline = time.monotonic() + 20
+    # The designs in hand are finished by the thread that was left, which holds the folder till then.
+    while subprocess.run([command, "run", definition, "--quiet", "--resume", "--out", other, *settings]).returncode == 2:
+        assert time.monotonic() < deadline
+        time.sleep(0.1)
+    assert (part / "designs.csv").read_bytes() == (other / "designs.csv").read_bytes()
 
 
 def test_a_bar_is_shown(capsys):
@@ -392,11 +436,26 @@ def test_pandas_and_matplotlib_if_they_are_there():
     assert len(SKIN.solve().plot()) == 2
 
 
+def test_arrow_if_it_is_there():
+    arrow = pytest.importorskip("pyarrow")
+    table = squama.solve_many([SKIN, stopped()])
+    read = arrow.table(table)
+    assert read.column_names == list(table) and read.column("coverage").to_pylist() == table["coverage"].tolist()
+    assert read.column("critical_force").to_pylist() == [table["critical_force"][0], None]
+    assert read.column("puncture_status").to_pylist() == ["complete", "too many points"]
+    assert arrow.table(squama.solve_many([])).num_columns == 0
+    # A stream that nobody takes frees what it holds.
+    table.__arrow_c_stream__()
+    frame = pytest.importorskip("polars").from_arrow(table).struct.unnest()
+    assert frame["critical_force"].to_list() == read.column("critical_force").to_pylist()
+
+
 @pytest.mark.parametrize("file", sorted((Path(__file__).parents[1] / "examples").glob("*.py")), ids=lambda file: file.stem)
-def test_the_examples_run(file):
+def test_the_examples_run(file, tmp_path):
     module = {"scipy_slsqp": "scipy", "openmdao_component": "openmdao", "pymoo_front": "pymoo", "jax_function": "jax"}
     pytest.importorskip(module[file.stem])
-    subprocess.run([sys.executable, file], check=True, capture_output=True)
+    # Some write reports where they are run.
+    subprocess.run([sys.executable, file], check=True, capture_output=True, cwd=tmp_path)
 
 
 def test_the_notebook_runs():

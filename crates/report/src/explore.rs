@@ -5,7 +5,10 @@ use sweep::{Axis, Parameter, Scalar, Sweep, Variable, key, visible};
 
 use crate::page::{escaped, filled};
 
-const PAGE: &str = include_str!("../assets/explore/explore.html");
+const PAGE: &str = concat!(
+    include_str!("../assets/page/head.html"),
+    include_str!("../assets/explore/explore.html")
+);
 /// What a page shows of it.
 const SECTION: &str = include_str!("../assets/explore/explorer.html");
 /// Its style on any page, and that of a page of its own.

@@ -15,7 +15,8 @@ use crate::designs::Designs;
 use crate::explore::{self, Explorer};
 pub use front::PageFront;
 
-const PAGE: &str = include_str!("../assets/page/page.html");
+const PAGE: &str =
+    concat!(include_str!("../assets/page/head.html"), include_str!("../assets/page/page.html"));
 /// The styles of the page.
 const STYLES: [&str; 5] = [
     include_str!("../assets/page/styles/theme.css"),

@@ -111,16 +111,16 @@ impl RowReactions {
 }
 
 /// A displacement of a rectangle, or the arm of its tractions, as a function of `x`.
-type Profile = fn(f64) -> f64;
+pub(crate) type Profile = fn(f64) -> f64;
 
-const ONE: Profile = |_| 1.0;
-const ZERO: Profile = |_| 0.0;
-const ARM: Profile = |x| x;
+pub(crate) const ONE: Profile = |_| 1.0;
+pub(crate) const ZERO: Profile = |_| 0.0;
+pub(crate) const ARM: Profile = |x| x;
 
 /// A load case: the displacement of the middle rectangle, and the neighbour that is displaced by 1 besides.
-struct Load {
-    middle: Profile,
-    neighbour: Option<usize>,
+pub(crate) struct Load {
+    pub(crate) middle: Profile,
+    pub(crate) neighbour: Option<usize>,
 }
 
 impl Load {
@@ -185,16 +185,16 @@ impl Mesh {
     }
 
     /// Returns the axes along `x`, in the order of the unknowns: column by column, `z` fastest.
-    fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
+    pub(crate) fn across(&self) -> impl Iterator<Item = &GradedAxis> + Clone {
         std::iter::once(&self.middle).chain(&self.neighbours)
     }
 
-    fn unknowns(&self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         self.across().map(GradedAxis::cells).sum::<usize>() * self.depth.cells()
     }
 
     /// Returns a column for each load: the displacements that it imposes.
-    fn imposed(&self, loads: &[Load]) -> Mat<f64> {
+    pub(crate) fn imposed(&self, loads: &[Load]) -> Mat<f64> {
         let depth = self.depth.cells();
         let points: Vec<(usize, f64)> = self
             .across()
@@ -208,12 +208,17 @@ impl Mesh {
     }
 
     /// Returns `∬ p arm(x)` over the middle rectangle, four times that over its quarter.
-    fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+    pub(crate) fn middle_sum(&self, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
         4.0 * self.sum(&self.middle, 0, tractions, arm)
     }
 
     /// Returns `∬ p arm(x)` over the neighbour `k`, from 0, twice that over its half.
-    fn neighbour_sum(&self, k: usize, tractions: ColRef<'_, f64>, arm: impl Fn(f64) -> f64) -> f64 {
+    pub(crate) fn neighbour_sum(
+        &self,
+        k: usize,
+        tractions: ColRef<'_, f64>,
+        arm: impl Fn(f64) -> f64,
+    ) -> f64 {
         let before = self.across().take(k + 1).map(GradedAxis::cells).sum::<usize>();
         2.0 * self.sum(&self.neighbours[k], before * self.depth.cells(), tractions, arm)
     }
@@ -281,7 +286,7 @@ impl Equations {
 }
 
 /// Influence of columns of cells at one depth, each cell together with its mirror image in `z`.
-struct CellColumns {
+pub(crate) struct CellColumns {
     line: CornerLine,
     last: Vec<Influence>,
     next: Vec<Influence>,
@@ -289,14 +294,14 @@ struct CellColumns {
 
 impl CellColumns {
     /// Creates the columns between lines of corners; `line` holds the edges of cells and of their mirror images, an odd number.
-    fn new(line: CornerLine) -> Self {
+    pub(crate) fn new(line: CornerLine) -> Self {
         let blank = vec![Influence::default(); line.len()];
         Self { line, last: blank.clone(), next: blank }
     }
 
     /// The influence at `x`, column by column, of the cells on one `side` of the plane of symmetry: 1 right, −1 left, where edges
     /// descend and the influence is negative.
-    fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
+    pub(crate) fn on_side(&mut self, mesh: &Mesh, x: f64, side: f64) -> Vec<Influence> {
         let mut influence = Vec::with_capacity(mesh.unknowns());
         for axis in mesh.across() {
             for (column, edge) in axis.edges().iter().enumerate() {

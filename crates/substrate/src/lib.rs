@@ -11,7 +11,7 @@
 //!
 //! the reactions of three rigid rectangles when the middle one is displaced by a unit and its
 //! neighbours are held. They depend on `d/a`, `b/a` and `ν` alone. The equations are numbered
-//! (S1)–(S18) here and in `docs/theory.md`.
+//! (S1)–(S22) here and in `docs/theory.md`.
 //!
 //! | Type | Role |
 //! |---|---|
@@ -24,11 +24,13 @@
 //! | [`Calibrations`] | each footprint solved once, shared by all threads |
 //! | [`SurfaceStrip`], [`SubstrateLaw`] | the surface between two bases: its stretch, and how the substrate answers to it |
 //! | [`half_space`] | displacement under a uniformly loaded cell (Boussinesq, Cerruti) |
+//! | [`layer`] | what a layer on a rigid base adds to that |
 //! | [`mesh`] | cells graded towards the edges and the gap |
 //! | [`table`] | the springs as polynomials |
 //! | [`boundary_element`] | collocation equations and the reactions of the rectangles |
 //!
-//! Normal and tangential tractions are treated apart, which is exact at `ν = 0.5` and otherwise
+//! [`Footprint::on_layer`] makes the substrate a layer on a rigid base, where force along the row, force across it and moment go together.
+//! On the half-space normal and tangential tractions are treated apart, which is exact at `ν = 0.5` and otherwise
 //! leaves out their coupling (see [`boundary_element::row_reactions`]).
 //!
 //! ```
@@ -50,6 +52,8 @@ mod dense_lu;
 mod far_field;
 mod footprint;
 pub mod half_space;
+pub mod layer;
+mod layered;
 pub mod mesh;
 mod row_stiffness;
 mod springs;

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul};
 use crate::boundary_element::{Unresolved, row_reactions};
 use crate::springs::extrapolation;
 use crate::table::{self, Differentiated};
-use crate::{Footprint, Springs};
+use crate::{Footprint, Springs, layered};
 
 /// The neighbours with which the substrate couples a scale.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -32,12 +32,21 @@ pub const NEIGHBOURS: usize = 8;
 /// F_x⁽ⁱ⁾ = K_x u_x⁽ʲ⁾      F_y⁽ⁱ⁾ = K_y u_y⁽ʲ⁾ − c φ⁽ʲ⁾      M⁽ⁱ⁾ =  c u_y⁽ʲ⁾ + K_φ φ⁽ʲ⁾      (S9)
 /// ```
 ///
-/// besides the `K_0` of each scale for itself. The form is that of mirror images and of Betti's
+/// besides the `K_0` of each scale for itself. On a layer force along the row goes with the rest, too, with `r_k` the `roll` and `l` the
+/// `lift` of a neighbour, and `r_0` the roll of the scale itself,
+///
+/// ```text
+/// F_x⁽ʲ⁾ = … − l u_y⁽ⁱ⁾ + r φ⁽ⁱ⁾     F_y⁽ʲ⁾ = … + l u_x⁽ⁱ⁾     M⁽ʲ⁾ = … + r u_x⁽ⁱ⁾     and for F⁽ⁱ⁾ with −l     (S21)
+/// ```
+///
+/// The form is that of mirror images and of Betti's
 /// theorem: the matrix is symmetric, whatever the numbers are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowStiffness {
     /// Stiffness `K_0` of a scale for itself: force along `x`, force along `y`, moment.
     pub direct: [f64; 3],
+    /// `r_0`: force along the row from a unit rotation, and moment from a unit displacement along it; 0 on the half-space.
+    pub roll: f64,
     /// Coupling with the neighbours on one side, the nearest first.
     pub neighbours: Vec<Neighbour>,
     /// Estimated relative error of the numbers, referred to the `K_0` of the same direction.
@@ -47,13 +56,17 @@ pub struct RowStiffness {
     pub truncation: f64,
 }
 
-/// Coupling of two scales (S9).
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Coupling of two scales (S9), (S21).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Neighbour {
     /// `K_x`, `K_y`, `K_φ`: force or moment on one scale from the displacement of the other in the same direction.
     pub direct: [f64; 3],
     /// `c`: vertical force on the right scale from a unit rotation of the left one.
     pub cross: f64,
+    /// `l`: vertical force on the right scale from a unit displacement of the left one along the row; 0 on the half-space.
+    pub lift: f64,
+    /// `r`: force along the row on one scale from a unit rotation of the other; 0 on the half-space.
+    pub roll: f64,
 }
 
 impl RowStiffness {
@@ -62,6 +75,21 @@ impl RowStiffness {
     /// # Errors
     /// As [`Self::solve`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+        let half_space = Self::on_half_space(footprint, coupling)?;
+        if !footprint.is_on_layer() {
+            return Ok(half_space);
+        }
+        let stiffer = layered::addition(footprint, footprint, coupling)?;
+        let error = half_space.error + stiffer.error;
+        let mut row = Self { error, ..half_space + stiffer };
+        if coupling == Coupling::Full {
+            row.truncation = row.last_coupling();
+        }
+        Ok(row)
+    }
+
+    /// The stiffness of a row on the half-space.
+    fn on_half_space(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let Some(row) = table::row(footprint, coupling) else {
             return Self::solved(footprint, coupling);
         };
@@ -74,7 +102,7 @@ impl RowStiffness {
         Ok(found)
     }
 
-    /// Solves the stiffness of a row with a coupling.
+    /// Solves the stiffness of a row with a coupling on the half-space.
     pub(crate) fn solved(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         match coupling {
             Coupling::Nearest => Ok((&Springs::from(&Self::solve(footprint, 1)?)).into()),
@@ -82,7 +110,7 @@ impl RowStiffness {
         }
     }
 
-    /// Solves the stiffness of an endless row from the middle one of `2 m + 1` rectangles, displaced with the
+    /// Solves the stiffness of an endless row on the half-space from the middle one of `2 m + 1` rectangles, displaced with the
     /// others held, on three meshes, extrapolated as in (S7):
     ///
     /// ```text
@@ -93,10 +121,9 @@ impl RowStiffness {
     /// The two parts of `c` are equal by Betti's theorem; their difference counts as an error.
     ///
     /// # Errors
-    /// If the gap is lost in rounding.
+    /// If the gap is lost in rounding, and always without the feature `boundary-elements`.
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
-        // The solver of a page has the table alone, which covers its sliders: boundary elements would make every page larger.
-        if cfg!(target_family = "wasm") {
+        if !cfg!(feature = "boundary-elements") {
             return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
         let on = |n: usize| row_reactions(footprint, neighbours, n).map(|found| found.numbers());
@@ -109,6 +136,7 @@ impl RowStiffness {
         let mut error = (0..best.len()).map(|i| estimate(i) / sizes[i]).fold(0.0, f64::max);
         let mut row = Self {
             direct: [best[0], best[1], best[2]],
+            roll: 0.0,
             neighbours: Vec::new(),
             error,
             truncation: 0.0,
@@ -116,7 +144,8 @@ impl RowStiffness {
         for n in best[3..].chunks(PER_NEIGHBOUR) {
             error = error.max((n[3] - n[4]).abs() / sizes[6]);
             let cross = f64::midpoint(n[3], n[4]);
-            row.neighbours.push(Neighbour { direct: [n[0], n[1], n[2]], cross });
+            let direct = [n[0], n[1], n[2]];
+            row.neighbours.push(Neighbour { direct, cross, ..Neighbour::default() });
         }
         let truncation = row.last_coupling();
         Ok(Self { error, truncation, ..row })
@@ -132,9 +161,14 @@ impl RowStiffness {
     pub(crate) fn from_table(row: &[Differentiated], part: usize) -> Self {
         let numbers: Vec<f64> = row.iter().map(|number| number.0[part]).collect();
         let (direct, neighbours) = numbers.split_at(3);
-        let neighbour = |n: &[f64; 4]| Neighbour { direct: [n[0], n[1], n[2]], cross: n[3] };
+        let neighbour = |&[x, y, turn, cross]: &[f64; 4]| Neighbour {
+            direct: [x, y, turn],
+            cross,
+            ..Neighbour::default()
+        };
         Self {
             direct: [direct[0], direct[1], direct[2]],
+            roll: 0.0,
             neighbours: neighbours.as_chunks().0.iter().map(neighbour).collect(),
             error: 0.0,
             truncation: 0.0,
@@ -147,11 +181,27 @@ impl RowStiffness {
     pub fn with_lengths_over(&self, half_base: f64) -> Self {
         let a = half_base;
         let scaled = |[x, y, turn]: [f64; 3]| [a * x, a * y, a.powi(3) * turn];
-        let neighbours = self.neighbours.iter();
-        let neighbours = neighbours
-            .map(|n| Neighbour { direct: scaled(n.direct), cross: a * a * n.cross })
-            .collect();
-        Self { direct: scaled(self.direct), neighbours, ..*self }
+        let neighbour = |n: &Neighbour| Neighbour {
+            direct: scaled(n.direct),
+            cross: a * a * n.cross,
+            lift: a * n.lift,
+            roll: a * a * n.roll,
+        };
+        Self {
+            direct: scaled(self.direct),
+            roll: a * a * self.roll,
+            neighbours: self.neighbours.iter().map(neighbour).collect(),
+            ..*self
+        }
+    }
+
+    /// All numbers of the stiffness.
+    fn numbers_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        let neighbours = self
+            .neighbours
+            .iter_mut()
+            .flat_map(|n| n.direct.iter_mut().chain([&mut n.cross, &mut n.lift, &mut n.roll]));
+        self.direct.iter_mut().chain([&mut self.roll]).chain(neighbours)
     }
 
     /// Returns the estimated relative error, that of the neglected coupling included.
@@ -165,7 +215,7 @@ const CELLS: [usize; 3] = [4, 6, 8];
 
 /// Share of the extrapolated step in the estimated error (S8): the least that bounds the actual error for all reference
 /// values of the tests.
-const CAUTION: f64 = 0.3;
+pub(crate) const CAUTION: f64 = 0.3;
 
 /// Numbers of each neighbour in [`RowReactions::numbers`]: three reactions and the two cross terms.
 const PER_NEIGHBOUR: usize = 5;
@@ -182,9 +232,10 @@ fn sizes(numbers: &[f64]) -> Vec<f64> {
 impl From<&Springs> for RowStiffness {
     /// Converts the springs of Eq. (1): the nearest neighbours, without force from rotation.
     fn from(springs: &Springs) -> Self {
-        let nearest = Neighbour { direct: springs.coupling.map(|beta| -beta), cross: 0.0 };
+        let direct = springs.coupling.map(|beta| -beta);
+        let nearest = Neighbour { direct, ..Neighbour::default() };
         let Springs { direct, error, .. } = *springs;
-        Self { direct, neighbours: vec![nearest], error, truncation: 0.0 }
+        Self { direct, roll: 0.0, neighbours: vec![nearest], error, truncation: 0.0 }
     }
 }
 
@@ -198,11 +249,7 @@ impl Mul<f64> for RowStiffness {
     type Output = Self;
 
     fn mul(mut self, factor: f64) -> Self {
-        self.direct.iter_mut().for_each(|direct| *direct *= factor);
-        for neighbour in &mut self.neighbours {
-            neighbour.direct.iter_mut().for_each(|direct| *direct *= factor);
-            neighbour.cross *= factor;
-        }
+        self.numbers_mut().for_each(|number| *number *= factor);
         self
     }
 }
@@ -211,12 +258,8 @@ impl Add for RowStiffness {
     type Output = Self;
 
     /// Adds the stiffness of as many neighbours, number by number; the estimates of the errors stay those of the first.
-    fn add(mut self, other: Self) -> Self {
-        self.direct.iter_mut().zip(other.direct).for_each(|(direct, more)| *direct += more);
-        for (neighbour, more) in self.neighbours.iter_mut().zip(other.neighbours) {
-            neighbour.direct.iter_mut().zip(more.direct).for_each(|(direct, more)| *direct += more);
-            neighbour.cross += more.cross;
-        }
+    fn add(mut self, mut other: Self) -> Self {
+        self.numbers_mut().zip(other.numbers_mut()).for_each(|(number, more)| *number += *more);
         self
     }
 }

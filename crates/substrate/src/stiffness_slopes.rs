@@ -1,6 +1,6 @@
 //! How fast the stiffness of a row changes with its footprint.
 
-use crate::{Coupling, Footprint, RowStiffness, Unresolved, table};
+use crate::{Coupling, Footprint, RowStiffness, Unresolved, layered, table};
 
 /// The stiffness of a row and its derivatives with respect to the numbers of the footprint.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,15 +11,17 @@ pub struct StiffnessSlopes {
     pub by_gap: RowStiffness,
     /// Derivative with respect to `b/a`.
     pub by_width: RowStiffness,
-    /// Derivative with respect to the logarithm of `d/a` and `b/a` together: that of a base that shrinks.
+    /// Derivative with respect to the logarithm of all lengths over `a` together: that of a base that shrinks.
     pub by_size: RowStiffness,
     /// Derivative with respect to `ν`.
     pub by_poisson_ratio: RowStiffness,
+    /// Derivative with respect to the thickness `h/a` of a layer; of the half-space there is none.
+    pub by_thickness: Option<RowStiffness>,
 }
 
 impl StiffnessSlopes {
     /// Returns the stiffness of a row with a coupling and its derivatives: those of the polynomials in the range of the table, elsewhere
-    /// differences of solutions.
+    /// differences of solutions. What a layer adds is differentiated by differences.
     ///
     /// # Errors
     /// As [`RowStiffness::of`].
@@ -29,9 +31,22 @@ impl StiffnessSlopes {
             Some(row) => [1, 2, 3].map(|k| RowStiffness::from_table(&row, k)),
             None => differences(footprint, coupling)?,
         };
-        let by_size =
+        let mut slopes = [by_gap, by_width, by_poisson_ratio];
+        let by_thickness = if footprint.is_on_layer() {
+            let [gap, width, ratio, thickness] = layered::slopes(footprint, coupling)?;
+            let [of_gap, of_width, of_ratio] = slopes;
+            slopes = [of_gap + gap, of_width + width, of_ratio + ratio];
+            Some(thickness)
+        } else {
+            None
+        };
+        let [by_gap, by_width, by_poisson_ratio] = slopes;
+        let mut by_size =
             by_gap.clone() * footprint.gap_over_a() + by_width.clone() * footprint.width_over_a();
-        Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio })
+        if let Some(by_thickness) = &by_thickness {
+            by_size = by_size + by_thickness.clone() * footprint.thickness_over_a();
+        }
+        Ok(Self { stiffness, by_gap, by_width, by_size, by_poisson_ratio, by_thickness })
     }
 }
 

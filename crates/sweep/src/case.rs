@@ -28,6 +28,8 @@ pub struct Case {
     pub depth_mm: Option<f64>,
     /// The other parameters of bending.
     pub flexure: flexure::FlexureParameters,
+    /// The thickness of the substrate, over that of the scales; `None` of a half-space.
+    pub tissue_thickness: Option<f64>,
     /// The neighbours of a scale that the substrate couples it with.
     pub coupling: Coupling,
     /// The scatter of gaps and slants.
@@ -63,9 +65,13 @@ impl Case {
     /// The ratios and Poisson's ratio that the springs of the substrate depend on.
     ///
     /// # Errors
-    /// If the lengths of the design are too far apart for their ratios to be an `f64`.
+    /// If the lengths of the design are too far apart for their ratios to be an `f64`, or the substrate is too thin for its springs.
     pub fn footprint(&self) -> Result<Footprint, OutOfRange> {
-        self.design.footprint(self.puncture.poisson_ratio)
+        let footprint = self.design.footprint(self.puncture.poisson_ratio)?;
+        match self.tissue_thickness {
+            Some(thickness) => footprint.on_layer(thickness / self.design.half_base()),
+            None => Ok(footprint),
+        }
     }
 }
 
@@ -83,6 +89,7 @@ impl Default for Case {
             load_inset: None,
             depth_mm: None,
             flexure: flexure::FlexureParameters::default(),
+            tissue_thickness: None,
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },

@@ -58,10 +58,10 @@ impl Deviation {
         }
     }
 
-    /// The key of the material without which the deviation has no meaning.
-    pub(crate) fn needs(&self) -> Option<&'static str> {
-        let material = (self.parameter.section == "material").then_some(self.parameter.key);
-        material.or_else(|| self.in_mm.then_some(key::THICKNESS))
+    /// The keys without which the deviation has no meaning: its own, unless it has a value by default, and the thickness.
+    pub(crate) fn needs(&self) -> impl Iterator<Item = &'static str> {
+        let own = (!self.parameter.is_given(&Case::default())).then_some(self.parameter.key);
+        own.into_iter().chain(self.in_mm.then_some(key::THICKNESS))
     }
 
     /// The deviation that all scales of a batch share.
@@ -134,7 +134,8 @@ impl Deviation {
 
 /// The case with every length over `t` so many times as long.
 fn with_lengths_times(case: &Case, factor: f64) -> Option<Case> {
-    let mut lengths = Parameter::with(Role::Continuous).filter(|p| p.key.ends_with(OVER_T));
+    let is_length = |p: &&Parameter| p.key.ends_with(OVER_T) && p.is_given(case);
+    let mut lengths = Parameter::with(Role::Continuous).filter(is_length);
     lengths.try_fold(*case, |case, parameter| {
         let length = parameter.get(&case).number()?;
         parameter.moved(&case, (factor - 1.0) * length)

@@ -3,7 +3,7 @@
 use results::{Cell, Column};
 use sweep::DesignNumber;
 
-use crate::analysis::MeasureTolerance;
+use crate::analysis::{DesignTolerance, MeasureTolerance};
 use crate::global::MeasureIndices;
 use crate::linear::{DeviationLevel, LinearSpread, SourceShare};
 use crate::proportion::Proportion;
@@ -45,6 +45,32 @@ pub struct IndexRow {
     pub variable: &'static str,
     /// The indices of the variable.
     pub indices: SobolIndices,
+}
+
+impl DesignTolerance {
+    /// The rows of `tolerance.csv`.
+    pub fn measure_rows(&self) -> impl Iterator<Item = DesignMeasureTolerance> {
+        let design = self.nominal.number;
+        let measures = self.measures.iter().cloned();
+        measures.map(move |measure| DesignMeasureTolerance { design, measure })
+    }
+
+    /// The rows of `tolerance_sources.csv`.
+    pub fn source_rows(&self) -> impl Iterator<Item = DesignSource> {
+        let design = self.nominal.number;
+        let rows = move |of: &MeasureTolerance| {
+            let row = |source| DesignSource { design, measure: of.name.clone(), source };
+            let sources = of.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
+            sources.map(row).collect::<Vec<_>>()
+        };
+        self.measures.iter().flat_map(rows)
+    }
+
+    /// The rows of `yield.csv`.
+    pub fn yield_rows(&self) -> impl Iterator<Item = DesignYield> {
+        let design = self.nominal.number;
+        self.yields.iter().cloned().map(move |of| DesignYield { design, of })
+    }
 }
 
 const DESIGN: &str = "position of the design in the grid of its sweep";

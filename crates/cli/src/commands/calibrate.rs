@@ -2,7 +2,7 @@
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use substrate::{Footprint, Springs};
+use substrate::{Coupling, Footprint, RowStiffness, Springs};
 use sweep::{Setting, Sweep};
 
 use super::DONE;
@@ -13,7 +13,12 @@ use crate::print::{aligned, print};
 #[command(after_help = "\
 Examples:
   squama calibrate --gap 0.1 --length 1
-  squama calibrate --gap 0.1 --length 1 --width 2 --base 2L --poisson-ratio 0.3")]
+  squama calibrate --gap 0.1 --length 1 --width 2 --base 2L --poisson-ratio 0.3
+  squama calibrate --gap 0.1 --length 1 --tissue-thickness 2
+
+On tissue of a finite thickness force along the row goes with rotation and with force across it. Three lines more
+say how: r0 is the force along the row from a rotation of the scale itself, r that from a rotation of a neighbour, l the
+force across the row on the right one of two from a displacement of the left one along it.")]
 pub struct Arguments {
     /// Gap d/t
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
@@ -34,13 +39,17 @@ pub struct Arguments {
     /// Poisson's ratio of the substrate
     #[arg(long, value_name = "RATIO", allow_hyphen_values = true, default_value = "0.5")]
     pub poisson_ratio: String,
+
+    /// Thickness h/t of the substrate on a rigid base; endless unless it is given
+    #[arg(long, value_name = "THICKNESS", allow_hyphen_values = true)]
+    pub tissue_thickness: Option<String>,
 }
 
 /// Prints the springs under a row of scales.
 pub fn calibrate(arguments: &Arguments) -> anyhow::Result<u8> {
     let footprint = footprint_of(arguments)?;
-    let springs = substrate::calibrate(&footprint)?;
-    print(&report(&footprint, &springs))?;
+    let row = RowStiffness::of(&footprint, Coupling::Nearest)?;
+    print(&report(&footprint, &row))?;
     Ok(DONE)
 }
 
@@ -53,11 +62,14 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
         ("--base", "scale.base", &arguments.base),
         ("--poisson-ratio", "substrate.poisson_ratio", &arguments.poisson_ratio),
     ];
+    let tissue = arguments.tissue_thickness.iter();
+    let tissue = tissue.map(|h| ("--tissue-thickness", "substrate.tissue_thickness_over_t", h));
     let setting = |(option, key, value): (&str, &str, &String)| {
         Setting::from_option(&format!("{option} {value}"), &format!("{key}={value}"))
     };
     // A sweep of one design: its keys know their bounds, and how to refuse what is beyond.
-    let settings: Vec<_> = options.into_iter().map(setting).collect::<Result<_, _>>()?;
+    let settings: Vec<_> =
+        options.into_iter().chain(tissue).map(setting).collect::<Result<_, _>>()?;
     let sweep =
         Sweep::parse("name = \"calibrate\"\ndesigns.slant_deg = 0", "calibrate", &settings)?;
     let several = "--gap and --length: several values, expected one of each";
@@ -66,11 +78,19 @@ fn footprint_of(arguments: &Arguments) -> anyhow::Result<Footprint> {
     case.footprint().context("the lengths differ too much for the boundary elements")
 }
 
-fn report(footprint: &Footprint, springs: &Springs) -> String {
+fn report(footprint: &Footprint, stiffness: &RowStiffness) -> String {
+    let springs = Springs::from(stiffness);
     let header = ["", "x", "y", "phi"].map(str::to_owned);
     let rows = [header, row("alpha", springs.direct), row("beta", springs.coupling)];
+    let [mut thickness, mut coupled] = [String::new(), String::new()];
+    if footprint.is_on_layer() {
+        thickness = format!(", h/a = {:.6}", footprint.thickness_over_a());
+        let nearest = stiffness.neighbours.first().copied().unwrap_or_default();
+        let numbers = [("r0", stiffness.roll), ("r", nearest.roll), ("l", nearest.lift)];
+        coupled.extend(numbers.map(|(name, value)| format!("{name} = {value:.6}\n")));
+    }
     format!(
-        "d/a = {:.6}, b/a = {:.6}, nu = {}\n\n{}\nestimated relative error {:.1e}\n",
+        "d/a = {:.6}, b/a = {:.6}, nu = {}{thickness}\n\n{}{coupled}\nestimated relative error {:.1e}\n",
         footprint.gap_over_a(),
         footprint.width_over_a(),
         footprint.poisson_ratio(),

@@ -4,12 +4,13 @@ use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use anyhow::ensure;
 use clap::Args;
 use optimisation::DesignGoal;
 use ranking::Requirement;
 use report::Explorer;
 use results::shell_word;
-use sweep::{Sweep, read_entries};
+use sweep::{Sweep, key, read_entries};
 
 use super::figure_file::write;
 use super::source::{Definition, definition_file, require_folder_of, settings};
@@ -47,6 +48,12 @@ pub struct Arguments {
 /// Writes a page that solves, and opens it.
 pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
     let (sweep, mut requirements) = sweep_and_goal(&arguments.definition)?;
+    // Its springs take boundary elements, which would make every page larger and slower than a hand.
+    ensure!(
+        !sweep.gives(key::TISSUE),
+        "{}: a page solves skins on a half-space alone, `squama run` those on a layer",
+        key::TISSUE
+    );
     requirements.extend(arguments.require.iter().cloned());
     require_folder_of("--out", &arguments.out)?;
     let page = Explorer {

@@ -23,8 +23,8 @@ Examples:
   squama make results/palm --design 1 --scales 8x6 --out palm.step
   squama make results/palm --design 1 --kerf 0.12 --template-mm 0.1 --out palm.dxf
 
-Writes a patch of skin in millimetres: scales on their membrane, which reaches a gap beyond them on every side.
-The design needs a thickness (material.thickness_mm). The ending of --out says the format:
+Writes a patch of skin in millimetres: scales on their membrane, which reaches a gap beyond their bases on every
+side. The design needs a thickness (material.thickness_mm). The ending of --out says the format:
   .3mf          printers; names its unit; scales and membrane are two parts, for two materials
   .stl          printers; has no unit, so tell the slicer that lengths are in mm
   .step, .stp   CAD programs; exact solids

@@ -95,7 +95,8 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
     let rankings = results.rankings()?;
     let grid = sweep.grid();
     Ok(Page {
-        explorer: Some(Explorer {
+        // A page has no springs of layers.
+        explorer: (!sweep.gives(sweep::key::TISSUE)).then(|| Explorer {
             sweep: sweep.clone(),
             file: shell_word(&results.folder.display().to_string()),
             requirements: Vec::new(),

@@ -1,21 +1,21 @@
 //! `squama sensitivity`.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::ensure;
 use clap::Args;
-use results::{Claim, CsvFormat, MEASURE_TABLES, Maker, RunFolder, write_rows};
+use results::{CsvFormat, MEASURE_TABLES, Maker, write_rows};
 use serde_json::{Value, json};
 use sweep::Sweep;
 use tolerance::{
     GlobalAnalysis, GlobalSensitivity, INDEX_COLUMNS, IndexEstimate, IndexRow, MeasureIndices,
-    SampleStore, SobolIndices,
+    SobolIndices,
 };
 
-use super::source::{Definition, folder_within, read};
-use super::tolerance::{SAMPLES, unless_stopped};
-use super::work::{Threads, whole};
+use super::sampled::{Sampled, SampledFolder};
+use super::source::{Definition, read};
+use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
@@ -49,15 +49,7 @@ pub struct Arguments {
     pub samples: u64,
 
     #[command(flatten)]
-    pub threads: Threads,
-
-    /// Folder for the table [default: sensitivity in the results of the sweep]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub json: bool,
+    pub sampled: Sampled,
 }
 
 const TABLE: &str = "sobol.csv";
@@ -66,23 +58,19 @@ const TABLE: &str = "sobol.csv";
 pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(&sweep, &arguments.definition.path)?;
-    let default = || folder_within(&arguments.definition, &sweep, "sensitivity");
-    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
-    Claim::check(&folder, Maker::Sensitivity)?;
-    let store = SampleStore::new(&folder.file(SAMPLES));
-    interrupt.ask_first();
+    let command = ("sensitivity", Maker::Sensitivity);
+    let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let (samples, stop) = (arguments.samples as usize, interrupt.stop());
     let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
-    let solved = arguments.threads.pool()?.install(|| analysis.solve(&store));
-    let Some(found) = unless_stopped(solved, &arguments.definition)? else {
+    let Some((found, claim)) = sampled.solved(interrupt, |store| analysis.solve(store))? else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
-    let claim = Claim::take(&folder, Maker::Sensitivity)?;
+    let folder = &sampled.folder;
     let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
-    write_rows(&folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
+    write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
     claim.state()?;
     let place = folder.path();
-    if arguments.json {
+    if arguments.sampled.json {
         json::print(&record(&sweep, &found, place))?;
     } else {
         print(&format!("{}\n{}: {TABLE}\n", report(&sweep, &found, samples), place.display()))?;

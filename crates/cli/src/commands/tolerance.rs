@@ -6,26 +6,26 @@ mod report;
 
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
 use ranking::Requirement;
 use rayon::prelude::*;
-use results::{Claim, CsvFormat, Maker, RunFolder, write_rows};
+use results::{CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
 use tolerance::{
-    Analysis, DesignMeasureTolerance, DesignSource, DesignTolerance, DesignYield, NoAnalysis,
-    SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS, YIELD_COLUMNS,
+    Analysis, DesignTolerance, NoAnalysis, SOURCE_COLUMNS, SampleStore, TOLERANCE_COLUMNS,
+    YIELD_COLUMNS,
 };
 
+use super::sampled::{Sampled, SampledFolder};
 use super::selection::ranges;
-use super::source::{Definition, folder_within, read};
-use super::work::{Threads, whole};
+use super::source::{Definition, read};
+use super::work::whole;
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
-use crate::print::{note, print};
+use crate::print::print;
 
 /// Arguments of `squama tolerance`.
 #[derive(Debug, Args)]
@@ -63,22 +63,11 @@ pub struct Arguments {
     pub samples: u64,
 
     #[command(flatten)]
-    pub threads: Threads,
-
-    /// Folder for the tables [default: tolerance in the results of the sweep]
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-
-    /// Print JSON instead of text
-    #[arg(long)]
-    pub json: bool,
+    pub sampled: Sampled,
 }
 
 /// Designs that are analysed at a time: each holds some kilobytes until the tables are written.
 const MOST: u64 = 100_000;
-
-/// The folder of the samples in that of the tables.
-pub(super) const SAMPLES: &str = "samples";
 
 /// Says how far what is made may differ from what is drawn, and how much of it meets what is required.
 pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
@@ -86,20 +75,16 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     check(arguments, &sweep)?;
     let requirements = requirements(arguments)?;
     let designs = designs(arguments, &sweep)?;
-    let default = || folder_within(&arguments.definition, &sweep, "tolerance");
-    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
-    // Before hours of work, and not behind them.
-    Claim::check(&folder, Maker::Tolerance)?;
-    let store = SampleStore::new(&folder.file(SAMPLES));
-    interrupt.ask_first();
+    let command = ("tolerance", Maker::Tolerance);
+    let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let samples = arguments.samples as usize;
     let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());
-    let analysed = arguments.threads.pool()?.install(|| analysed(&analysis, &designs, &store));
-    let Some(all) = unless_stopped(analysed, &arguments.definition)? else {
+    let solved = sampled.solved(interrupt, |store| analysed(&analysis, &designs, store))?;
+    let Some((all, mut claim)) = solved else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
-    let mut claim = Claim::take(&folder, Maker::Tolerance)?;
-    let mut files = write(&folder, &all)?;
+    let folder = &sampled.folder;
+    let mut files = write(folder, &all)?;
     if let [design] = all.as_slice() {
         for (name, svg) in figures::figures(&sweep, &requirements, design) {
             claim.add(&name)?;
@@ -109,7 +94,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     }
     claim.state()?;
     let place = folder.path();
-    if arguments.json {
+    if arguments.sampled.json {
         json::print(&record::record(&sweep, &all, place, &files))?;
     } else {
         let text = report::report(&sweep, &requirements, &all);
@@ -117,21 +102,6 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     }
     let failed = all.iter().any(|design| design.nominal.result.failed());
     Ok(if failed { INCOMPLETE } else { DONE })
-}
-
-/// The outcome of an analysis; `None`, and a word about it, if it was told to stop.
-pub(super) fn unless_stopped<T>(
-    analysed: Result<T, NoAnalysis>,
-    definition: &Definition,
-) -> anyhow::Result<Option<T>> {
-    match analysed {
-        Ok(all) => Ok(Some(all)),
-        Err(stopped @ NoAnalysis::Stopped { .. }) => {
-            note(&format!("{stopped}, which are kept; the same command continues from them"));
-            Ok(None)
-        }
-        Err(error) => Err(error).with_context(|| definition.path.display().to_string()),
-    }
 }
 
 /// Refuses a sweep in which nothing deviates.
@@ -197,37 +167,17 @@ fn analysed(
 /// Writes the tables and returns the names of the files.
 fn write(folder: &RunFolder, all: &[DesignTolerance]) -> anyhow::Result<Vec<String>> {
     let mut files = Vec::new();
-    let measures = all.iter().flat_map(|design| {
-        let number = design.nominal.number;
-        let row = move |measure: &tolerance::MeasureTolerance| DesignMeasureTolerance {
-            design: number,
-            measure: measure.clone(),
-        };
-        design.measures.iter().map(row)
-    });
     let format = CsvFormat::Plain;
+    let measures = all.iter().flat_map(DesignTolerance::measure_rows);
     write_rows(folder, "tolerance.csv", format, TOLERANCE_COLUMNS, measures)?;
     files.push("tolerance.csv".to_owned());
-    let sources = all.iter().flat_map(sources);
+    let sources = all.iter().flat_map(DesignTolerance::source_rows);
     write_rows(folder, "tolerance_sources.csv", format, SOURCE_COLUMNS, sources)?;
     files.push("tolerance_sources.csv".to_owned());
-    let yields = all.iter().flat_map(|design| {
-        let number = design.nominal.number;
-        design.yields.iter().map(move |of| DesignYield { design: number, of: of.clone() })
-    });
     if all.iter().any(|design| !design.yields.is_empty()) {
+        let yields = all.iter().flat_map(DesignTolerance::yield_rows);
         write_rows(folder, "yield.csv", format, YIELD_COLUMNS, yields)?;
         files.push("yield.csv".to_owned());
     }
     Ok(files)
-}
-
-fn sources(design: &DesignTolerance) -> impl Iterator<Item = DesignSource> {
-    let of = |measure: &tolerance::MeasureTolerance| {
-        let sources = measure.linear.iter().flat_map(|linear| linear.sources.iter().cloned());
-        let (design, measure) = (design.nominal.number, measure.name.clone());
-        let row = move |source| DesignSource { design, measure: measure.clone(), source };
-        sources.map(row).collect::<Vec<_>>()
-    };
-    design.measures.iter().flat_map(of)
 }

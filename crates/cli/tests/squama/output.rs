@@ -29,6 +29,27 @@ fn calibrate_prints_six_coefficients() {
     close(numbers("beta"), [0.993, 1.082, -0.428]);
 }
 
+/// On tissue as thick as two scales, force along the row goes with rotation and with force across it.
+#[test]
+fn calibrate_prints_what_a_layer_couples() {
+    let place = Place::new();
+    let text = place.prints("calibrate --gap 0.1 --length 1 --tissue-thickness 2");
+    insta::assert_snapshot!(text);
+    let text = place.refused("calibrate --gap 0.1 --length 1 --tissue-thickness 0.1");
+    assert!(text.contains("a quarter of the half-width"), "{text}");
+}
+
+/// A page has no springs of layers.
+#[test]
+fn a_page_of_a_layer_is_refused_with_the_reason() {
+    let place = Place::with("name = 'x'\nsubstrate.tissue_thickness_over_t = 2");
+    let text = place.refused("explore x.toml --no-open");
+    assert!(
+        text.contains("tissue_thickness_over_t: a page solves skins on a half-space"),
+        "{text}"
+    );
+}
+
 #[test]
 fn help_shows_examples() {
     let place = Place::new();

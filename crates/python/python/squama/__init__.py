@@ -11,7 +11,7 @@ for optimisers. `run`, `read`, `optimise` and `tolerance` do what the commands o
 ``help(squama.Skin)`` lists every parameter and every measure.
 """
 
-from . import _gradient, _manual
+from . import _gradient, _manual, _skin
 from ._errors import Failed, InvalidDefinition, InvalidParameter, KinkWarning
 from ._gradient import function
 from ._result import Result
@@ -27,8 +27,7 @@ __all__ = [
 Skin.value_and_gradient = _gradient.value_and_gradient
 Skin.__doc__ = _manual.skin()
 Skin.__signature__ = _manual.signature()
-
-
-def _skin(parameters):
-    """The skin that was pickled."""
-    return Skin(**parameters)
+Skin.replace = _skin.replace
+Skin.from_toml = staticmethod(_skin.from_toml)
+Skin.all_from_toml = staticmethod(_skin.all_from_toml)
+Skin.__reduce__ = lambda self: (_skin.made, (self.parameters,))

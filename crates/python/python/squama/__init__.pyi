@@ -1,6 +1,6 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
-from typing import Any, overload
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -9,6 +9,7 @@ __version__: str
 Floats = NDArray[np.float64]
 Measures = str | Sequence[str]
 Path = str | PathLike[str]
+AtKinks = Literal["left", "right", "mean"] | None
 Progress = bool | Callable[[float, str], object]
 
 class InvalidParameter(ValueError):
@@ -44,6 +45,7 @@ class Table(Mapping[str, NDArray[Any]]):
     def rows(self) -> int: ...
     def row(self, index: int) -> dict[str, Any]: ...
     def to_pandas(self) -> Any: ...
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object: ...
 
 class Run(Table):
     folder: str
@@ -81,11 +83,11 @@ class Result:
 
 @overload
 def function(
-    skin: Skin, keys: Iterable[str], measures: str
+    skin: Skin, keys: Iterable[str], measures: str, at_kinks: AtKinks = None
 ) -> tuple[Callable[[ArrayLike], float], Callable[[ArrayLike], Floats]]: ...
 @overload
 def function(
-    skin: Skin, keys: Iterable[str], measures: list[str] | tuple[str, ...]
+    skin: Skin, keys: Iterable[str], measures: list[str] | tuple[str, ...], at_kinks: AtKinks = None
 ) -> tuple[Callable[[ArrayLike], Floats], Callable[[ArrayLike], Floats]]: ...
 def solve_many(
     skins: Iterable[Skin], measures: Measures = "all", *, threads: int | None = None, progress: Progress = False
@@ -133,6 +135,7 @@ class Skin:
         base: str | None = None,
         width_over_t: float | None = None,
         poisson_ratio: float | None = None,
+        tissue_thickness_over_t: float | None = None,
         coupling: str | None = None,
         law: str | None = None,
         c1: float | None = None,
@@ -189,6 +192,8 @@ class Skin:
     def width_over_t(self) -> float: ...
     @property
     def poisson_ratio(self) -> float: ...
+    @property
+    def tissue_thickness_over_t(self) -> float | None: ...
     @property
     def coupling(self) -> str: ...
     @property
@@ -268,4 +273,6 @@ class Skin:
     def to_toml(self) -> str: ...
     def replace(self, **parameters: Any) -> Skin: ...
     def solve(self, measures: Measures = "all") -> Result: ...
-    def value_and_gradient(self, measure: str, keys: Iterable[str]) -> tuple[float, Floats]: ...
+    def value_and_gradient(
+        self, measure: str, keys: Iterable[str], at_kinks: AtKinks = None
+    ) -> tuple[float, Floats]: ...

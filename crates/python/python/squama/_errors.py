@@ -43,8 +43,8 @@ class Failed(RuntimeError):
 class KinkWarning(UserWarning):
     """A measure has two derivatives by a parameter: where it decreases (``left``) and where it increases (``right``).
 
-    The gradient holds their mean. ``warnings.simplefilter("error", squama.KinkWarning)`` makes an error of it.
-    A side on which the measure does not exist is NaN. ``change`` says what happens there.
+    ``warnings.simplefilter("error", squama.KinkWarning)`` makes an error of it. A side on which the measure does not
+    exist is NaN. ``change`` says what happens there. The gradient holds what ``at_kinks`` chooses.
     """
 
     def __init__(self, measure, key, left, right, change):
@@ -54,5 +54,5 @@ class KinkWarning(UserWarning):
     def __str__(self):
         return (
             f"{self.measure} has a kink ({self.change}): its derivative by {self.key} is {self.left:.6g} where that "
-            f"decreases and {self.right:.6g} where it increases; the gradient holds the mean"
+            f"decreases and {self.right:.6g} where it increases"
         )

@@ -4,7 +4,7 @@ from functools import cached_property
 from html import escape
 
 from ._errors import Failed
-from ._table import Table
+from ._table import Table, find
 
 _TABLES = ("path", "events", "scales", "flexure_path", "flexure_events", "flexure_scales", "sensitivity")
 
@@ -37,44 +37,42 @@ class Result:
         return self._solved.values()
 
     @cached_property
+    def _failures(self):
+        return self._solved.failures()
+
+    @property
     def status(self):
-        return self._solved.status()
+        return self._failures[0][1] if self._failures else "complete"
 
-    @cached_property
+    @property
     def warnings(self):
-        return self._solved.warnings()
-
-    @cached_property
-    def _failed(self):
-        """The reasons of the values that could not be found."""
-        reasons = {}
-        for name, value in self.values.items():
-            if value is None:
-                try:
-                    self._solved.value(name)
-                except Failed as failed:
-                    reasons[name] = failed.reason
-        return reasons
+        fold = self.get("fold_force")
+        folded = f"the surface folds over at fold_force {fold}: beyond it the model does not hold, sound_force is up to there"
+        return [f"{measure}: {meaning}" for measure, _, meaning in self._failures] + [folded] * (fold == fold)
 
     @property
     def values(self):
-        return {name: value for name, _, _, value in self._values}
+        return {name: value for name, _, _, value, _ in self._values}
 
     @property
     def units(self):
-        return {name: unit for name, unit, _, _ in self._values}
+        return {name: unit for name, unit, *_ in self._values}
 
     @property
     def meanings(self):
-        return {name: meaning for name, _, meaning, _ in self._values}
+        return {name: meaning for name, _, meaning, *_ in self._values}
+
+    @cached_property
+    def _by_name(self):
+        return {name: (value, reason) for name, _, _, value, reason in self._values}
 
     def __getitem__(self, name):
-        if self._solved is not None:
-            return self._solved.value(name)
-        if name in self._failed:
-            raise Failed(name, self._failed[name])
-        value = self.values[name]
-        return float("nan") if value is None else value
+        value, reason = find(self._by_name, name, "measure")
+        if value is not None:
+            return value
+        if reason is not None:
+            raise Failed(name, reason)
+        return float("nan")
 
     def get(self, name, default=float("nan")):
         """A measure, or ``default`` if it could not be found."""
@@ -84,7 +82,7 @@ class Result:
             return default
 
     def __getstate__(self):
-        for name in ("_values", "status", "warnings", "_failed", *_TABLES):
+        for name in ("_values", "_failures", *_TABLES):
             getattr(self, name)
         return {**self.__dict__, "_solved": None}
 
@@ -95,7 +93,7 @@ class Result:
         return f"<Result of {self.skin}: {self.status}; {known}>"
 
     def _repr_html_(self):
-        shown = [(n, v, u, m) for n, u, m, v in self._values if v is not None]
+        shown = [(n, v, u, m) for n, u, m, v, _ in self._values if v is not None]
         cell = lambda v: f"{v:.6g}" if isinstance(v, float) else str(v)  # noqa: E731
         rows = (
             f"<tr><th>{n}</th><td>{cell(v)}</td><td>{escape(u)}</td><td>{escape(m)}</td></tr>" for n, v, u, m in shown

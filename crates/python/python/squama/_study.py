@@ -75,7 +75,7 @@ def run(definition, out=None, *, set=None, resume=False, fresh=False, threads=No
     Ctrl-C keeps what is solved, and ``resume=True`` goes on; ``fresh=True`` throws earlier results away.
     """
     with Bar(progress) as tell:
-        return Run(_squama.run(definition, out, set, resume, fresh, threads, tell))
+        return Run(_squama.run(definition, dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)))
 
 
 def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=None, progress=False):
@@ -85,7 +85,8 @@ def optimise(goal, out=None, *, set=None, resume=False, fresh=False, threads=Non
     meets the constraints.
     """
     with Bar(progress) as tell:
-        folder, best = _squama.optimise(goal, out, set, resume, fresh, threads, tell)
+        keywords = dict(out=out, set=set, resume=resume, fresh=fresh, threads=threads, progress=tell)
+        folder, best = _squama.optimise(goal, keywords)
     found = Run(folder)
     found.skin = best and _squama.Skin.from_toml(best)
     return found
@@ -100,5 +101,6 @@ def tolerance(definition, *, set=None, require=(), samples=1000, out=None, threa
     """
     require = [require] if isinstance(require, str) else list(require)
     with Bar(progress) as tell, tempfile.TemporaryDirectory() as temporary:
-        tables = _squama.tolerance(definition, out or temporary, set, require, samples, threads, tell)
+        keywords = dict(out=out or temporary, set=set, resume=False, fresh=False, threads=threads, progress=tell)
+        tables = _squama.tolerance(definition, require, samples, keywords)
     return dict(zip(("tolerance", "sources", "yield"), map(Table, tables)))

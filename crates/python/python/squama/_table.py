@@ -1,16 +1,29 @@
 """Tables: columns of numbers and texts."""
 
 from collections.abc import Mapping
+from difflib import get_close_matches
 from html import escape
 
 import numpy as np
+
+from . import _squama
+
+
+def find(known, name, what):
+    """``known[name]``; if there is none, the error names what is near."""
+    try:
+        return known[name]
+    except KeyError:
+        near = get_close_matches(str(name), known, 1)
+        raise KeyError(f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
 
 
 class Table(Mapping):
     """Columns by name: numbers as arrays of ``float`` (a value that does not exist is NaN), texts as arrays of ``str``.
 
     ``table["coverage"]`` is a column, ``table.units`` and ``table.meanings`` say what it is, ``table.row(0)`` is a
-    row as a dict, ``table.to_pandas()`` a data frame; ``dict(table)`` is what polars and others take.
+    row as a dict, ``table.to_pandas()`` a data frame. ``polars.DataFrame(table)``, ``pyarrow.table(table)`` and whatever
+    else takes streams of Arrow read it by ``__arrow_c_stream__``, without pyarrow; NaN is null there.
     """
 
     def __init__(self, columns):
@@ -21,13 +34,7 @@ class Table(Mapping):
             self.units[name], self.meanings[name] = unit, meaning
 
     def __getitem__(self, name):
-        try:
-            return self._columns[name]
-        except KeyError:
-            from difflib import get_close_matches
-
-            near = get_close_matches(str(name), self._columns, 1)
-            raise KeyError(f"there is no column {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
+        return find(self._columns, name, "column")
 
     def __iter__(self):
         return iter(self._columns)
@@ -49,6 +56,10 @@ class Table(Mapping):
         import pandas
 
         return pandas.DataFrame(dict(self._columns))
+
+    def __arrow_c_stream__(self, requested_schema=None):
+        of = lambda column: column.tobytes() if column.dtype == float else [c if c is None else str(c) for c in column]  # noqa: E731
+        return _squama.arrow([(name, of(column)) for name, column in self._columns.items()])
 
     def __repr__(self):
         return f"<{type(self).__name__} of {self.rows} rows: {', '.join(self._columns)}>"

@@ -34,8 +34,7 @@
     control.show = () => {
       const [factor, name] = live.shownAs(control);
       // The step of a slider would round what was typed or dragged.
-      range.step = "any";
-      range.value = control.value;
+      Object.assign(range, { min: control.min, max: control.max, step: "any", value: control.value });
       range.setAttribute("aria-valuetext", live.text(control.key));
       if (document.activeElement !== field || field.getAttribute("aria-invalid") !== "true") {
         field.value = live.digits(control.value * factor);

@@ -23,10 +23,17 @@
   at("live-sheet").addEventListener("click", () => {
     const open = at("live-sheet").getAttribute("aria-expanded") !== "true";
     at("live-sheet").setAttribute("aria-expanded", String(open));
+    // What the sliders move stays in sight above them.
+    if (open) at("live-rest").scrollIntoView();
   });
 
-  /** Puts a design under the hand, by the keys and values of its parameters. */
-  squama.take = (pairs) => live.set(Object.fromEntries(pairs.filter(([, value]) => value !== null)));
+  /** Puts a design under the hand, by the keys and values of its parameters; what it does not name is as the page was opened with. */
+  squama.take = (pairs) => {
+    const known = pairs.filter(([key, value]) => value !== null && live.control(key));
+    // What a search found may lie beyond the values of the sweep.
+    for (const [control, value] of known.map(([key, own]) => [live.control(key), own])) Object.assign(control, { min: Math.min(control.min, value), max: Math.max(control.max, value) });
+    live.set({ ...live.opened, ...Object.fromEntries(known) });
+  };
   const chosen = () => {
     squama.take(live.controls().map(({ key }) => [key, squama.cell(squama.state.design, key)]));
     live.moved = false;

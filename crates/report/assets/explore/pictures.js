@@ -51,12 +51,13 @@
     // The foot of a scale that is far enough from the first one for two fingers.
     const far = Math.max(1, Math.ceil(130 / (scale * own.pitch)));
     return [
+      // The base stays as it is drawn, and the corner follows the hand: lengths are over the thickness, which it pulls up or down.
       { id: "slant", key: "slant_deg", spot: [own.half + own.shift, 1], above: true,
-        drag: ([x], { half }) => Math.atan(Math.max(0, x - half)) / radians(1) },
+        drag: ([x, y], _, { length, half }) => ({ length_over_t: length / Math.max(0.02, y), slant_deg: Math.atan2(Math.max(0, x - half), Math.max(0.02, y)) / radians(1) }) },
       { id: "length", key: "length_over_t", spot: [-own.half, 0],
-        drag: ([x]) => Math.max(0, -x) * (live.data.base === "2L" ? 1 : 2) },
+        drag: ([x]) => ({ length_over_t: Math.max(0, -x) * (live.data.base === "2L" ? 1 : 2) }) },
       { id: "gap", key: "gap_over_t", spot: [far * own.pitch - own.half, 0],
-        drag: ([x], { half }) => (x + half) / far - 2 * half },
+        drag: ([x], { half }) => ({ gap_over_t: (x + half) / far - 2 * half }) },
     ];
   };
   const handle = (view, width, { id, key, spot, above, drag }) => {
@@ -64,7 +65,7 @@
     return svg("g", {
       class: "handle", id: `live-handle-${id}`, tabindex: 0, role: "slider", "aria-label": `${control.label} of the scales, drag or use the arrow keys`,
       "aria-valuemin": control.min, "aria-valuemax": control.max, "aria-valuenow": control.value, "aria-valuetext": live.text(key),
-      onpointerdown: (event) => { event.preventDefault(); grabbed = { view, key, drag, off: [x - event.offsetX, y - event.offsetY] }; },
+      onpointerdown: (event) => { event.preventDefault(); grabbed = { view, id, drag, off: [x - event.offsetX, y - event.offsetY], half: now().half, length: live.value("length_over_t") }; },
       onkeydown: (event) => {
         const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
         if (!step) return;
@@ -73,11 +74,12 @@
         at(`live-handle-${id}`).focus();
       },
     }, svg("circle", { cx: x, cy: y, r: 24, class: "reach" }), svg("circle", { cx: x, cy: y, r: 9, class: "grip" }),
-    svg("text", { x: Math.min(width - 60, Math.max(60, x)), y: y + (above ? -16 : 30), "text-anchor": "middle" }, `${control.label.toLowerCase()} ${live.text(key)}`));
+    svg("text", { x: Math.min(width - 60, Math.max(60, x)), y: y + (above ? -16 : 30), "text-anchor": "middle" }, `${control.label.toLowerCase()} ${live.text(key)}${grabbed?.id === id && id === "slant" ? ` · length ${live.text("length_over_t")}` : ""}`));
   };
 
   const rest = () => {
-    const own = now(), size = box("live-rest"), view = grabbed?.view ?? fitted(own, size, 170);
+    const own = now(), size = box("live-rest"), view = { ...(grabbed?.view ?? fitted(own, size, 170)) };
+    if (grabbed?.id === "slant") view.scale = Math.min(view.scale * grabbed.half / own.half, 0.7 * size.height);
     const pinned = live.pinned ? row(view, form(live.pinned.values), poses(form(live.pinned.values), view, size.width), "ghost") : [];
     at("live-rest").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width)), ...pinned, ...handles(own, view.scale).map((one) => handle(view, size.width, one)));
   };
@@ -114,9 +116,9 @@
 
   addEventListener("pointermove", (event) => {
     if (!grabbed) return;
-    const { left, top } = at("live-rest").getBoundingClientRect(), { view, key, drag, off } = grabbed;
+    const { left, top } = at("live-rest").getBoundingClientRect(), { view, drag, off } = grabbed;
     const spot = [(event.clientX - left + off[0] - view.left) / view.scale, (view.base - (event.clientY - top + off[1])) / view.scale];
-    live.set({ [key]: drag(spot, now()) });
+    live.set(drag(spot, now(), grabbed));
   });
   for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => { if (grabbed) { grabbed = null; rest(); } });
   const loaded = () => { needle(); bent(); };

@@ -49,8 +49,13 @@ squama.live = (() => {
     return Number(Math.min(max, Math.max(min, value)).toPrecision(6));
   };
   for (const control of controls.values()) control.value = clamped(control, control.value);
-  /** Moves parameters, within their ranges, and solves. */
-  live.set = (values, said = "") => {
+  live.opened = Object.fromEntries([...controls.values()].map(({ key, value }) => [key, value]));
+  // So long an arrow walks to its limit, ms: the eye is to follow what changes.
+  const WALK = 1200;
+  let walking = null;
+  /** Moves parameters, within their ranges, and solves. A hand that moves something ends a walk. */
+  live.set = (values, said = "", isStep = false) => {
+    if (!isStep) cancelAnimationFrame(walking);
     for (const [key, value] of Object.entries(values)) {
       const control = controls.get(key);
       if (control && (control.words || Number.isFinite(value))) control.value = clamped(control, value);
@@ -59,7 +64,7 @@ squama.live = (() => {
     live.moved = true;
     tell("moved");
     live.solve();
-    live.remember();
+    if (!isStep) live.remember();
   };
   /** Draws the needle, or bending, at a share of its way. */
   live.draw = (load, share) => {
@@ -78,12 +83,19 @@ squama.live = (() => {
     tell("answered");
   };
 
+  const walk = ({ key, value, reason }) => {
+    const { label, value: from } = controls.get(key), begun = performance.now(), time = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : WALK;
+    const step = (now) => {
+      const share = time > 0 ? Math.min(1, Math.max(0, (now - begun) / time)) : 1, is = share < 1;
+      live.set({ [key]: from + share * (value - from) }, is ? `${label}: on the way` : `${label}: ${reason}`, is);
+      if (is) walking = requestAnimationFrame(step);
+    };
+    step(begun);
+  };
+
   live.take = (answer, question) => {
     if (question) live.times.push(performance.now() - question.at);
-    if (answer.follow) {
-      live.set({ [answer.follow.key]: answer.follow.value }, `${controls.get(answer.follow.key).label}: ${answer.follow.reason}`);
-      return;
-    }
+    if (answer.follow) return walk(answer.follow);
     live.error = answer.error ?? null;
     // An answer for a moving hand has no derivatives: those of the last rest are shown until the next.
     if (!answer.error) live.answer = answer.fine ? answer : { ...answer, slopes: live.answer?.slopes ?? [] };

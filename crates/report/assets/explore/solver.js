@@ -56,6 +56,8 @@ squama.solver = (() => {
   return {
     begin: async (listener) => {
       listen = listener;
+      // What stands on the page is drawn first, and answers to the hand meanwhile.
+      await new Promise((drawn) => { requestAnimationFrame(() => setTimeout(drawn)); });
       try {
         module = await WebAssembly.compile(await bytes());
         start();

@@ -172,6 +172,7 @@ impl Varied<'_> {
             // A longer scale has a footprint of smaller ratios.
             "length_over_t" => Some(slopes.by_size.clone() * -design.length.recip()),
             "poisson_ratio" => Some(slopes.by_poisson_ratio.clone()),
+            "tissue_thickness_over_t" => Some(slopes.by_thickness.clone()? * a.recip()),
             _ => None,
         }
     }

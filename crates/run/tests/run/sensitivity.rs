@@ -135,3 +135,15 @@ fn upright_scales_have_derivatives_of_both_physics() {
         assert!(by_gap.is_some_and(|slope| slope != 0.0), "{measure}: {by_gap:?}");
     }
 }
+
+/// On tissue of a finite thickness, by that and by all else.
+#[test]
+fn layers_have_derivatives() {
+    for (number, thickness) in [(1, 3.0), (2, 1.2), (5, 7.0)] {
+        let case = Case { tissue_thickness: Some(thickness), ..random_case(number) };
+        let by_thickness = derivatives(&case);
+        let by_thickness = by_thickness.iter().filter(|d| d.parameter == "tissue_thickness_over_t");
+        assert!(by_thickness.filter(|d| d.derivative().is_some()).count() > 8);
+        assert!(compare(&case) > 100);
+    }
+}

@@ -164,6 +164,8 @@ impl Chain {
     pub(crate) fn reaction(&self, z: &[f64], scale: isize) -> [f64; 3] {
         let own = self.displacement_anywhere(z, scale);
         let mut reaction: [f64; 3] = std::array::from_fn(|k| -self.direct[k] * own[k]);
+        reaction[0] -= self.roll * own[2];
+        reaction[2] -= self.roll * own[0];
         for (distance, neighbour) in (1..).zip(&self.neighbours) {
             let left = self.displacement_anywhere(z, scale - distance);
             let right = self.displacement_anywhere(z, scale + distance);
@@ -172,6 +174,10 @@ impl Chain {
             }
             reaction[1] -= neighbour.cross * (left[2] - right[2]);
             reaction[2] -= neighbour.cross * (right[1] - left[1]);
+            reaction[0] -= neighbour.lift * (right[1] - left[1]);
+            reaction[1] -= neighbour.lift * (left[0] - right[0]);
+            reaction[0] -= neighbour.roll * (left[2] + right[2]);
+            reaction[2] -= neighbour.roll * (left[0] + right[0]);
         }
         reaction
     }

@@ -125,8 +125,10 @@ pub(crate) struct Chain {
     pub(super) half_base: f64,
     /// `a α_x, a α_y, a³ α_φ`: forces are in `E* t²`, lengths in `t`.
     pub(super) direct: [f64; 3],
+    /// `a² r_0` of (S21), on a layer.
+    pub(super) roll: f64,
     /// Coupling with the neighbours on one side, the nearest first: `−a β_x, −a β_y, −a³ β_φ`, or as many
-    /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) as the substrate couples.
+    /// `a K_x, a K_y, a³ K_φ, a² c` of (S9) and `a l`, `a² r` of (S21) as the substrate couples.
     pub(super) neighbours: Vec<Neighbour>,
     /// `a β_x`, the stiffness of the bars that take the place of the springs along the row; `None` where these stay linear.
     pub(super) bars: Option<f64>,
@@ -159,7 +161,7 @@ impl Chain {
     ) -> Self {
         let scale = arrangement.scale(layout.left);
         let a = scale.half_base();
-        let RowStiffness { direct, neighbours, .. } = stiffness.with_lengths_over(a);
+        let RowStiffness { direct, roll, neighbours, .. } = stiffness.with_lengths_over(a);
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces: Vec<usize> =
             (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
@@ -196,6 +198,7 @@ impl Chain {
             plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
             direct,
+            roll,
             // Coupling beyond the neighbours fills the matrix: the band elimination takes it.
             blocks: (neighbours.len() <= 1).then(|| layout.blocks()),
             neighbours,
@@ -264,6 +267,10 @@ impl Chain {
             for k in 0..3 {
                 entry(at + k, at + k, self.direct[k]);
             }
+            if self.roll != 0.0 {
+                entry(at, at + 2, self.roll);
+                entry(at + 2, at, self.roll);
+            }
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
                 for k in 0..3 {
@@ -276,6 +283,15 @@ impl Chain {
                     entry(other + 2, at + 1, cross);
                     entry(other + 1, at + 2, -cross);
                     entry(at + 2, other + 1, -cross);
+                }
+                let Neighbour { lift, roll, .. } = *neighbour;
+                if [lift, roll] != [0.0; 2] {
+                    for (force, displaced, value) in
+                        [(0, 1, -lift), (1, 0, lift), (0, 2, roll), (2, 0, roll)]
+                    {
+                        entry(at + force, other + displaced, value);
+                        entry(other + displaced, at + force, value);
+                    }
                 }
             }
         }

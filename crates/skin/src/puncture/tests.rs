@@ -1,6 +1,7 @@
 //! Tests of the inside of the model: its tangent, its energy balance, the limit of `Auto`.
 
 mod bars;
+mod layers;
 mod needle;
 
 use std::collections::HashSet;

@@ -11,6 +11,7 @@
 //! | `snapshots` | chosen places of the path, between its points and beyond its end |
 //! | `folds` | where the surface of the substrate folds over |
 //! | `neo_hookean` | a substrate whose surface cannot fold over |
+//! | `layers` | tissue of a finite thickness, against another program |
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `tilts` | measures at tilts on the way, against paths that end there |
@@ -20,6 +21,7 @@ mod ends;
 mod first_contact;
 mod folds;
 mod isolated_scale;
+mod layers;
 mod neo_hookean;
 mod outputs;
 mod robustness;

@@ -90,6 +90,7 @@ fn block(stiffness: &RowStiffness, farther: usize) -> Mat<f64> {
         let (k, l) = if force <= displaced { (k, l) } else { (l, k) };
         match force.abs_diff(displaced) {
             0 if k == l => stiffness.direct[k],
+            0 if k + l == 2 => stiffness.roll,
             0 => 0.0,
             distance => stiffness.neighbours.get(distance - 1).map_or(0.0, |n| n.on_left(k, l)),
         }
@@ -102,6 +103,9 @@ impl Neighbour {
         match (k, l) {
             (1, 2) => -self.cross,
             (2, 1) => self.cross,
+            (0, 1) => self.lift,
+            (1, 0) => -self.lift,
+            (0, 2) | (2, 0) => self.roll,
             _ if k == l => self.direct[k],
             _ => 0.0,
         }

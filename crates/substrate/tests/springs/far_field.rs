@@ -97,6 +97,8 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
         for k in 0..3 {
             matrix[(3 * i + k, 3 * i + k)] = stiffness.direct[k];
         }
+        matrix[(3 * i, 3 * i + 2)] = stiffness.roll;
+        matrix[(3 * i + 2, 3 * i)] = stiffness.roll;
         for (j, neighbour) in (i + 1..scales).zip(&stiffness.neighbours) {
             let mut couple = |force: usize, displaced: usize, value: f64| {
                 matrix[(force, displaced)] = value;
@@ -107,6 +109,10 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
             }
             couple(3 * j + 1, 3 * i + 2, neighbour.cross);
             couple(3 * i + 1, 3 * j + 2, -neighbour.cross);
+            couple(3 * j + 1, 3 * i, neighbour.lift);
+            couple(3 * j, 3 * i + 1, -neighbour.lift);
+            couple(3 * j, 3 * i + 2, neighbour.roll);
+            couple(3 * j + 2, 3 * i, neighbour.roll);
         }
     }
     matrix
@@ -116,9 +122,16 @@ fn dense(stiffness: &RowStiffness, scales: usize) -> Mat<f64> {
 /// scales.
 #[test]
 fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
-    for ([gap, width], neighbours) in [([0.2, 2.0], 8), ([0.0125, 0.25], 3), ([8.0, 80.0], 1)] {
-        let footprint = Footprint::new(gap, width, 0.5).unwrap();
-        let stiffness = RowStiffness::solve(&footprint, neighbours).unwrap();
+    let footprint = |gap, width| Footprint::new(gap, width, 0.5).unwrap();
+    let rows = [([0.2, 2.0], 8), ([0.0125, 0.25], 3), ([8.0, 80.0], 1)];
+    let solved = |([gap, width], neighbours): ([f64; 2], usize)| {
+        RowStiffness::solve(&footprint(gap, width), neighbours).unwrap()
+    };
+    let on_layer =
+        |coupling| RowStiffness::of(&footprint(0.2, 2.0).on_layer(1.5).unwrap(), coupling).unwrap();
+    let layers = [Coupling::Nearest, Coupling::Full].map(on_layer);
+    for stiffness in rows.map(solved).into_iter().chain(layers) {
+        let neighbours = stiffness.neighbours.len();
         let far = stiffness.far_field(None).unwrap();
         assert_eq!(stiffness.far_field(Some(5)), None);
         let (last, all) = (3 * neighbours, 3 * (neighbours + 400));
@@ -147,8 +160,8 @@ fn a_row_with_far_couplings_is_condensed_to_its_last_scales() {
 #[test]
 fn nothing_decays_where_a_scale_is_held_by_its_neighbours_alone() {
     let mut loose = springs(1.0, 0.5);
-    loose.neighbours = vec![Neighbour { direct: [-0.5, -0.1, 0.1], cross: 0.0 }];
+    loose.neighbours = vec![Neighbour { direct: [-0.5, -0.1, 0.1], ..Neighbour::default() }];
     assert_eq!(loose.far_field(None).or(loose.far_field(Some(3))), None);
-    loose.neighbours.push(Neighbour { direct: [-0.1, 0.0, 0.0], cross: 0.0 });
+    loose.neighbours.push(Neighbour { direct: [-0.1, 0.0, 0.0], ..Neighbour::default() });
     assert_eq!(loose.far_field(None), None);
 }

@@ -3,6 +3,7 @@
 mod convergence;
 mod far_field;
 mod kernels;
+mod layers;
 mod meshes;
 mod plane_strain;
 mod published;

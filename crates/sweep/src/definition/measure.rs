@@ -38,6 +38,11 @@ impl Measure {
         }
     }
 
+    /// The measure of that name.
+    pub fn named(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|measure| measure.key() == key)
+    }
+
     /// The sections of the definition whose continuous parameters the values of the measure depend on.
     pub fn sections(self) -> &'static [&'static str] {
         match self {
@@ -79,10 +84,11 @@ impl Measure {
         let Value::Text(text) = value else {
             return Err(not_accepted(value, names()));
         };
-        let known = Self::ALL.into_iter().find(|measure| measure.key() == text);
-        known.ok_or_else(|| match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
-            Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
-            None => not_accepted(value, names()),
+        Self::named(text).ok_or_else(|| {
+            match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
+                Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
+                None => not_accepted(value, names()),
+            }
         })
     }
 }

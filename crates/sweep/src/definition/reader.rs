@@ -177,10 +177,10 @@ impl Reader {
     /// Every deviation of a material, or in mm, of a skin whose material or thickness is not given.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
-            let needed = deviation.needs()?;
-            let problem = Problem::Needs { other: format!("material.{needed}") };
+            let needed = deviation.needs().find(|needed| self.place(needed).is_none())?;
+            let problem = Problem::Needs { other: Parameter::named(needed)?.path() };
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
-            self.place(needed).is_none().then(|| refuse(place, &key, problem))
+            Some(refuse(place, &key, problem))
         })
     }
 

@@ -31,6 +31,9 @@ pub const DEPTH: &str = "depth_over_t";
 /// The same in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
+/// The thickness of the tissue.
+pub const TISSUE: &str = "tissue_thickness_over_t";
+
 /// The length of the membrane.
 pub const MEMBRANE_LENGTH: &str = "membrane_length_over_t";
 

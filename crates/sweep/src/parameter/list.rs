@@ -99,6 +99,18 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: key::TISSUE,
+        section: "substrate",
+        unit: "t",
+        meaning: "thickness of the substrate on a rigid base, as of tissue on bone; of a half-space unless it is given",
+        roles: &[Continuous, Made, MovesSprings],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: LENGTH,
+            field: |c| &mut c.tissue_thickness,
+        },
+    },
+    Parameter {
         key: "coupling",
         section: "substrate",
         unit: "-",

@@ -85,7 +85,7 @@ mod tests {
             }
             let is_number = parameter.moved(&Case::default(), 0.0).is_some();
             assert!(
-                !parameter.has(Role::Continuous) || is_number || parameter.instead_of().is_some(),
+                !parameter.has(Role::Continuous) || is_number || parameter.is_optional(),
                 "{key} has no number"
             );
             let is_skin = parameter.has(Role::Continuous) || parameter.section == "material";

@@ -115,7 +115,7 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
   const showTip = (chart, event) => {
     const marks = near(chart, event);
     tip.hidden = marks.length === 0;
-    chart.area.style.cursor = marks.some(({ row }) => row !== null) ? "pointer" : "default";
+    chart.area.style.cursor = marks.length > 0 ? "pointer" : "default";
     if (marks.length === 0) return;
     tip.replaceChildren(...marks.slice(0, NAMED).map((mark) => line(chart, mark)),
       ...(marks.length > NAMED ? [squama.element("div", {}, `and ${marks.length - NAMED} more in the same place`)] : []),
@@ -124,10 +124,11 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
     tip.style.top = `${event.clientY + 16 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 8 : event.clientY + 16}px`;
   };
 
-  /** A click chooses; another click on marks in one place goes to the next of them. */
+  /** A click chooses; another click on marks in one place goes to the next of them. A design of a front comes under the hand. */
   const click = (chart, event) => {
-    const rows = near(chart, event).map(({ row }) => row).filter((row) => row !== null);
+    const marks = near(chart, event), rows = marks.map(({ row }) => row).filter((row) => row !== null);
     if (rows.length > 0) squama.choose(rows[(rows.indexOf(state.design) + 1) % rows.length]);
+    else if (marks.length > 0) chart.take(Number(marks[0].front));
   };
 
   const key = (chart, event) => {
@@ -139,7 +140,7 @@ squama.unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (
 
   /**
    * Adds the chart of a kind of figure, if there is one. `columns()` are those that the tip tells of a design, `tip(k)` tells of the
-   * design `k` of a front; `passes(row)` says which designs are hidden; `restyle(chart)` does what else follows requirements.
+   * design `k` of a front, `take(k)` puts it under the hand; `passes(row)` says which designs are hidden; `restyle(chart)` does what else follows requirements.
    */
   squama.addChart = ({ id, title, description, columns = () => [], passes = (row) => squama.passes[row], ...more }) => {
     const own = squama.figures.filter(({ kind }) => kind === id), choices = [...new Set(own.map(({ choice }) => choice))].filter(Boolean);

@@ -1,0 +1,69 @@
+//! What the commands that solve samples share: arguments, and the folder in which samples and tables are kept.
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use clap::Args;
+use results::{Claim, Maker, RunFolder};
+use sweep::Sweep;
+use tolerance::{NoAnalysis, SampleStore};
+
+use super::source::{Definition, folder_within};
+use super::work::Threads;
+use crate::interrupt::Interrupt;
+use crate::print::note;
+
+/// How samples are solved, and where they are kept.
+#[derive(Debug, Args)]
+pub struct Sampled {
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Folder for the tables [default: one of the command's name in the results of the sweep]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The folder in which samples are kept and tables are written.
+pub struct SampledFolder<'a> {
+    definition: &'a Definition,
+    threads: Threads,
+    maker: Maker,
+    pub folder: RunFolder,
+}
+
+impl<'a> SampledFolder<'a> {
+    /// The folder of the command called `name`. One that holds files of others is refused before hours of work, and not behind them.
+    pub fn new(
+        (definition, sweep): (&'a Definition, &Sweep),
+        arguments: &Sampled,
+        (name, maker): (&str, Maker),
+    ) -> anyhow::Result<Self> {
+        let default = || folder_within(definition, sweep, name);
+        let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+        Claim::check(&folder, maker)?;
+        Ok(Self { definition, threads: arguments.threads, maker, folder })
+    }
+
+    /// What `solve` makes of the samples, and the claim on the tables; `None`, and a word about it, if it was told to stop.
+    pub fn solved<T: Send>(
+        &self,
+        interrupt: &Interrupt,
+        solve: impl FnOnce(&SampleStore) -> Result<T, NoAnalysis> + Send,
+    ) -> anyhow::Result<Option<(T, Claim<'_>)>> {
+        let store = SampleStore::new(&self.folder.file("samples"));
+        interrupt.ask_first();
+        match self.threads.pool()?.install(|| solve(&store)) {
+            Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
+            Err(stopped @ NoAnalysis::Stopped { .. }) => {
+                note(&format!("{stopped}, which are kept; the same command continues from them"));
+                Ok(None)
+            }
+            Err(error) => Err(error).with_context(|| self.definition.path.display().to_string()),
+        }
+    }
+}

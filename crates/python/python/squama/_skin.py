@@ -1,0 +1,31 @@
+"""What a skin does that needs no solver."""
+
+from ._errors import InvalidParameter
+from ._squama import Skin
+
+
+def replace(self, **parameters):
+    """A skin with other values of some parameters; ``None`` is the default."""
+    # A length in mm takes the place of the same length over t.
+    over_t = {name.removesuffix("_mm") + "_over_t" for name in parameters if name.endswith("_mm")}
+    kept = {name: value for name, value in self.parameters.items() if name not in over_t}
+    return Skin(**kept | parameters)
+
+
+def from_toml(definition, design=None):
+    """The skin of a definition: a text in TOML, or the path of a file. Of several designs ``design`` is the number, from 1."""
+    is_number = design is None or isinstance(design, int) and 0 < design < 2**63
+    count, skins = Skin._designs(definition, design - 1 if design and is_number else 0)
+    if not is_number or not skins or (design is None and count > 1):
+        raise InvalidParameter("design", design, f"the number of one of its {count} designs")
+    return skins[0]
+
+
+def all_from_toml(definition):
+    """All skins of a definition, in the order of their numbers: a text in TOML, or the path of a file."""
+    return Skin._designs(definition, None)[1]
+
+
+def made(parameters):
+    """The skin that was pickled."""
+    return Skin(**parameters)

@@ -1,0 +1,78 @@
+//! Rows on a layer, where force along the row, force across it and moment go together.
+
+use approx::assert_relative_eq;
+use contact::Law;
+use solver::{BandMatrix, Path, Settings, System};
+use substrate::{Coupling, RowStiffness, SubstrateLaw};
+
+use super::{BLOCKS, Balance, DOMINO, HARD, LIVELY, balance, law, whole};
+use crate::Design;
+use crate::contacts::SkinState;
+use crate::puncture::PunctureParameters;
+use crate::puncture::system::{Chain, Layout};
+
+const CASES: [(Design, Coupling, SubstrateLaw); 5] = [
+    (LIVELY, Coupling::Nearest, SubstrateLaw::Linear),
+    (BLOCKS, Coupling::Nearest, SubstrateLaw::NeoHookean),
+    (DOMINO, Coupling::Nearest, SubstrateLaw::NeoHookean),
+    (LIVELY, Coupling::Full, SubstrateLaw::NeoHookean),
+    (DOMINO, Coupling::Full, SubstrateLaw::Linear),
+];
+
+/// The path on tissue as thick as the scales.
+fn layer_path((design, coupling, substrate_law): &(Design, Coupling, SubstrateLaw)) -> Path<Chain> {
+    let layer = design.footprint(0.5).unwrap().on_layer(1.0 / design.half_base()).unwrap();
+    let stiffness = RowStiffness::of(&layer, *coupling).unwrap();
+    let layout = Layout { left: 10, right: 10, needle: 0 };
+    let parameters =
+        PunctureParameters { substrate_law: *substrate_law, ..PunctureParameters::default() };
+    let law = law(design, Law::PRINTED, HARD);
+    let chain = whole(&stiffness, design, law, layout, &parameters);
+    let rest = SkinState::at_rest(&chain);
+    Path::new(chain, rest, Settings::default())
+}
+
+#[test]
+fn the_work_of_the_load_is_stored() {
+    for case in CASES {
+        let Balance { work, off, .. } = balance(layer_path(&case));
+        assert!(off < 1e-6 * work, "{:e} {case:?}", off / work);
+    }
+}
+
+/// At rest there is nothing but the substrate: a push along the row turns a scale as much as turning it pushes, and so on.
+#[test]
+fn the_tangent_at_rest_is_symmetric() {
+    for case in CASES {
+        let path = layer_path(&case);
+        let (chain, state) = (path.system(), &path.point().state);
+        let mut tangent = BandMatrix::new(chain.size(), chain.half_bandwidth());
+        chain.tangent(state, &mut tangent);
+        let at = |scale: usize, direction: usize| chain.layout.scale(scale) + direction;
+        assert!(tangent.get(at(4, 0), at(4, 2)) < 0.0, "{case:?}");
+        for row in (0..3).map(|k| at(4, k)) {
+            for column in (3..6).flat_map(|scale| (0..3).map(move |k| at(scale, k))) {
+                assert_eq!(tangent.get(row, column), tangent.get(column, row), "{case:?}");
+            }
+        }
+    }
+}
+
+/// The reactions that are told of a scale are those that the row is solved with.
+#[test]
+fn reactions_are_those_of_the_stiffness() {
+    for case in CASES {
+        let mut path = layer_path(&case);
+        while path.next().is_some() {}
+        let (chain, z) = (path.system(), &path.point().state.z);
+        let mut forces = vec![0.0; z.len()];
+        chain.for_springs(|row, column, value| forces[row] += value * z[column]);
+        for scale in 0..chain.layout.scales() {
+            let told = chain.reaction(z, scale.cast_signed());
+            for (k, told) in told.into_iter().enumerate() {
+                let force = forces[chain.layout.scale(scale) + k];
+                assert_relative_eq!(told, -force, epsilon = 1e-14, max_relative = 1e-9);
+            }
+        }
+    }
+}

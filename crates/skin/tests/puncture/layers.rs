@@ -1,0 +1,58 @@
+//! Rows on a layer of soft tissue on a rigid base.
+
+use approx::assert_relative_eq;
+use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
+use skin::{Base, Common, Design};
+use substrate::{Coupling, RowStiffness};
+
+use crate::samples::{design, on_row};
+use crate::{assert_same_measures, complete};
+
+fn stiffness(design: &Design, thickness: f64, coupling: Coupling) -> RowStiffness {
+    let footprint = design.footprint(0.5).unwrap();
+    let layer = footprint.on_layer(thickness / design.half_base()).unwrap();
+    RowStiffness::of(&layer, coupling).unwrap()
+}
+
+fn solve(design: &Design, stiffness: &RowStiffness, parameters: &PunctureParameters) -> Puncture {
+    puncture::solve(design, stiffness, &Common::default(), parameters).unwrap()
+}
+
+/// Forces and penetrations of an independent program, whose springs lack the coupling of force along and across the row and are 1 to 2 %
+/// coarse; as far as that coupling is small.
+#[test]
+fn layers_are_those_of_another_program() {
+    let slanted = design(0.1, 1.0, 45.0, Base::L);
+    let steep = design(0.2, 0.3, 75.0, Base::L);
+    let rows = [
+        (slanted, 8.0, [0.413, 0.233]),
+        (slanted, 4.0, [0.417, 0.216]),
+        (slanted, 2.0, [0.424, 0.185]),
+        (steep, 8.0, [7.09, 0.584]),
+        (steep, 4.0, [7.25, 0.548]),
+        (steep, 2.0, [7.65, 0.478]),
+        (steep, 1.0, [8.74, 0.367]),
+    ];
+    for (design, thickness, [force, depth]) in rows {
+        let row = stiffness(&design, thickness, Coupling::Nearest);
+        let found = solve(&design, &row, &PunctureParameters::default()).measures;
+        assert_relative_eq!(found.critical_force.unwrap(), force, max_relative = 0.02);
+        assert_relative_eq!(found.penetration.unwrap(), depth, max_relative = 0.02);
+    }
+}
+
+/// What lies beyond the scales that are solved for, on the left a mirror image of what is on the right.
+#[test]
+fn rows_without_ends_measure_what_long_rows_do() {
+    for (design, coupling) in [
+        (design(0.1, 1.0, 45.0, Base::L), Coupling::Nearest),
+        (design(0.1, 1.0, 0.0, Base::L), Coupling::Full),
+        (design(0.2, 0.3, 60.0, Base::L), Coupling::Nearest),
+    ] {
+        let row = stiffness(&design, 1.5, coupling);
+        let endless = PunctureParameters { scales: RowLength::Auto, ..on_row(1) };
+        let ours = solve(&design, &row, &endless);
+        let theirs = solve(&design, &row, &on_row(201));
+        assert_same_measures(&complete(&ours), &complete(&theirs), 1e-9);
+    }
+}

@@ -1,0 +1,286 @@
+//! What a layer on a rigid base adds to the stiffness of a row on the half-space.
+//!
+//! Both are solved by collocation on the same meshes and subtracted, so that the errors of the meshes go with them: thick layers
+//! come to the half-space, to the last digit of the table. On a layer the tractions `q` along the row and `p` across it are solved
+//! together, with (S20) added to (S1) and (S2). The plane of symmetry `x = 0` leaves two systems: `q` even and `p` odd for a displacement along the row
+//! and a rotation, `q` odd and `p` even for one across it.
+
+use crate::boundary_element::{ARM, CellColumns, Load, ONE, Profile, Unresolved, row_reactions};
+use crate::dense_lu::DenseLu;
+use crate::half_space::{CornerLine, Influence};
+use crate::layer::{Displacements, Layer};
+use crate::mesh::{GradedAxis, Mesh};
+use crate::row_stiffness::CAUTION;
+use crate::springs::extrapolation;
+use crate::{Coupling, Footprint, NEIGHBOURS, Neighbour, RowStiffness};
+
+use faer::Mat;
+
+/// Cells a side of the meshes. What is added is smoother than the stiffness itself and takes fewer.
+const CELLS: [usize; 2] = [4, 6];
+
+/// Step of the differences, as a part of the length, or of Poisson's ratio itself: terms of the third order and the rounding of
+/// a solution, some 1e-13, both stay below 1e-6 of the derivative.
+const STEP: f64 = 1e-4;
+
+/// Numbers of a scale for itself, and of each neighbour.
+const OWN: usize = 4;
+const PER_NEIGHBOUR: usize = 6;
+
+/// Returns what the layer of a footprint adds to the stiffness of a row on the half-space. The quadrature over the cells
+/// is that for the footprint `near`, one of almost the same numbers, so that differences see no change of it.
+///
+/// # Errors
+/// If the gap is lost in rounding.
+pub(crate) fn addition(
+    footprint: &Footprint,
+    near: &Footprint,
+    coupling: Coupling,
+) -> Result<RowStiffness, Unresolved> {
+    // The solver of a page has no boundary elements.
+    if cfg!(target_family = "wasm") {
+        return Err(Unresolved { footprint: *footprint, cells: 0 });
+    }
+    let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
+    let on = |n: usize| added(footprint, near, neighbours, n);
+    let [coarse, fine] = [on(CELLS[0])?, on(CELLS[1])?];
+    let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
+    let [x, y, turn] = fine.sizes;
+    let cross = (y * turn).sqrt();
+    let sizes =
+        [x, y, turn, cross].into_iter().chain([x, y, turn, cross, x, cross].into_iter().cycle());
+    let steps = best.iter().zip(&fine.numbers).zip(sizes);
+    let error = steps.map(|((best, fine), size)| CAUTION * ((best - fine) / size).abs());
+    let neighbour = |n: &[f64; PER_NEIGHBOUR]| Neighbour {
+        direct: [n[0], n[1], n[2]],
+        // Eq. (1) has no force from rotation, and keeps to that.
+        cross: if coupling == Coupling::Full { n[3] } else { 0.0 },
+        lift: n[4],
+        roll: n[5],
+    };
+    Ok(RowStiffness {
+        direct: [best[0], best[1], best[2]],
+        roll: best[3],
+        error: error.fold(0.0, f64::max),
+        neighbours: best[OWN..].as_chunks().0.iter().map(neighbour).collect(),
+        truncation: 0.0,
+    })
+}
+
+/// Returns the derivatives of [`addition`] with respect to gap, width, Poisson's ratio and thickness.
+pub(crate) fn slopes(
+    footprint: &Footprint,
+    coupling: Coupling,
+) -> Result<[RowStiffness; 4], Unresolved> {
+    let [gap, width, _, thickness] = footprint.numbers();
+    let along = |number: usize, step: f64| {
+        let at = |step: f64| addition(&footprint.moved(number, step), footprint, coupling);
+        Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
+    };
+    Ok([
+        along(0, STEP * gap)?,
+        along(1, STEP * width)?,
+        along(2, STEP)?,
+        along(3, STEP * thickness)?,
+    ])
+}
+
+/// Reactions on one mesh, less those on the half-space.
+struct Added {
+    /// Of the middle rectangle `K_x`, `K_y`, `K_φ` and `r_0`; of each neighbour `K_x`, `K_y`, `K_φ`, `c`, `l` and `r`.
+    numbers: Vec<f64>,
+    /// `K_x`, `K_y`, `K_φ` of the middle rectangle on the layer.
+    sizes: [f64; 3],
+}
+
+fn added(
+    footprint: &Footprint,
+    near: &Footprint,
+    neighbours: usize,
+    n: usize,
+) -> Result<Added, Unresolved> {
+    let half_space = row_reactions(footprint, neighbours, n)?;
+    let mesh = Mesh::row(footprint, neighbours, n);
+    let quadrature = Quadrature::new(&mesh, &Mesh::row(near, neighbours, n), near);
+    let [along, across] = quadrature.equations(&mesh, footprint);
+    let solved = Tractions {
+        mesh: &mesh,
+        pitch: footprint.pitch_over_a(),
+        along: mesh.solve(along, &[[Some(ONE), None], [None, Some(ARM)]]),
+        across: mesh.solve(across, &[[None, Some(ONE)]]),
+    };
+    let own = solved.own();
+    let mut numbers = own.to_vec();
+    (0..neighbours).for_each(|k| numbers.extend(solved.neighbour(k)));
+    let all_finite = numbers.iter().all(|number| number.is_finite());
+    for (number, less) in numbers.iter_mut().zip(half_space.direct) {
+        *number -= less;
+    }
+    let rest = numbers[OWN..].as_chunks_mut::<PER_NEIGHBOUR>().0.iter_mut();
+    for ((number, direct), cross) in rest.zip(&half_space.neighbours).zip(&half_space.cross) {
+        let [x, y, turn] = *direct;
+        number.iter_mut().zip([x, y, turn, cross.force]).for_each(|(n, less)| *n -= less);
+    }
+    let found = Added { numbers, sizes: [own[0], own[1], own[2]] };
+    all_finite.then_some(found).ok_or(Unresolved { footprint: *footprint, cells: n })
+}
+
+impl Mesh {
+    /// Solves for the tractions, `q` before `p`; the displacements of the middle rectangle along the row and across it are given,
+    /// those of its neighbours are 0.
+    fn solve(&self, equations: Mat<f64>, imposed: &[[Option<Profile>; 2]]) -> Mat<f64> {
+        let n = self.unknowns();
+        let mut right = Mat::zeros(2 * n, imposed.len());
+        for (load, parts) in imposed.iter().enumerate() {
+            for (first, middle) in [0, n].into_iter().zip(parts) {
+                let Some(middle) = *middle else { continue };
+                let part = self.imposed(&[Load { middle, neighbour: None }]);
+                right.submatrix_mut(first, load, n, 1).copy_from(&part);
+            }
+        }
+        DenseLu::new(equations).solve(right)
+    }
+}
+
+/// Tractions of the three loads.
+struct Tractions<'a> {
+    mesh: &'a Mesh,
+    pitch: f64,
+    /// Of a displacement along the row, and of a rotation.
+    along: Mat<f64>,
+    /// Of a displacement across it.
+    across: Mat<f64>,
+}
+
+impl Tractions<'_> {
+    fn own(&self) -> [f64; OWN] {
+        let n = self.mesh.unknowns();
+        let sum = |of: &Mat<f64>, load: usize, first: usize, arm: Profile| {
+            self.mesh.middle_sum(of.col(load).subrows(first, n), arm)
+        };
+        // Collocation leaves a little between the two, and an energy has one.
+        let roll = f64::midpoint(sum(&self.along, 1, 0, ONE), sum(&self.along, 0, n, ARM));
+        let direct = [(&self.along, 0, 0), (&self.across, 0, n)];
+        let [x, y] = direct.map(|(of, load, first)| sum(of, load, first, ONE));
+        [x, y, sum(&self.along, 1, n, ARM), roll]
+    }
+
+    fn neighbour(&self, k: usize) -> [f64; PER_NEIGHBOUR] {
+        let n = self.mesh.unknowns();
+        let centre = (k + 1) as f64 * self.pitch;
+        let forces = |of: &Mat<f64>, load: usize| {
+            let [q, p] = [0, n].map(|first| of.col(load).subrows(first, n));
+            [
+                self.mesh.neighbour_sum(k, q, ONE),
+                self.mesh.neighbour_sum(k, p, ONE),
+                self.mesh.neighbour_sum(k, p, |x| x - centre),
+            ]
+        };
+        let [push, turn] = [0, 1].map(|load| forces(&self.along, load));
+        let lifted = forces(&self.across, 0);
+        // The middle rectangle has two neighbours and they have one, so that the halves differ: their mean is what an energy has.
+        let lift = 0.5 * (push[1] - lifted[0]);
+        let roll = f64::midpoint(push[2], turn[0]);
+        [push[0], lifted[1], turn[2], turn[1], lift, roll]
+    }
+}
+
+/// A point of a cell with its weight, for the smooth part of the influence.
+type Point = [f64; 2];
+
+/// The points over the cells of a mesh: of each column of cells along the row, and of each row of them across it.
+struct Quadrature {
+    columns: Vec<Vec<Point>>,
+    depth: Vec<Vec<Point>>,
+}
+
+impl Quadrature {
+    /// Two Gauss points on parts of the cells, which are half as long as the layer is thick or less: right to 1e-4 of what is added.
+    fn new(mesh: &Mesh, near: &Mesh, footprint: &Footprint) -> Self {
+        let part = 0.5 * footprint.thickness_over_a();
+        let points = |(axis, near): (&GradedAxis, &GradedAxis)| {
+            let cell = |k: usize| {
+                let parts = (near.width(k) / part).ceil().max(1.0);
+                let width = axis.width(k) / parts;
+                let middle = |i: usize| axis.edges()[k] + (i as f64 + 0.5) * width;
+                let pair = |i: usize| {
+                    let half = 0.5 * width / 3.0_f64.sqrt();
+                    [-half, half].map(|by| [middle(i) + by, 0.5 * width])
+                };
+                (0..parts as usize).flat_map(pair).collect()
+            };
+            (0..axis.cells()).map(cell).collect::<Vec<Vec<Point>>>()
+        };
+        let columns = mesh.across().zip(near.across()).flat_map(points).collect();
+        Self { columns, depth: points((&mesh.depth, &near.depth)) }
+    }
+
+    /// The matrices of the two systems, each with the displacements along the row above those across it, `q` before `p`.
+    fn equations(&self, mesh: &Mesh, footprint: &Footprint) -> [Mat<f64>; 2] {
+        let n = mesh.unknowns();
+        let layer = Layer::of(footprint.poisson_ratio());
+        let mut systems = [Mat::zeros(2 * n, 2 * n), Mat::zeros(2 * n, 2 * n)];
+        let depth = mesh.depth.cells();
+        let fields: Vec<f64> = mesh.across().flat_map(GradedAxis::points).copied().collect();
+        for (k, &z) in mesh.depth.points().iter().enumerate() {
+            let mut columns = CellColumns::new(CornerLine::new(mesh.depth.mirrored_edges(), z));
+            for (i, &x) in fields.iter().enumerate() {
+                let smooth = self.at(&layer, footprint.thickness_over_a(), [x, z]);
+                let [right, left] = [1.0, -1.0].map(|side| columns.on_side(mesh, x, side));
+                for (column, smooth) in smooth.into_iter().enumerate() {
+                    // The edges of a mirror image descend, which turns its sign.
+                    let closed = [right[column], Influence::default() - left[column]];
+                    let [right, left] = [0, 1].map(|side| {
+                        smooth[side] + on_half_space(closed[side], footprint.poisson_ratio())
+                    });
+                    let place = [i * depth + k, column];
+                    fill(&mut systems[0], n, place, right, left, [1.0, -1.0]);
+                    fill(&mut systems[1], n, place, right, left, [-1.0, 1.0]);
+                }
+            }
+        }
+        systems
+    }
+
+    /// The smooth influence at a field point of each cell with its image in `z`, and of their images in `x`.
+    fn at(&self, layer: &Layer, thickness: f64, [x, z]: [f64; 2]) -> Vec<[Displacements; 2]> {
+        let of_cell = |column: &[Point], row: &[Point]| {
+            let mut sums = [Displacements::default(); 2];
+            for &[at_x, width] in column {
+                for &[at_z, depth] in row {
+                    for (sum, x) in sums.iter_mut().zip([x - at_x, x + at_x]) {
+                        let [one, image] =
+                            [z - at_z, z + at_z].map(|z| layer.beside_half_space(thickness, x, z));
+                        *sum = *sum + (one + image) * (width * depth);
+                    }
+                }
+            }
+            sums
+        };
+        let of_column = |column: &Vec<Point>| {
+            self.depth.iter().map(|row| of_cell(column, row)).collect::<Vec<_>>()
+        };
+        self.columns.iter().flat_map(of_column).collect()
+    }
+}
+
+/// What a cell does on the half-space.
+fn on_half_space(cell: Influence, poisson_ratio: f64) -> Displacements {
+    let (normal, shear) = (cell.normal(), cell.tangential(poisson_ratio));
+    Displacements { normal, shear, cross: 0.0 }
+}
+
+/// Fills the four entries of a cell: `signs` are those of `q` and of `p` in the image.
+fn fill(
+    matrix: &mut Mat<f64>,
+    n: usize,
+    [row, column]: [usize; 2],
+    right: Displacements,
+    left: Displacements,
+    [along, across]: [f64; 2],
+) {
+    matrix[(row, column)] = right.shear + along * left.shear;
+    matrix[(row, n + column)] = right.cross + across * left.cross;
+    matrix[(n + row, column)] = -(right.cross + along * left.cross);
+    matrix[(n + row, n + column)] = right.normal + across * left.normal;
+}

@@ -1,0 +1,235 @@
+//! Layers on a rigid base (S19)–(S22).
+
+use std::f64::consts::PI;
+
+use approx::assert_relative_eq;
+use faer::Mat;
+use faer::prelude::Solve;
+use substrate::layer::{Layer, beside_half_space};
+use substrate::{Coupling, Footprint, NEIGHBOURS, RowStiffness, StiffnessSlopes};
+
+/// Three squares at a gap of `0.2 a`.
+fn squares(thickness: f64) -> RowStiffness {
+    on(0.2, thickness, Coupling::Nearest)
+}
+
+fn on(gap: f64, thickness: f64, coupling: Coupling) -> RowStiffness {
+    let footprint = Footprint::new(gap, 2.0, 0.5).unwrap().on_layer(thickness).unwrap();
+    RowStiffness::of(&footprint, coupling).unwrap()
+}
+
+/// Every number of a stiffness.
+fn numbers(row: &RowStiffness) -> Vec<f64> {
+    let neighbours = row.neighbours.iter();
+    let of_neighbour =
+        neighbours.flat_map(|n| [n.direct.to_vec(), vec![n.cross, n.lift, n.roll]].concat());
+    row.direct.into_iter().chain([row.roll]).chain(of_neighbour).collect()
+}
+
+/// A layer of `h = G = 1` with waves `e^(ikx)` in the plane, solved for directly. Its displacements are `(i U, V)` of four fields, two gradients of
+/// harmonic functions and two of Papkovich and Neuber (`κ ψ e_y − y ∇ψ`), which vanish at `y = −1` together and carry a wave of traction at
+/// `y = 0`. Returns `U` and `V` at the surface, times `k`, of a normal traction 1, and of one `i` along `x`.
+fn wave(ratio: f64, k: f64) -> [[f64; 2]; 2] {
+    let kappa = 3.0 - 4.0 * ratio;
+    // U, V, and the tractions over i and 1, of each field at a depth.
+    let fields = |y: f64| {
+        [1.0, -1.0].map(|s: f64| {
+            let e = (s * k * y).exp();
+            let gradient = [k * e, s * k * e, 2.0 * s * k * k * e, 2.0 * k * k * e];
+            let (u, v) = (-k * y * e, (kappa - s * k * y) * e);
+            let u_slope = -k * e - s * k * k * y * e;
+            let v_slope = s * k * (kappa - s * k * y) * e - s * k * e;
+            let normal = 2.0 * v_slope + 4.0 * ratio * s * k * e;
+            [gradient, [u, v, u_slope + k * v, normal]]
+        })
+    };
+    let at = |y: f64| fields(y).concat();
+    let (bottom, top) = (at(-1.0), at(0.0));
+    let matrix = Mat::from_fn(4, 4, |row, field| match row {
+        0 | 1 => bottom[field][row],
+        _ => top[field][row],
+    });
+    let solution = |traction: [f64; 2]| {
+        let right = Mat::from_fn(4, 1, |row, _| if row < 2 { 0.0 } else { traction[row - 2] });
+        let found = matrix.partial_piv_lu().solve(right);
+        [0, 1].map(|part| k * (0..4).map(|field| found[(field, 0)] * top[field][part]).sum::<f64>())
+    };
+    [solution([0.0, 1.0]), solution([1.0, 0.0])]
+}
+
+/// The compliances, with the sign of the coupling, against a layer that is solved for directly.
+#[test]
+fn compliances_are_those_of_a_layer_solved_directly() {
+    for ratio in [0.5, 0.3, 0.0] {
+        for x in [0.05, 0.3, 1.0, 2.5, 4.0] {
+            let [[crossed, normal], [shear, back]] = wave(ratio, x);
+            let [n, mean, difference, cross] = beside_half_space(ratio, x);
+            let (left, incompressible) = (1.0 - ratio, 1.0 - 2.0 * ratio);
+            assert_relative_eq!(left + n, normal, epsilon = 1e-9);
+            assert_relative_eq!(left + mean + difference, shear, epsilon = 1e-9);
+            assert_relative_eq!(1.0 + mean - difference, x.tanh(), epsilon = 1e-9);
+            assert_relative_eq!(cross - 0.5 * incompressible, crossed, epsilon = 1e-9);
+            assert_relative_eq!(crossed, back, epsilon = 1e-9);
+        }
+    }
+}
+
+/// In real space against the trapezoidal rule, with the Bessel functions from their own integrals.
+#[test]
+fn point_loads_are_hankel_transforms() {
+    let bessel = |order: f64, z: f64| {
+        let wave = |k: u32| {
+            let t = PI * (f64::from(k) + 0.5) / 400.0;
+            (order * t - z * t.sin()).cos()
+        };
+        (0..400).map(wave).sum::<f64>() / 400.0
+    };
+    for ratio in [0.5, 0.2] {
+        for [x, z] in [[0.0, 0.0], [0.3, 0.1], [-1.7, 0.4], [2.0, -5.0], [9.0, 3.0]] {
+            let (thickness, r) = (1.5, f64::hypot(x, z));
+            let integral = |part: usize, order: f64| {
+                let step = 0.01;
+                let at = |k: u32| {
+                    let x = step * f64::from(k);
+                    let weight = if k == 0 { 0.5 } else { 1.0 };
+                    weight * beside_half_space(ratio, x)[part] * bessel(order, x * r / thickness)
+                };
+                // Cut at the other end; at this one the slope takes the rest of the rule away.
+                let slope = (at(1) - 2.0 * at(0)) / step;
+                (0..1600).map(at).sum::<f64>() * step + step * step / 12.0 * slope
+            };
+            let cos = if r > 0.0 { x / r } else { 0.0 };
+            let unit = 1.0 / (PI * (1.0 - ratio) * thickness);
+            let found = Layer::of(ratio).beside_half_space(thickness, x, z);
+            let shear = integral(1, 0.0) - (2.0 * cos * cos - 1.0) * integral(2, 2.0);
+            assert_relative_eq!(found.normal, unit * integral(0, 0.0), epsilon = 1e-6);
+            assert_relative_eq!(found.shear, unit * shear, epsilon = 1e-6);
+            assert_relative_eq!(found.cross, -unit * cos * integral(3, 1.0), epsilon = 1e-6);
+        }
+    }
+}
+
+/// What a layer adds falls with its thickness, the normal part as `1/h`.
+#[test]
+fn thick_layers_are_half_spaces() {
+    for coupling in [Coupling::Nearest, Coupling::Full] {
+        let half_space =
+            RowStiffness::of(&Footprint::new(0.2, 2.0, 0.5).unwrap(), coupling).unwrap();
+        let added = |thickness: f64| {
+            let layer = numbers(&on(0.2, thickness, coupling));
+            let added = layer.iter().zip(numbers(&half_space)).map(|(layer, half)| layer - half);
+            added.collect::<Vec<_>>()
+        };
+        let largest = |of: &[f64]| of.iter().fold(0.0_f64, |max, number| max.max(number.abs()));
+        let [thick, thicker] = [2e3, 2e4].map(added);
+        assert_relative_eq!(thick[1] / thicker[1], 10.0, max_relative = 0.01);
+        assert!(largest(&thicker) < 1e-4, "{thicker:?}");
+        assert!(largest(&added(1e9)) < 1e-8);
+    }
+}
+
+/// Values of an independent program on coarse meshes, printed to two digits: of an isolated square over the half-space, and the new
+/// couplings of three squares.
+#[test]
+fn layers_are_those_of_another_program() {
+    let alone = RowStiffness::of(&Footprint::new(100.0, 2.0, 0.5).unwrap(), Coupling::Nearest);
+    let alone = alone.unwrap().direct;
+    for (thickness, expected) in
+        [(10.0, [1.05, 1.15, 1.00]), (5.0, [1.11, 1.33, 1.01]), (2.0, [1.29, 2.12, 1.11])]
+    {
+        let found = on(100.0, thickness, Coupling::Nearest).direct;
+        for k in 0..3 {
+            assert_relative_eq!(found[k] / alone[k], expected[k], max_relative = 0.02);
+        }
+    }
+    for (thickness, along, roll, lift) in
+        [(4.0, 2.7, 0.013, 0.07), (2.0, 2.9, 0.10, 0.28), (1.0, 3.3, 0.51, 0.71)]
+    {
+        let row = squares(thickness);
+        assert_relative_eq!(row.direct[0], along, max_relative = 0.04);
+        assert_relative_eq!(row.roll.abs(), roll, max_relative = 0.05);
+        assert_relative_eq!(row.neighbours[0].lift.abs(), lift, max_relative = 0.11);
+    }
+}
+
+/// The estimated error bounds what another quadrature and other footprints show, and says where a layer is too thin.
+#[test]
+fn the_error_is_told_and_thin_layers_are_refused() {
+    for (thickness, bound) in [(10.0, 1e-4), (2.0, 3e-4), (1.0, 5e-4), (0.5, 2e-3)] {
+        let error = squares(thickness).error;
+        assert!(error < bound, "{thickness} {error:e}");
+    }
+    let refused = Footprint::new(0.2, 2.0, 0.5).unwrap().on_layer(0.2).unwrap_err();
+    assert!(refused.to_string().contains("a quarter of the half-width"), "{refused}");
+}
+
+/// Waves along an endless row, as (S12): nine entries of a Hermitian matrix, of which all eigenvalues are positive.
+#[test]
+fn the_stiffness_is_positive_definite() {
+    for thickness in [0.5, 1.0, 2.0, 5.0, 20.0] {
+        for (coupling, scales) in [(Coupling::Nearest, 1), (Coupling::Full, NEIGHBOURS)] {
+            let row = on(0.2, thickness, coupling);
+            assert_eq!(row.neighbours.len(), scales);
+            for step in 0..=100 {
+                let q = PI * f64::from(step) / 100.0;
+                let sum = |part: fn(f64) -> f64, of: &dyn Fn(usize) -> f64| -> f64 {
+                    (0..scales).map(|k| 2.0 * of(k) * part((k + 1) as f64 * q)).sum()
+                };
+                let n = &row.neighbours;
+                let own = [0, 1, 2].map(|i| row.direct[i] + sum(f64::cos, &|k| n[k].direct[i]));
+                let roll = row.roll + sum(f64::cos, &|k| n[k].roll);
+                let (lift, cross) = (sum(f64::sin, &|k| n[k].lift), sum(f64::sin, &|k| n[k].cross));
+                // With y turned by a quarter of a wave the matrix is real.
+                let matrix = Mat::from_fn(3, 3, |i, j| match (i.min(j), i.max(j)) {
+                    (0, 1) => lift,
+                    (0, 2) => roll,
+                    (1, 2) => -cross,
+                    _ => own[i],
+                });
+                let least = matrix.self_adjoint_eigenvalues(faer::Side::Lower).unwrap()[0];
+                assert!(least > 0.0, "{thickness} {coupling:?} {q} {least}");
+            }
+        }
+    }
+}
+
+/// Derivatives by all four numbers, and by all lengths together, against differences of whole stiffnesses.
+#[test]
+fn derivatives_are_those_of_differences() {
+    for (coupling, [gap, width, ratio, thickness]) in [
+        (Coupling::Nearest, [0.23, 1.7, 0.31, 2.6]),
+        (Coupling::Nearest, [1.4, 6.0, 0.5, 9.0]),
+        (Coupling::Full, [0.3, 2.4, 0.45, 1.9]),
+    ] {
+        let of = |gap: f64, width: f64, ratio: f64, thickness: f64| {
+            Footprint::new(gap, width, ratio).unwrap().on_layer(thickness).unwrap()
+        };
+        let at = |[gap, width, ratio, thickness]: [f64; 4]| {
+            numbers(&RowStiffness::of(&of(gap, width, ratio, thickness), coupling).unwrap())
+        };
+        let found = StiffnessSlopes::of(&of(gap, width, ratio, thickness), coupling).unwrap();
+        let step = 1e-3;
+        let center = [gap, width, ratio, thickness];
+        // Along a direction, by steps of two lengths.
+        let check = |slopes: &RowStiffness, along: [f64; 4]| {
+            let by = |steps: f64| at(std::array::from_fn(|i| center[i] + steps * step * along[i]));
+            let [near, far] = [1.0, 2.0].map(|k| by(k).into_iter().zip(by(-k)));
+            let expected: Vec<_> = near
+                .zip(far)
+                .map(|((a, b), (c, d))| (8.0 * (a - b) - (c - d)) / (12.0 * step))
+                .collect();
+            let largest = expected.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+            for (ours, expected) in numbers(slopes).iter().zip(expected) {
+                let off = (ours - expected).abs() / largest;
+                assert!(off < 1e-6, "{coupling:?} {along:?}: {ours} {expected} {off:e}");
+            }
+        };
+        check(&found.by_gap, [1.0, 0.0, 0.0, 0.0]);
+        check(&found.by_width, [0.0, 1.0, 0.0, 0.0]);
+        check(&found.by_size, [gap, width, 0.0, thickness]);
+        check(found.by_thickness.as_ref().unwrap(), [0.0, 0.0, 0.0, 1.0]);
+        if ratio < 0.5 {
+            check(&found.by_poisson_ratio, [0.0, 0.0, 1.0, 0.0]);
+        }
+    }
+}
