@@ -201,7 +201,8 @@ fn tolerances(
         let linear = measure.linear.as_ref().filter(|linear| linear.spread > 0.0)?;
         let deviation = format!("+- {}", rounded(linear.spread));
         let value = rounded(measure.value?);
-        Some([measure.name.clone(), value, deviation, measure.unit.to_owned(), linear.in_words()])
+        let unit = if measure.unit == "-" { "" } else { measure.unit };
+        Some([measure.name.clone(), value, deviation, unit.to_owned(), linear.in_words()])
     });
     let rows: Vec<_> = moved.collect();
     Ok(format!(

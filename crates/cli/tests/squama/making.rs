@@ -48,7 +48,7 @@ fn what_cannot_be_made_is_refused() {
         "--out skin.obj",
         "--out nowhere/skin.3mf",
         "--kerf 0.1",
-        "--out x.dxf --kerf 1.6",
+        "--out x.dxf --kerf 1.8",
         "--out x.dxf --kerf=-1",
         "--gap-across-mm 0",
         "--scales 0x4",
