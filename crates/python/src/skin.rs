@@ -11,6 +11,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{IntoPyDict as _, PyDict, PyTuple};
 use report::drawings::PunctureDrawing;
+use results::columns::measure_of;
 use run::Evaluator;
 use skin::flexure::Method;
 use skin::puncture::{At, snapshots};
@@ -101,20 +102,20 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     })
 }
 
-/// The measures of that name, or of a list of names; "all" are those that need no derivatives.
+/// The measures of that name, which may be that of a value too, or of a list of names; "all" are those that need no derivatives.
 pub fn measures(of: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<Measure>> {
     let Some(of) = of.filter(|of| !of.is_none()) else { return Ok(Measure::USUAL.to_vec()) };
     let names = of.extract().map(|name: String| vec![name]).or_else(|_| of.extract())?;
-    let known = |name: &String| match Measure::named(name) {
+    let known = |name: &String| match Measure::named(name).or_else(|| measure_of(name)) {
         Some(measure) => Ok(vec![measure]),
         None if name == "all" => Ok(Measure::USUAL.to_vec()),
         None => {
-            let expected = "all, coverage, puncture, flexure or sensitivity, or a list of these";
+            let expected =
+                "all, coverage, puncture, flexure, sensitivity, a value of these, or a list";
             Err(error::invalid_parameter(of.py(), "measures", Some(of.clone()), expected))
         }
     };
-    let measures: PyResult<Vec<_>> = names.iter().map(known).collect();
-    let mut measures = measures?.concat();
+    let mut measures = names.iter().map(known).collect::<PyResult<Vec<_>>>()?.concat();
     measures.sort();
     measures.dedup();
     Ok(measures)

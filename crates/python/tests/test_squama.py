@@ -213,6 +213,13 @@ def test_a_failure_is_an_error_where_it_is_used():
         SKIN.solve()["critical_forc"]
     with pytest.raises(KeyError, match="did you mean coverage"):
         table["coverag"]
+    with pytest.raises(KeyError, match="did you mean gap_over_t, times thickness_mm"):
+        table["gap_mm"]
+
+
+def test_a_value_may_be_asked_for_by_its_name():
+    only = SKIN.solve("penetration")
+    assert only["penetration"] == SKIN.solve()["penetration"] and np.isnan(only["compliance"])
 
 
 def test_errors_come_back_from_processes():

@@ -24,7 +24,8 @@ Examples:
   squama draw results/paper --gap 0.1 --length 1 --slant 15..60
 
 Draws the row at rest and at the critical tilt, or at the displacements u/t of --at. Contacts are red,
-arrows are forces between scales, bars are reactions of the substrate. With --flexure, draws the strip
+arrows are forces between scales, bars are reactions of the substrate. A guided needle stands straight below
+its place at rest; a ring is the place on the scale on which it was set down. With --flexure, draws the strip
 with its ends rotated by the angles of --at, in degrees.")]
 pub struct Arguments {
     #[command(flatten)]
@@ -123,6 +124,7 @@ impl Drawing<'_> {
             name: &name,
             design: &case.design,
             load_position: case.punctured().load_position,
+            guided: case.puncture.needle.is_guided(),
             thickness_mm: case.material.thickness_mm,
             states: &states,
         };

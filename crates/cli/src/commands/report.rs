@@ -191,6 +191,7 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
         name: &name,
         design: &case.design,
         load_position: case.punctured().load_position,
+        guided: case.puncture.needle.is_guided(),
         thickness_mm: case.material.thickness_mm,
         states: &states,
     };

@@ -178,6 +178,7 @@ class Skin:
         membrane_axis_offset_mm: float | None = None,
         membrane_length_mm: float | None = None,
         membrane_thickness_mm: float | None = None,
+        tissue_thickness_mm: float | None = None,
         width_mm: float | None = None,
     ) -> None: ...
     @property

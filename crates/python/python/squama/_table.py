@@ -14,7 +14,9 @@ def find(known, name, what):
     try:
         return known[name]
     except KeyError:
-        near = get_close_matches(str(name), known, 1)
+        # Tables have lengths over the thickness, also of skins that were given in mm.
+        over_t = str(name).removesuffix("_mm") + "_over_t"
+        near = [f"{over_t}, times thickness_mm"] if over_t in known else get_close_matches(str(name), known, 1)
         raise KeyError(f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
 
 

@@ -1,7 +1,7 @@
 //! A row of scales on its substrate, at rest and punctured.
 
 use contact::Pose;
-use geometry::{Corner, OutOfRange, Row};
+use geometry::{Corner, OutOfRange, Row, Vec2};
 use skin::Design;
 use skin::puncture::{RowSnapshot, ScaleState};
 
@@ -13,7 +13,7 @@ use super::view::View;
 use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
-use crate::svg::{Element, Spot, arrow, line, polygon, polyline, px};
+use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px};
 
 /// The largest scale of a drawing: px for a length of `t`.
 const LARGEST: f64 = 130.0;
@@ -37,6 +37,8 @@ pub struct PunctureDrawing<'a> {
     pub design: &'a Design,
     /// Place of the load on the top of the punctured scale.
     pub load_position: f64,
+    /// Whether the load is a needle that moves straight down, and not one that follows that place.
+    pub guided: bool,
     /// Thickness of the scales, mm, if it is known: then there is a scale bar.
     pub thickness_mm: Option<f64>,
     /// The states, from the top; the row at rest is drawn above them.
@@ -72,6 +74,7 @@ impl PunctureDrawing<'_> {
 struct RowSheet {
     row: Row,
     load_position: f64,
+    guided: bool,
     coverage: f64,
     /// Numbers of the first and the last scale shown.
     first: i64,
@@ -116,6 +119,7 @@ impl RowSheet {
         Ok(Self {
             row,
             load_position: puncture.load_position,
+            guided: puncture.guided,
             coverage: row.coverage(),
             first,
             last,
@@ -275,24 +279,37 @@ impl RowSheet {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Returns the ends of the arrow of the load; `None` without a load.
-    fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
+    /// Returns the place on the punctured scale on which the load was set down, at rest and as it stands; `None` without a load.
+    fn set_down(&self, state: &RowSnapshot) -> Option<[Vec2; 2]> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
-        let pose = pose(punctured);
-        let point = pose.displacement + pose.turn(left + self.load_position * (right - left));
-        let to = self.place(point.into());
+        let (pose, at_rest) = (pose(punctured), left + self.load_position * (right - left));
+        Some([at_rest, pose.displacement + pose.turn(at_rest)])
+    }
+
+    /// Returns the ends of the arrow of the load; `None` without a load.
+    fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
+        let [at_rest, follows] = self.set_down(state)?;
+        // A guided tip is straight below its place at rest, whatever the scale does.
+        let tip = at_rest + Vec2::new(0.0, -state.displacement);
+        let to = self.place(if self.guided { tip } else { follows }.into());
         let length = (self.force * state.force * self.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
+    /// Returns the load; of a needle that is guided also a ring round the place on the scale on which it was set down: how far the
+    /// tip is from it tells how it has moved there, or that it has passed.
     fn load(&self, state: &RowSnapshot) -> Element {
         let drawn = self.load_arrow(state).map(|[from, to]| {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        Element::group("load").containing(drawn.into_iter().flatten())
+        let ring = self.set_down(state).filter(|_| self.guided).map(|[_, follows]| {
+            let ring = circle(self.place(follows.into()), 3.5);
+            ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
+        });
+        Element::group("load").containing(drawn.into_iter().flatten().chain(ring))
     }
 
     /// Returns the angle between the base of the punctured scale and its place at rest.

@@ -4,7 +4,7 @@ mod overlap;
 mod page;
 
 use report::drawings;
-use skin::puncture::{At, PunctureParameters, RowSnapshot, snapshots};
+use skin::puncture::{At, Needle, PunctureParameters, RowSnapshot, snapshots};
 use skin::{Base, Common, Design};
 use substrate::Springs;
 
@@ -30,12 +30,45 @@ fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
 }
 
 fn svg(design: &Design, states: &[RowSnapshot]) -> String {
+    drawn(design, states, false)
+}
+
+fn drawn(design: &Design, states: &[RowSnapshot], guided: bool) -> String {
     let drawing = drawings::PunctureDrawing {
         name: "test",
         design,
         load_position: 1.0,
+        guided,
         thickness_mm: None,
         states,
     };
     drawing.svg().expect("a drawing")
+}
+
+/// A needle that is guided stands at one place in all panels, whatever the scale below it does, and a ring goes with the scale.
+#[test]
+fn a_guided_needle_stays_where_it_was_set_down() {
+    let design = design(45.0);
+    let springs: Springs =
+        substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
+    let needle = Needle::Guided { friction: 0.3 };
+    let parameters = PunctureParameters { needle, ..PunctureParameters::default() };
+    let at = [At::Displacement(0.05), At::Displacement(0.1)];
+    let solved =
+        snapshots(&design, &springs, &Common::default(), &parameters, &at).expect("a design");
+    let states: Vec<_> = solved.at.into_iter().map(|state| state.expect("reached")).collect();
+    let text = drawn(&design, &states, true);
+    // The first number of that name behind the beginning of each group of a load.
+    let places = |name: &str| -> Vec<f64> {
+        let loads = text.split("class=\"load\"").skip(1);
+        let after = |load: &str| load.split(&format!(" {name}=\"")).nth(1).map(str::to_owned);
+        let numbers = loads.filter_map(after);
+        numbers.map(|rest| rest.split('"').next().expect("an end").parse().expect("px")).collect()
+    };
+    let [needles, rings] = ["x1", "cx"].map(places);
+    assert_eq!((needles.len(), rings.len()), (2, 2), "{text}");
+    assert_eq!(needles[0], needles[1]);
+    assert!(rings[0] > needles[0] + 1.0 && rings[1] > rings[0], "{rings:?} {needles:?}");
+    let follows = svg(&design, &states);
+    assert!(!follows.contains("set-down"));
 }
