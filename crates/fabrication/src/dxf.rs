@@ -1,4 +1,4 @@
-//! DXF of outlines: closed polylines in millimetres, in the form of AutoCAD 2000.
+//! DXF of outlines: closed polylines in millimetres, in the form of the year 2000 (`AC1015`), the first that knows them.
 
 use std::fmt::Write as _;
 
@@ -75,7 +75,7 @@ impl Groups {
         self.add(&[(0, kind), (5, &handle), (330, owner)]);
     }
 
-    /// The tables that AutoCAD refuses to do without, most of them empty.
+    /// The tables that `AutoCAD` refuses to do without, most of them empty.
     fn tables(&mut self) {
         self.section("TABLES", |groups| {
             groups.table("VPORT", "8", |_, _| {});

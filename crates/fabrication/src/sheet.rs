@@ -37,7 +37,7 @@ pub enum NoSheet {
     #[error("{0} is {1} mm, expected a length of at least 0")]
     Length(&'static str, f64),
     /// The beam is as wide as a hole.
-    #[error("a kerf of {0} mm leaves no hole in the template, which needs holes of {1} mm")]
+    #[error("a kerf of {0} mm leaves no hole in the template, which needs holes of {1:.4} mm")]
     Kerf(f64, f64),
 }
 

@@ -94,7 +94,7 @@ pub fn make(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> 
     if format.is_flat() && !sheet.has_template() {
         let missing = no_template(&sheet, template);
         note(&missing);
-        list.push_str(&format!("\n{missing}\n"));
+        list = format!("{list}\n{missing}\n");
     }
     list.push_str(&tolerances(design, out, interrupt)?);
     let list_file = out.with_extension("parts.txt");
