@@ -230,24 +230,17 @@ impl Pair {
     /// ```
     pub fn gap(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
         let meeting = self.meeting(corner_edge, left, right);
-        let Meeting { arm, normal, to_corner, .. } = meeting;
-        let normal_turned = quarter(normal);
-        // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
-        let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
-        let mut gradient = [0.0; 6];
-        let mut hessian = [[0.0; 6]; 6];
-        for axis in 0..2 {
-            gradient[a + axis] = normal[axis];
-            gradient[b + axis] = -normal[axis];
-            set(&mut hessian, a + axis, b + 2, normal_turned[axis]);
-            set(&mut hessian, b + axis, b + 2, -normal_turned[axis]);
-        }
-        gradient[a + 2] = quarter(arm).dot(&normal);
-        gradient[b + 2] = to_corner.dot(&normal_turned);
-        set(&mut hessian, a + 2, a + 2, -arm.dot(&normal));
-        set(&mut hessian, a + 2, b + 2, arm.dot(&normal));
-        set(&mut hessian, b + 2, b + 2, -to_corner.dot(&normal));
-        Gap { value: meeting.gap, gradient, hessian, foot: meeting.foot, normal }
+        meeting.along(corner_edge, meeting.normal, meeting.gap)
+    }
+
+    /// How far the left scale has slid along an edge on the right one, or the other way round, with all its derivatives: positive where
+    /// the left scale has moved in the direction of the force on it, turned counter-clockwise by a quarter. Counted from the node of the
+    /// scale of the edge, in the form of [`Pair::gap`] with (C1) to (C3) for the quarter turn of the normal; its own `normal` is that
+    /// direction for the scale of the corner.
+    pub fn slide(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
+        let meeting = self.meeting(corner_edge, left, right);
+        let along = quarter(meeting.normal);
+        meeting.along(corner_edge, along, meeting.to_corner.dot(&along))
     }
 
     /// The gap between a corner and an edge alone.
@@ -297,6 +290,30 @@ struct Meeting {
     to_corner: Vec2,
     gap: f64,
     foot: f64,
+}
+
+impl Meeting {
+    /// The coordinate of the corner along a direction that turns with the edge.
+    fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
+        let Self { arm, to_corner, foot, .. } = *self;
+        let turned = quarter(direction);
+        // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
+        let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
+        let mut gradient = [0.0; 6];
+        let mut hessian = [[0.0; 6]; 6];
+        for axis in 0..2 {
+            gradient[a + axis] = direction[axis];
+            gradient[b + axis] = -direction[axis];
+            set(&mut hessian, a + axis, b + 2, turned[axis]);
+            set(&mut hessian, b + axis, b + 2, -turned[axis]);
+        }
+        gradient[a + 2] = quarter(arm).dot(&direction);
+        gradient[b + 2] = to_corner.dot(&turned);
+        set(&mut hessian, a + 2, a + 2, -arm.dot(&direction));
+        set(&mut hessian, a + 2, b + 2, arm.dot(&direction));
+        set(&mut hessian, b + 2, b + 2, -to_corner.dot(&direction));
+        Gap { value, gradient, hessian, foot, normal: direction }
+    }
 }
 
 fn set(hessian: &mut [[f64; 6]; 6], row: usize, column: usize, value: f64) {

@@ -37,6 +37,8 @@ pub struct ContactLaw {
     /// `L`.
     length: f64,
     exponent: f64,
+    /// `μ` between two scales.
+    friction: f64,
 }
 
 /// Part of `λ₀` below which the slope of the law is taken at this force: it may be infinite at zero.
@@ -69,7 +71,23 @@ impl ContactLaw {
             let is_positive = value > 0.0 && value.is_finite();
             OutOfRange::unless(is_positive, quantity, value, "a positive number")?;
         }
-        Ok(Self { force: law.c1 * length * width * modulus, length, exponent: law.c2 })
+        let force = law.c1 * length * width * modulus;
+        Ok(Self { force, length, exponent: law.c2, friction: 0.0 })
+    }
+
+    /// The law for scales that rub, with Coulomb's coefficient of friction `μ`.
+    ///
+    /// # Errors
+    /// If it is negative or not finite.
+    pub fn with_friction(self, friction: f64) -> Result<Self, OutOfRange> {
+        let is_legal = friction >= 0.0 && friction.is_finite();
+        OutOfRange::unless(is_legal, "friction between scales", friction, "a number from 0 on")?;
+        Ok(Self { friction, ..self })
+    }
+
+    /// The coefficient of friction between two scales.
+    pub fn friction(&self) -> f64 {
+        self.friction
     }
 
     /// Approach under a force, Eq. (C4); continued as an odd function to forces below zero, where

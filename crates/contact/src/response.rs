@@ -42,7 +42,7 @@ impl CornerContact {
         law: &ContactLaw,
         forces: [f64; FORCES],
     ) -> CornerResponse {
-        let mut response = self.acting_response(corners, law, forces);
+        let mut response = self.acting_response(corners, law, forces, 0.0);
         let resting = self.resting_conditions(corners);
         for (condition, resting) in response.conditions.iter_mut().zip(resting) {
             *condition = condition.or(resting);
@@ -64,18 +64,21 @@ impl CornerContact {
         }
     }
 
-    /// The response of [`CornerContact::response`] without the conditions of the forces that do not act.
+    /// The response of [`CornerContact::response`] without the conditions of the forces that do not act. Where corners are together the
+    /// force on the left scale has a part across it besides, `held` times as large, a quarter turn counter-clockwise: friction with which
+    /// they came. The law knows nothing of it.
     pub fn acting_response(
         self,
         corners: &Corners,
         law: &ContactLaw,
         forces: [f64; FORCES],
+        held: f64,
     ) -> CornerResponse {
         match self {
             Self::Open => CornerResponse::default(),
             Self::Edge(edge) => CornerResponse::edge(edge, corners, law, forces),
             Self::Corner(edge) => {
-                Together::new(corners, corners.together(edge)).response(law, forces)
+                Together::new(corners, corners.together(edge)).response(law, forces, held)
             }
             Self::Flush(edge) => {
                 let mut response = CornerResponse::edge(edge, corners, law, forces);
@@ -225,11 +228,21 @@ impl Together {
     }
 
     /// Corner on corner: both forces act, (C5) and (C6).
-    fn response(&self, law: &ContactLaw, [own, partner, _]: [f64; FORCES]) -> CornerResponse {
+    fn response(
+        &self,
+        law: &ContactLaw,
+        [own, partner, _]: [f64; FORCES],
+        held: f64,
+    ) -> CornerResponse {
         let force = own * self.normals[0] + partner * self.normals[1];
         let turning = std::array::from_fn(|i| self.force_slope([own, partner], i));
         let [closed, at_end] = self.conditions(law, force, &turning);
-        let balance = self.balance(force, &turning);
+        let with_friction = |force: Vec2| force + held * quarter(force);
+        let balance = self.balance(
+            with_friction(force),
+            &turning.map(with_friction),
+            self.normals.map(with_friction),
+        );
         CornerResponse { balance, conditions: [Some(closed), Some(at_end), None] }
     }
 
@@ -258,11 +271,16 @@ impl Together {
         [closed, at_end]
     }
 
-    /// The balance of both scales under a force `f` that changes by `turning` with each coordinate.
-    fn balance(&self, f: Vec2, turning: &[Vec2; COORDINATES]) -> [Equation; COORDINATES] {
+    /// The balance of both scales under a force `f` that changes by `turning` with each coordinate, and by `parts` with `λ` and `λ'`.
+    fn balance(
+        &self,
+        f: Vec2,
+        turning: &[Vec2; COORDINATES],
+        parts: [Vec2; 2],
+    ) -> [Equation; COORDINATES] {
         let mut balance = std::array::from_fn(|row| {
             let moved = self.apart_slope(row);
-            let [own, partner] = self.normals.map(|normal| -normal.dot(&moved));
+            let [own, partner] = parts.map(|part| -part.dot(&moved));
             Equation {
                 value: -f.dot(&moved),
                 by_coordinate: turning.map(|df| -df.dot(&moved)),

@@ -260,7 +260,8 @@ impl Skin {
             let drawing = PunctureDrawing {
                 name: NAME,
                 design: &case.design,
-                load_position: case.puncture.load_position,
+                load_position: case.punctured().load_position,
+                guided: case.puncture.needle.is_guided(),
                 thickness_mm: case.material.thickness_mm,
                 states: &states,
             };
@@ -269,8 +270,7 @@ impl Skin {
     }
 
     fn __repr__(&self) -> String {
-        let given =
-            self.given().map(|(parameter, of)| format!("{}={}", parameter.key, of.to_toml()));
+        let given = self.given().map(|(of, value)| format!("{}={}", of.key, value.to_toml()));
         format!("Skin({})", given.collect::<Vec<_>>().join(", "))
     }
 

@@ -8,6 +8,8 @@ use solver::Settings;
 pub struct Common {
     /// Contact law between scales.
     pub law: Law,
+    /// Coefficient of friction `μ` between two scales.
+    pub friction: f64,
     /// Steps and tolerances with which paths are followed.
     pub solver: Settings,
 }
@@ -15,6 +17,6 @@ pub struct Common {
 impl Default for Common {
     /// The law as Shafiei et al. (2021) print it.
     fn default() -> Self {
-        Self { law: Law::PRINTED, solver: Settings::default() }
+        Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default() }
     }
 }

@@ -1,29 +1,40 @@
 //! The contacts of a row of scales, assembled.
 
+mod assembly;
 mod audit;
 mod change;
 mod closed;
 mod mode;
+mod rubbing;
+mod stick_slip;
 mod stiffness;
 
 pub use change::ContactChange;
 pub use closed::Contact;
 pub(crate) use mode::SkinMode;
+use rubbing::{Rub, WAY};
 
 use contact::{
-    COORDINATES, ContactLaw, CornerContact, CornerEdge, CornerResponse, Corners, Equation, FORCES,
-    Force, Level, Pair, Pose,
+    COORDINATES, ContactLaw, CornerContact, CornerEdge, Corners, Equation, FORCES, Force, Level,
+    Pair, Pose,
 };
 use geometry::Parallelogram;
-use solver::{Change, Residual, Tangent};
+use solver::Change;
 
 use crate::arrangement::Arrangement;
 
 /// The levels of a pair, each with a contact of its own.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
 
-/// Contact forces between neighbours.
-pub(crate) const PAIR_FORCES: usize = LEVELS.len() * FORCES;
+/// Constraints of the contacts between two neighbours under this law: their forces, and what they rub with.
+pub(crate) fn pair_constraints(law: &ContactLaw) -> usize {
+    LEVELS.len() * slots(law)
+}
+
+/// Constraints of a contact under this law.
+fn slots(law: &ContactLaw) -> usize {
+    if law.friction() > 0.0 { FORCES + 2 } else { FORCES }
+}
 
 /// Value of the condition of a force that cannot act next: any number above zero, for it is neither violated nor solved
 /// for.
@@ -39,7 +50,7 @@ pub(crate) type SkinPoint = solver::Point<SkinMode>;
 ///
 /// Contact `2 i` is the upper, `2 i + 1` the lower one of the scales `i`, `i + 1`. Their forces are the
 /// constraints of the system: number `3 j` is the contact's own force `λ`, `3 j + 1` its partner's `λ'` and
-/// `3 j + 2` that of its flush contact, `λ''`.
+/// `3 j + 2` that of its flush contact, `λ''`. Where scales rub each contact has two more, its grip and its way.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     arrangement: Arrangement,
@@ -50,8 +61,14 @@ pub(crate) struct Contacts {
     scales: Vec<Option<usize>>,
     /// Whether each scale is placed in the frame of its left neighbour.
     relative: bool,
-    /// Unknown of each force.
+    /// Constraints of each contact.
+    slots: usize,
+    /// Unknown of each constraint.
     forces: Vec<usize>,
+    /// Numbers of the ways that contacts slip, which only grow.
+    growing: Vec<usize>,
+    /// Contacts whose anchor differs from that of a row of which this is a neighbour, and by how much.
+    moved: Vec<(usize, f64)>,
 }
 
 impl Contacts {
@@ -61,9 +78,13 @@ impl Contacts {
         scales: Vec<Option<usize>>,
         forces: Vec<usize>,
     ) -> Self {
-        debug_assert_eq!(forces.len(), PAIR_FORCES * scales.len().saturating_sub(1));
+        let slots = slots(&law);
+        debug_assert_eq!(forces.len(), pair_constraints(&law) * scales.len().saturating_sub(1));
         let pair_shapes = arrangement.pairs();
-        Self { arrangement, pair_shapes, law, scales, relative: false, forces }
+        let ways = (0..forces.len()).filter(|number| number % slots == WAY);
+        let growing = ways.collect();
+        let (relative, moved) = (false, Vec::new());
+        Self { arrangement, pair_shapes, law, scales, relative, slots, forces, growing, moved }
     }
 
     /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
@@ -97,24 +118,47 @@ impl Contacts {
         &self.forces
     }
 
+    /// Numbers of the constraints whose unknown only grows.
+    pub(crate) fn growing(&self) -> &[usize] {
+        &self.growing
+    }
+
     /// The state of rest of all contacts.
     pub(crate) fn open(&self) -> SkinMode {
-        let contacts = vec![CornerContact::Open; self.forces.len() / FORCES];
-        SkinMode { contacts, ..SkinMode::default() }
+        let contacts = vec![CornerContact::Open; self.forces.len() / self.slots];
+        let rubs = if self.rub() { vec![Rub::None; contacts.len()] } else { Vec::new() };
+        SkinMode { contacts, rubs, ..SkinMode::default() }
+    }
+
+    /// The contact that a constraint belongs to, and its number there.
+    pub(crate) fn contact_of(&self, constraint: usize) -> (usize, usize) {
+        (constraint / self.slots, constraint % self.slots)
+    }
+
+    /// The constraints of the pair that a constraint belongs to, where scales rub: each of them may begin to slip with it.
+    pub(crate) fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        if !self.rub() {
+            return constraint..constraint + 1;
+        }
+        let pair = LEVELS.len() * self.slots;
+        let first = constraint / pair * pair;
+        first..first + pair
     }
 
     /// The left scale of the pair that a constraint belongs to.
-    pub(crate) fn left_of(constraint: usize) -> usize {
-        constraint / PAIR_FORCES
+    pub(crate) fn left_of(&self, constraint: usize) -> usize {
+        Self::left(constraint / self.slots)
     }
 
     /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
-    pub(crate) fn corner_edge(mode: &[CornerContact], constraint: usize) -> Option<CornerEdge> {
-        let edge = mode[constraint / FORCES].edge()?;
-        match Force::ALL[constraint % FORCES] {
-            Force::Own | Force::Partner => Some(edge),
-            Force::Flush => edge.flush(),
-        }
+    pub(crate) fn corner_edge(
+        &self,
+        mode: &[CornerContact],
+        constraint: usize,
+    ) -> Option<CornerEdge> {
+        let (contact, slot) = self.contact_of(constraint);
+        let edge = mode[contact].edge()?;
+        if slot == Force::Flush as usize { edge.flush() } else { Some(edge) }
     }
 
     /// Pose of a scale, in the frame in which it is placed.
@@ -167,68 +211,12 @@ impl Contacts {
         state.mode.iter().any(|contact| matches!(contact, CornerContact::Flush(_)))
     }
 
-    /// Adds what the closed contacts contribute to the equations and to the tangent.
-    pub(crate) fn linearise(
-        &self,
-        state: &SkinState,
-        residual: &mut Residual,
-        matrix: &mut impl Tangent,
-    ) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_response(contact, acting, response, residual);
-            self.add_derivatives(contact, acting, response, matrix);
-        });
-    }
-
-    /// Shows the response of every closed contact, and which of its forces act.
-    fn for_closed(
-        &self,
-        state: &SkinState,
-        mut show: impl FnMut(usize, [bool; FORCES], &CornerResponse),
-    ) {
-        for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
-            if modes.iter().all(|mode| *mode == CornerContact::Open) {
-                continue;
-            }
-            let poses = [self.left_pose(&state.z, left), self.pose(&state.z, left + 1)];
-            for (contact, mode) in Self::contacts_of(left).zip(modes) {
-                if *mode != CornerContact::Open {
-                    let forces = self.forces_of(&state.z, contact);
-                    let corners = self.corners(contact, &poses);
-                    show(
-                        contact,
-                        mode.acting(),
-                        &mode.acting_response(&corners, &self.law, forces),
-                    );
-                }
-            }
-        }
-    }
-
-    fn add_response(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        residual: &mut Residual,
-    ) {
-        for Part { unknown, coordinate, sign } in self.parts(contact).into_iter().flatten() {
-            residual.add(unknown, sign * response.balance[coordinate].value);
-        }
-        let unknowns = self.unknowns_of(contact);
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            if let Some(condition) = &response.conditions[force] {
-                residual.add(unknowns[force], condition.value);
-            }
-        }
-    }
-
     /// Replaces `values` by the conditions of all forces that do not act.
     pub(crate) fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         values.clear();
         values.resize(self.forces.len(), HOLDS);
         self.for_each(state, |contact, corners| {
-            let values = &mut values[FORCES * contact..][..FORCES];
+            let values = &mut values[self.slots * contact..][..FORCES];
             match state.mode[contact] {
                 CornerContact::Open => {
                     values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
@@ -242,6 +230,7 @@ impl Contacts {
                 }
             }
         });
+        self.friction_conditions(state, values);
     }
 
     /// Replaces `slopes` by the derivatives of the conditions of all forces that do not act.
@@ -255,112 +244,37 @@ impl Contacts {
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
             let conditions = state.mode[contact].resting_conditions(corners);
-            for (slope, condition) in slopes[FORCES * contact..].iter_mut().zip(conditions) {
+            for (slope, condition) in slopes[self.slots * contact..].iter_mut().zip(conditions) {
                 *slope =
                     condition.map_or(0.0, |condition| self.along(contact, &condition, direction));
             }
         });
+        self.friction_slopes(state, direction, slopes);
     }
 
     /// The condition of a force that does not act.
     pub(crate) fn condition(&self, state: &SkinState, constraint: usize) -> f64 {
-        let contact = constraint / FORCES;
+        let (contact, slot) = self.contact_of(constraint);
+        if slot >= FORCES {
+            let value = self.slot_condition(state, &state.z, contact, slot);
+            return value.unwrap_or(HOLDS);
+        }
         let poses = self.pair_poses(&state.z, contact);
         let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
-        conditions[constraint % FORCES].map_or(HOLDS, |condition| condition.value)
-    }
-
-    fn add_derivatives(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        matrix: &mut impl Tangent,
-    ) {
-        match (
-            self.relative,
-            self.scales[Self::left(contact)],
-            self.scales[Self::left(contact) + 1],
-        ) {
-            (false, Some(left), Some(right)) => {
-                self.add_blocks(contact, acting, response, [left, right], matrix);
-            }
-            _ => self.add_parts(contact, acting, response, matrix),
-        }
-    }
-
-    /// Adds derivatives where the coordinates of the pair are unknowns, three of each scale in succession.
-    fn add_blocks(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        scales: [usize; 2],
-        matrix: &mut impl Tangent,
-    ) {
-        let unknowns = self.unknowns_of(contact);
-        let three = |row: &[f64; COORDINATES], side: usize| -> [f64; 3] {
-            std::array::from_fn(|k| row[3 * side + k])
-        };
-        for (i, row) in scales.into_iter().enumerate() {
-            let balance: [&Equation; 3] = std::array::from_fn(|k| &response.balance[3 * i + k]);
-            for (j, column) in scales.into_iter().enumerate() {
-                let block = balance.map(|equation| three(&equation.by_coordinate, j));
-                matrix.add_block(row, column, &block);
-            }
-            for force in (0..FORCES).filter(|&force| acting[force]) {
-                let column = balance.map(|equation| [equation.by_force[force]]);
-                matrix.add_block(row, unknowns[force], &column);
-            }
-        }
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            let Some(condition) = &response.conditions[force] else { continue };
-            for (j, column) in scales.into_iter().enumerate() {
-                matrix.add_block(unknowns[force], column, &[three(&condition.by_coordinate, j)]);
-            }
-            for other in (0..FORCES).filter(|&other| acting[other]) {
-                matrix.add(unknowns[force], unknowns[other], condition.by_force[other]);
-            }
-        }
-    }
-
-    /// Adds derivatives where coordinates of the pair are sums of unknowns.
-    fn add_parts(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        matrix: &mut impl Tangent,
-    ) {
-        let parts = self.parts(contact);
-        let unknowns = self.unknowns_of(contact);
-        let mut add_row = |row: usize, sign: f64, equation: &Equation| {
-            for part in parts.iter().flatten() {
-                let slope = part.sign * equation.by_coordinate[part.coordinate];
-                matrix.add(row, part.unknown, sign * slope);
-            }
-            for force in (0..FORCES).filter(|&force| acting[force]) {
-                matrix.add(row, unknowns[force], sign * equation.by_force[force]);
-            }
-        };
-        for part in parts.iter().flatten() {
-            add_row(part.unknown, part.sign, &response.balance[part.coordinate]);
-        }
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            if let Some(condition) = &response.conditions[force] {
-                add_row(unknowns[force], 1.0, condition);
-            }
-        }
+        conditions[slot].map_or(HOLDS, |condition| condition.value)
     }
 
     /// Derivative of the condition of a force along a direction; zero if there is no such condition.
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
-        let contact = constraint / FORCES;
+        let (contact, slot) = self.contact_of(constraint);
+        if slot >= FORCES {
+            return self.slot_slope(state, direction, contact, slot);
+        }
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         let corners = self.corners(contact, &poses);
         let response = state.mode[contact].response(&corners, &self.law, forces);
-        let condition = response.conditions[constraint % FORCES];
+        let condition = response.conditions[slot];
         condition.map_or(0.0, |condition| self.along(contact, &condition, direction))
     }
 
@@ -379,8 +293,11 @@ impl Contacts {
     /// Takes the contact of a force that has changed sides to its next state. Returns the force whose condition has to
     /// hold as the path goes on, or `None` if the contact has no such transition.
     pub(crate) fn transition(&self, state: &mut SkinState, change: Change) -> Option<usize> {
-        let contact = change.constraint / FORCES;
-        let force = Force::ALL[change.constraint % FORCES];
+        let (contact, slot) = self.contact_of(change.constraint);
+        let first = self.slots * contact;
+        let Some(&force) = Force::ALL.get(slot) else {
+            return Some(first + self.change_friction(state, contact, slot, change.activated)?);
+        };
         let poses = self.pair_poses(&state.z, contact);
         let next = state.mode[contact].transition(
             force,
@@ -388,12 +305,15 @@ impl Contacts {
             &self.corners(contact, &poses),
             self.forces_of(&state.z, contact),
         )?;
+        let before = self.rub().then(|| state.clone());
         state.mode[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;
         }
-        let first = FORCES * contact;
         state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
+        if let Some(before) = before {
+            self.carry_friction(state, &before, contact, force == Force::Partner);
+        }
         Some(first + next.valid as usize)
     }
 
@@ -432,7 +352,7 @@ impl Contacts {
 
     /// Unknowns of the forces of a contact.
     fn unknowns_of(&self, contact: usize) -> [usize; FORCES] {
-        std::array::from_fn(|k| self.forces[FORCES * contact + k])
+        std::array::from_fn(|k| self.forces[self.slots * contact + k])
     }
 
     /// Values of the forces of a contact.

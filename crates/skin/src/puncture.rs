@@ -33,7 +33,7 @@ use system::{Chain, Layout};
 use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
-use crate::contacts::SkinPoint;
+use crate::contacts::{SkinPoint, pair_constraints};
 use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
 use crate::{Common, Design, Sample, Status};
 
@@ -282,7 +282,8 @@ impl<'a> Problem<'a> {
     ) -> Result<Self, OutOfRange> {
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
-        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?;
+        let law = ContactLaw::new(common.law, design.length, design.width, modulus)?
+            .with_friction(common.friction)?;
         let endless = match parameters.scales {
             RowLength::Auto => Some(far_field(design, &stiffness, None).ok_or(OutOfRange {
                 quantity: "direct stiffness of the substrate",
@@ -304,7 +305,7 @@ impl<'a> Problem<'a> {
         let law = self.parameters.substrate_law;
         let first = |far: &FarField| {
             let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
-            Layout { needle: self.needle_unknowns(), ..layout }
+            Layout { needle: self.needle_unknowns(), pair: pair_constraints(&self.law), ..layout }
         };
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(first);
@@ -326,7 +327,8 @@ impl<'a> Problem<'a> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
                 let left = (scales - 1) / 2;
-                Some(Layout { left, right: scales - 1 - left, needle: self.needle_unknowns() })
+                let (needle, pair) = (self.needle_unknowns(), pair_constraints(&self.law));
+                Some(Layout { left, right: scales - 1 - left, needle, pair })
             }
             RowLength::Auto => None,
         }

@@ -67,6 +67,8 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
+    /// What friction between neighbours has taken up to each point of the path.
+    pub(crate) friction_work: Vec<f64>,
     initial_stiffness: f64,
     stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
@@ -85,6 +87,7 @@ impl<S: Skin> Record<S> {
             path: vec![skin.path_point(start)],
             events: Vec::new(),
             history: Vec::new(),
+            friction_work: vec![0.0],
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -98,7 +101,10 @@ impl<S: Skin> Record<S> {
     /// Records the `point` that the path has come to, `from` the one before.
     pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
+        let spans = path.spans(from, point);
         let skin = path.system();
+        let before = self.friction_work.last().copied().unwrap_or_default();
+        self.friction_work.push(before + skin.contacts().friction_work(from, point, spans));
         let (here, step) = (skin.path_point(point), self.path.len());
         let angle_deg = skin.angle_deg(&point.state);
         let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
@@ -146,13 +152,14 @@ impl<S: Skin> Record<S> {
             // A guided needle has changes of its own.
             return None;
         }
-        let corner_edge = |mode| Contacts::corner_edge(mode, change.constraint);
+        let contacts = skin.contacts();
+        let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
         Some(ContactEvent {
             point,
-            left_scale: skin.number(Contacts::left_of(change.constraint)),
+            left_scale: skin.number(contacts.left_of(change.constraint)),
             // A contact that has opened had its corner and edge before.
             corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
-            change: ContactChange::of(after, change),
+            change: ContactChange::of(contacts, after, change),
         })
     }
 

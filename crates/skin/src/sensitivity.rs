@@ -10,7 +10,7 @@ mod places;
 use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
 
 use crate::ContactChange;
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::SkinState;
 use crate::record::Skin;
 
 pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
@@ -214,12 +214,37 @@ impl<S: Skin> Linearised<'_, S> {
         if change.constraint >= self.system.contacts().forces().len() {
             return "the needle moves otherwise".to_owned();
         }
-        let edge = |state: &SkinState| Contacts::corner_edge(&state.mode, change.constraint);
+        let contacts = self.system.contacts();
+        let edge = |state: &SkinState| contacts.corner_edge(&state.mode, change.constraint);
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
-        let scale = self.system.number(Contacts::left_of(change.constraint));
+        let scale = self.system.number(contacts.left_of(change.constraint));
         let scale = scale.map_or(String::new(), |scale| format!(" right of scale {scale}"));
-        format!("{edge}{scale} {}", ContactChange::of(after, change).name())
+        format!("{edge}{scale} {}", ContactChange::of(contacts, after, change).name())
     }
+}
+
+/// Derivatives that are not known, because what sticks keeps something of the way that a parameter changes in an unknown way.
+pub(crate) fn missing<S: Skin>(
+    skin: &S,
+    spots: &[MeasuredPoint<S>],
+    parameters: usize,
+) -> Vec<Derivative> {
+    let mut derivatives = Vec::new();
+    for MeasuredPoint { place, quantities } in spots {
+        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
+            let value = place.as_ref().map_or(0.0, |place| quantity.at(skin, place));
+            let kink = "something sticks where something else changes, too";
+            derivatives.extend((0..parameters).map(|parameter| Derivative {
+                measure: quantity.measure,
+                parameter,
+                value,
+                left: None,
+                right: None,
+                kink: Some(kink.to_owned()),
+            }));
+        }
+    }
+    derivatives
 }
 
 impl<S: Skin> MeasuredQuantity<S> {

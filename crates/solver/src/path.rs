@@ -85,6 +85,8 @@ pub struct Path<S: System> {
     coordinates: Vec<usize>,
     /// The orientation ([`Newton::is_positive`]) with which the path leaves `point`.
     pub(crate) is_positive: bool,
+    /// Whether no event had another way on among those that were looked at.
+    pub(crate) is_unique: bool,
     step: f64,
     points: usize,
     stop: Option<Stop>,
@@ -114,6 +116,7 @@ impl<S: System> Path<S> {
             point: Arc::new(point.clone()),
             guards: Vec::new(),
             slopes: Vec::new(),
+            is_unique: true,
             step: settings.first_step.min(settings.max_step),
             points: 0,
             stop: None,
@@ -156,6 +159,11 @@ impl<S: System> Path<S> {
     /// Why the path ended; `None` while it has not.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
+    }
+
+    /// Whether no event of the path had another way on, among those that were looked at.
+    pub fn is_unique(&self) -> bool {
+        self.is_unique
     }
 
     /// The system.
@@ -370,6 +378,20 @@ impl<S: System> Path<S> {
         let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
         let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
         lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
+    }
+
+    /// Cosine of the angle between two directions in all coordinates, or in the controls of a system that tells of none.
+    pub(crate) fn cosine(&self, one: &[f64], other: &[f64]) -> f64 {
+        let all = self.coordinates.iter().map(|&index| (index, 1.0));
+        let controls = self.system.controls().iter().map(|c| (c.index, c.scale.powi(-2)));
+        let controls = controls.filter(|_| self.coordinates.is_empty());
+        let [mut product, mut of_one, mut of_other] = [0.0; 3];
+        for (index, weight) in all.chain(controls) {
+            product += weight * one[index] * other[index];
+            of_one += weight * one[index].powi(2);
+            of_other += weight * other[index].powi(2);
+        }
+        product / (of_one * of_other).sqrt()
     }
 
     /// The next point of the path, or why there is none.

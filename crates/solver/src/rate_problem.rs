@@ -10,6 +10,9 @@ use crate::system::{State, System};
 /// change by 10⁵ over a unit of the path, and not even a short way may be skipped.
 const APART: f64 = 1e-10;
 
+/// Directions whose cosine differs from 1 by less are one way on.
+const SAME_WAY: f64 = 1e-6;
+
 /// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
 /// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
 /// problem of the rates,
@@ -51,7 +54,48 @@ impl<S: System> Path<S> {
             *state = next;
             return Ok(leaving);
         }
-        self.pivot_in_turn(state, arriving, changes)
+        let mut found: Option<Resolved<S::Mode>> = None;
+        let mut failure = Stop::Singular;
+        let before = self.is_positive;
+        for start in self.starts(state, changes[0]) {
+            self.is_positive = before;
+            match self.pivot_in_turn(state, arriving, changes, &start) {
+                Err(stop) => failure = stop,
+                Ok(resolved) => {
+                    if let Some(other) = &found {
+                        let cosine = self.cosine(&other.leaving, &resolved.leaving);
+                        self.is_unique &= cosine > 1.0 - SAME_WAY;
+                    }
+                    let worth = |way: &Resolved<S::Mode>| (way.is_positive == before, way.along);
+                    if found.as_ref().is_none_or(|best| worth(best) < worth(&resolved)) {
+                        found = Some(resolved);
+                    }
+                }
+            }
+        }
+        let Resolved { state: next, leaving, changes: made, is_positive, .. } =
+            found.ok_or(failure)?;
+        (*state, *changes, self.is_positive) = (next, made, is_positive);
+        Ok(leaving)
+    }
+
+    /// The changes with which pivoting may begin: that of the event, or that and one of a companion which it leaves undecided. What
+    /// closes with friction may stick, or slip either way, and another beginning may come to another end.
+    fn starts(&self, state: &State<S::Mode>, change: Change) -> Vec<Vec<Change>> {
+        let mut starts = vec![vec![change]];
+        let companions = self.system.companions(change.constraint);
+        let mut after = state.clone();
+        if companions.len() > 1
+            && let Some(valid) = self.pivot(&mut after, change)
+        {
+            let guards = Newton::guards(&self.system, &after);
+            let is_undecided =
+                |c: &usize| *c != change.constraint && *c != valid && guards[*c].abs() <= FLOOR;
+            starts.extend(companions.filter(is_undecided).map(|constraint| {
+                vec![change, Change { constraint, activated: !after.active[constraint] }]
+            }));
+        }
+        starts
     }
 
     /// Stops what only grows where it turns back. Its rate vanishes there, so the path goes on as it came: on both sides of the event
@@ -83,34 +127,93 @@ impl<S: System> Path<S> {
             changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
         let valid = valid?;
         let leaving = self.direction(&mut next, arriving, valid[0]).ok()?;
-        self.most_violated(&next, &leaving, &valid).is_none().then_some((next, leaving))
+        let meeting = self.meeting(valid);
+        self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
 
-    /// Lets the first of `changes` happen and then, while the direction violates one of the constraints that meet, the one
-    /// that it violates fastest. A constraint that has changed sides may have to change back.
+    /// Lets the changes of `start` happen and then, while the direction violates one of the constraints that meet, the one
+    /// that it violates fastest. A constraint that has changed sides may have to change back; where that leads to a set of changes that
+    /// has been tried, others that are violated change instead.
     fn pivot_in_turn(
         &mut self,
-        state: &mut State<S::Mode>,
+        state: &State<S::Mode>,
         arriving: &[f64],
-        changes: &mut Vec<Change>,
-    ) -> Result<Vec<f64>, Stop> {
-        let mut meeting: Vec<usize> = changes.iter().map(|change| change.constraint).collect();
-        let mut next = changes[0];
-        changes.clear();
-        for _ in 0..self.most_changes() {
-            let valid = self.pivot(state, next).ok_or(Stop::Singular)?;
-            // A transition may hand the condition on, from a corner to the edge behind it, say.
-            if !meeting.contains(&valid) {
-                meeting.push(valid);
-            }
-            toggle(changes, next);
-            let leaving = self.direction(state, arriving, valid)?;
-            let Some(constraint) = self.most_violated(state, &leaving, &meeting) else {
-                return Ok(leaving);
-            };
-            next = Change { constraint, activated: !state.active[constraint] };
+        changes: &[Change],
+        start: &[Change],
+    ) -> Result<Resolved<S::Mode>, Stop> {
+        let meeting = self.meeting(changes.iter().map(|change| change.constraint));
+        let first = Pivoted { state: state.clone(), meeting, made: Vec::new(), holds: None };
+        let (&last, before) = start.split_last().ok_or(Stop::Singular)?;
+        let mut at = first;
+        for &change in before {
+            at = self.pivoted(&at, change)?;
         }
-        Err(Stop::Cycling)
+        let mut waiting = vec![(at, last)];
+        let mut tried = Vec::new();
+        let mut failure = Stop::Cycling;
+        while let Some((from, change)) = waiting.pop() {
+            if tried.len() >= self.most_changes() {
+                break;
+            }
+            let way = self.pivoted(&from, change).and_then(|mut at| {
+                let is_known = tried.iter().any(|(active, mode)| {
+                    *active == at.state.active && self.system.is_same_form(mode, &at.state.mode)
+                });
+                if is_known {
+                    return Err(Stop::Cycling);
+                }
+                tried.push((at.state.active.clone(), at.state.mode.clone()));
+                let leaving =
+                    self.direction(&mut at.state, arriving, at.holds.unwrap_or_default())?;
+                Ok((at, leaving))
+            });
+            let (at, leaving) = match way {
+                Ok(way) => way,
+                Err(stop) => {
+                    failure = stop;
+                    continue;
+                }
+            };
+            let violated = self.violated(&at.state, &leaving, &at.meeting);
+            if violated.is_empty() {
+                let (along, is_positive) = (self.cosine(arriving, &leaving), self.is_positive);
+                let Pivoted { state, made: changes, .. } = at;
+                return Ok(Resolved { state, leaving, changes, is_positive, along });
+            }
+            let next = violated
+                .into_iter()
+                .map(|constraint| Change { constraint, activated: !at.state.active[constraint] });
+            // The one that is violated fastest is tried next.
+            waiting.extend(next.rev().map(|change| (at.clone(), change)));
+        }
+        Err(failure)
+    }
+
+    /// What one change more makes of a set of changes.
+    fn pivoted(&self, from: &Pivoted<S::Mode>, change: Change) -> Result<Pivoted<S::Mode>, Stop> {
+        let mut next = from.clone();
+        let valid = self.pivot(&mut next.state, change).ok_or(Stop::Singular)?;
+        // A transition may hand the condition on, from a corner to the edge behind it, say.
+        if !next.meeting.contains(&valid) {
+            next.meeting.extend(self.system.companions(valid));
+        }
+        toggle(&mut next.made, change);
+        // What changes elsewhere because of friction does not tell which way the path goes: that is said by what has happened.
+        let companions = self.system.companions(change.constraint);
+        let is_elsewhere = |holds: &usize| companions.len() > 1 && !companions.contains(holds);
+        next.holds = next.holds.filter(is_elsewhere).or(Some(valid));
+        Ok(next)
+    }
+
+    /// The constraints that may change sides where these do.
+    fn meeting(&self, changes: impl IntoIterator<Item = usize>) -> Vec<usize> {
+        let mut meeting: Vec<usize> = Vec::new();
+        for change in changes {
+            if !meeting.contains(&change) {
+                meeting.extend(self.system.companions(change));
+            }
+        }
+        meeting
     }
 
     /// Lets a constraint change sides. Returns the one whose condition has to hold as the path goes on, or `None` if the
@@ -162,13 +265,13 @@ impl<S: System> Path<S> {
         rows.map(|row| Condition::through(row, &state.z)).collect()
     }
 
-    /// The constraint that a direction violates fastest, of those that it violates at no distance.
-    fn most_violated(
+    /// The constraints that a direction violates, of those that it violates at no distance, the one that it violates fastest first.
+    fn violated(
         &mut self,
         state: &State<S::Mode>,
         direction: &[f64],
         constraints: &[usize],
-    ) -> Option<usize> {
+    ) -> Vec<usize> {
         let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
@@ -177,7 +280,10 @@ impl<S: System> Path<S> {
         let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
         let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));
         let turned = growing.filter(|&(_, rate)| rate < -FLOOR);
-        meeting.chain(turned).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(c, _)| c)
+        let mut violated: Vec<(usize, f64)> = meeting.chain(turned).collect();
+        violated.sort_by(|a, b| a.1.total_cmp(&b.1));
+        violated.dedup_by_key(|(constraint, _)| *constraint);
+        violated.into_iter().map(|(constraint, _)| constraint).collect()
     }
 
     /// More pivots than this do not happen at one place.
@@ -185,6 +291,30 @@ impl<S: System> Path<S> {
         // Each constraint may change and change back; the rest is for rows of a few scales.
         2 * self.guards.len() + 8
     }
+}
+
+/// A state at an event after some changes.
+#[derive(Clone)]
+struct Pivoted<M> {
+    state: State<M>,
+    /// The constraints that may be violated there.
+    meeting: Vec<usize>,
+    /// The changes made so far.
+    made: Vec<Change>,
+    /// The constraint that has to hold as the path goes on.
+    holds: Option<usize>,
+}
+
+/// A way on from an event.
+struct Resolved<M> {
+    state: State<M>,
+    leaving: Vec<f64>,
+    /// The constraints that have changed sides.
+    changes: Vec<Change>,
+    /// The orientation (N7) behind the event.
+    is_positive: bool,
+    /// Cosine of the angle by which the path turns.
+    along: f64,
 }
 
 /// Adds a change to those made, or takes away the one that it undoes.

@@ -88,8 +88,19 @@ pub trait System {
         &[]
     }
 
+    /// Constraints that may change sides where this one does, because of it: what was at rest may begin to slip, say. Itself alone unless
+    /// the system knows of others.
+    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        constraint..constraint + 1
+    }
+
     /// The mode of the state of rest.
     fn mode_at_rest(&self) -> Self::Mode;
+
+    /// Whether the equations have the same form in two modes, whatever each has kept of its way.
+    fn is_same_form(&self, one: &Self::Mode, other: &Self::Mode) -> bool {
+        one == other
+    }
 
     /// Evaluates the equations. Those of inactive constraints may be left out by a system that has
     /// [`System::conditions`] of its own.

@@ -134,6 +134,12 @@ impl Sweep {
         self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_given)
     }
 
+    /// Whether the parameter of that name is an axis, or has another value than that by default.
+    pub fn sets(&self, key: &str) -> bool {
+        let is_set = |parameter: &Parameter| parameter.get(self.grid.base()) != parameter.default();
+        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_set)
+    }
+
     /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given, and
     /// the critical tilt none if the friction of the needle is.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {

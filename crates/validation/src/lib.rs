@@ -15,7 +15,7 @@
 //! | [`claims()`], [`Claim`], [`CheckedClaim`], [`CheckedStatement`], [`Verdict`] | the statements of the paper, and their verdicts |
 //! | [`BetweenPoints`], [`FittestDesign`], [`FrontOverGrid`] | what a search between the points of the grid finds |
 //! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
-//! | [`Sensitivity`], [`Headlines`], [`CouplingEffect`] | the dependence of the main results on the open choices |
+//! | [`Sensitivity`], [`Headlines`], [`ChoiceEffects`], [`ChoiceEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
@@ -46,7 +46,7 @@ pub use claims::{CheckedClaim, CheckedStatement, Claim, Finding, Verdict, claims
 pub use error::ValidationError;
 pub use gap_counts::GapCount;
 pub use search::{ScoredSetting, SettingSearch};
-pub use sensitivity::{CouplingEffect, Headlines, Sensitivity};
+pub use sensitivity::{ChoiceEffect, ChoiceEffects, Headlines, Sensitivity};
 pub use soundness::Soundness;
 use study::Study;
 
@@ -71,8 +71,8 @@ pub struct Validation {
     pub gap_counts: Vec<GapCount>,
     /// The main results for each value of each open choice.
     pub sensitivity: Vec<Sensitivity>,
-    /// The effect on the measures of the paper's simplified coupling through the substrate.
-    pub coupling: Vec<CouplingEffect>,
+    /// The effects on the measures of the paper's simplified coupling through the substrate, and of friction between scales.
+    pub effects: ChoiceEffects,
 }
 
 /// The part of a validation that begins now.
@@ -122,9 +122,9 @@ impl Validation {
         let between = between.transpose()?;
         begin("strips of equal gaps");
         let gap_counts = GapCount::all()?;
-        let (sensitivity, coupling) =
+        let (sensitivity, effects) =
             sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
-        Ok(Self { benchmarks, claims, soundness, between, gap_counts, sensitivity, coupling })
+        Ok(Self { benchmarks, claims, soundness, between, gap_counts, sensitivity, effects })
     }
 
     /// Returns whether every benchmark lies within its band.

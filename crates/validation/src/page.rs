@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::{
-    Benchmark, CheckedClaim, CheckedStatement, Claim, CouplingEffect, GapCount, Headlines,
+    Benchmark, CheckedClaim, CheckedStatement, ChoiceEffect, Claim, GapCount, Headlines,
     Sensitivity, Validation, Verdict,
 };
 
@@ -23,7 +23,8 @@ impl Validation {
             ("claims", self.claims.iter().map(CheckedClaim::rows).collect()),
             ("gap counts", lines(&self.gap_counts, GapCount::row)),
             ("sensitivity", lines(&self.sensitivity, Sensitivity::row)),
-            ("coupling", lines(&self.coupling, CouplingEffect::row)),
+            ("coupling", lines(&self.effects.coupling, ChoiceEffect::row)),
+            ("friction", lines(&self.effects.friction, ChoiceEffect::row)),
         ];
         parts.extend(self.soundness.parts());
         let mut page = PAGE.to_owned();
@@ -52,16 +53,17 @@ pub(crate) fn lines<T>(items: &[T], line: impl Fn(&T) -> String) -> String {
     items.iter().map(|item| line(item) + "\n").collect()
 }
 
-impl CouplingEffect {
+impl ChoiceEffect {
     /// Returns the row of the table in Markdown.
     pub fn row(&self) -> String {
         let [low, median, high] = self.changes.map(|change| match 100.0 * change {
             percent if percent.abs() < 0.05 => "0 %".to_owned(),
             percent => format!("{percent:+.1} %"),
         });
+        let ranks = self.ranks.map_or_else(String::new, |ranks| format!("{ranks:.5}"));
+        let Self { setting, measure, designs, lost, .. } = self;
         format!(
-            "| {} | {} | {low} | {median} | {high} | {} |",
-            self.measure, self.designs, self.lost
+            "| {setting} | {measure} | {designs} | {low} | {median} | {high} | {ranks} | {lost} |"
         )
     }
 }

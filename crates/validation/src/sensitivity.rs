@@ -8,11 +8,12 @@ use crate::claims::{DesignValue, digits, named};
 use crate::study::{Study, is_geometry};
 
 /// Sweeps over one open choice each: the files of `sweeps/sensitivity/`.
-const SWEEPS: [(&str, &str); 10] = [
+const SWEEPS: [(&str, &str); 11] = [
     ("base", include_str!("../../../sweeps/sensitivity/base.toml")),
     ("width", include_str!("../../../sweeps/sensitivity/width.toml")),
     ("row-length", include_str!("../../../sweeps/sensitivity/row-length.toml")),
     (COUPLING, include_str!("../../../sweeps/sensitivity/coupling.toml")),
+    (FRICTION, include_str!("../../../sweeps/sensitivity/friction.toml")),
     ("contact-law", include_str!("../../../sweeps/sensitivity/contact-law.toml")),
     (
         "contact-modulus-puncture",
@@ -27,8 +28,9 @@ const SWEEPS: [(&str, &str); 10] = [
     ("end-rotation", include_str!("../../../sweeps/sensitivity/end-rotation.toml")),
 ];
 
-/// The sweep over the coupling of the substrate.
+/// The sweeps over the coupling of the substrate, and over the friction between scales.
 const COUPLING: &str = "coupling";
+const FRICTION: &str = "friction";
 
 /// The main results with one setting of an open choice.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,17 +54,30 @@ pub struct Headlines {
     pub corners: [String; 4],
 }
 
-/// The change of a measure, design by design, when the whole substrate is coupled.
+/// The change of a measure, design by design, from the first setting of an open choice to another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CouplingEffect {
+pub struct ChoiceEffect {
+    /// The other setting, as `key = value`.
+    pub setting: String,
     /// The measure.
     pub measure: &'static str,
-    /// The number of designs that have the measure with either coupling.
+    /// The number of designs that have the measure with either setting.
     pub designs: usize,
-    /// The number of designs that lack the measure with full coupling alone.
+    /// The number of designs that lack the measure with the other setting alone.
     pub lost: usize,
     /// The smallest, the median and the largest relative change.
     pub changes: [f64; 3],
+    /// How well the ranks of the designs by the measure agree (Spearman).
+    pub ranks: Option<f64>,
+}
+
+/// The effects of the choices that are compared design by design.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ChoiceEffects {
+    /// Of the whole substrate coupled.
+    pub coupling: Vec<ChoiceEffect>,
+    /// Of scales that rub.
+    pub friction: Vec<ChoiceEffect>,
 }
 
 /// One setting of a sweep over open choices.
@@ -113,7 +128,7 @@ fn combinations(axes: &[&Axis]) -> Vec<OpenValues> {
     })
 }
 
-/// Compares the main results of all settings, and the measures of both couplings of the substrate.
+/// Compares the main results of all settings, and the measures of the choices that are compared design by design.
 ///
 /// Settings that are part of the studies `known` are not solved again. `begin` is called with the name of each setting.
 ///
@@ -123,27 +138,34 @@ pub(crate) fn sensitivity(
     settings: Vec<OpenSetting>,
     known: &[Study],
     mut begin: impl FnMut(&str),
-) -> Result<(Vec<Sensitivity>, Vec<CouplingEffect>), ValidationError> {
-    let (mut all, mut couplings) = (Vec::new(), Vec::new());
+) -> Result<(Vec<Sensitivity>, ChoiceEffects), ValidationError> {
+    let (mut all, mut couplings, mut frictions) = (Vec::new(), Vec::new(), Vec::new());
     for OpenSetting { sweep, label, definition } in settings {
         begin(&label);
         // The default setting is a part of the sweeps of the paper, and need not be solved again.
         let part = known.iter().find_map(|study| study.part(&definition));
         let study = part.map_or_else(|| Study::run(definition), Ok)?;
-        all.push(Sensitivity { sweep, setting: label, headlines: Headlines::of(&study) });
-        if sweep == COUPLING {
-            couplings.push(study);
+        let setting = label.clone();
+        all.push(Sensitivity { sweep, setting, headlines: Headlines::of(&study) });
+        match sweep {
+            COUPLING => couplings.push((label, study)),
+            FRICTION => frictions.push((label, study)),
+            _ => {}
         }
     }
-    let effects = match couplings.as_slice() {
-        [nearest, full] => CouplingEffect::of(nearest, full),
-        _ => Vec::new(),
+    let [coupling, friction] = [couplings, frictions].map(|studies| {
+        let (first, others) = studies.split_first()?;
+        Some(others.iter().flat_map(|other| ChoiceEffect::of(&first.1, other)).collect())
+    });
+    let effects = ChoiceEffects {
+        coupling: coupling.unwrap_or_default(),
+        friction: friction.unwrap_or_default(),
     };
     Ok((all, effects))
 }
 
-impl CouplingEffect {
-    fn of(nearest: &Study, full: &Study) -> Vec<Self> {
+impl ChoiceEffect {
+    fn of(first: &Study, (setting, other): &(String, Study)) -> Vec<Self> {
         let measures: [(&str, DesignValue); 4] = [
             ("coverage", |design| design.coverage.filter(|coverage| *coverage > 0.0)),
             ("critical force", |design| design.critical_force),
@@ -151,7 +173,7 @@ impl CouplingEffect {
             ("compliance", |design| design.compliance),
         ];
         let effect = |(measure, value): (&'static str, DesignValue)| {
-            let pairs = nearest.designs.iter().zip(&full.designs);
+            let pairs = first.designs.iter().zip(&other.designs);
             let pairs: Vec<_> = pairs.map(|(a, b)| (value(a), value(b))).collect();
             let change = |pair: &(Option<f64>, Option<f64>)| Some(pair.1? / pair.0? - 1.0);
             let mut changes: Vec<f64> = pairs.iter().filter_map(change).collect();
@@ -160,7 +182,9 @@ impl CouplingEffect {
             let designs = changes.len();
             let at = |place: usize| changes.get(place).copied().unwrap_or(f64::NAN);
             let changes = [at(0), at(designs / 2), at(designs.saturating_sub(1))];
-            Self { measure, designs, lost, changes }
+            let both: Vec<_> = pairs.iter().filter_map(|pair| Some([pair.0?, pair.1?])).collect();
+            let (setting, ranks) = (setting.clone(), ranking::rank_correlation(&both));
+            Self { setting, measure, designs, lost, changes, ranks }
         };
         measures.into_iter().map(effect).collect()
     }

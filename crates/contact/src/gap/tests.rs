@@ -19,19 +19,20 @@ proptest! {
     #[test]
     fn derivatives_agree_with_finite_differences(
         slant in 0.0_f64..80.0, half_base in 0.02_f64..3.0, gap in 0.05_f64..2.0,
-        q in prop::array::uniform6(-1.5_f64..1.5), corner_edge in 0_usize..6,
+        q in prop::array::uniform6(-1.5_f64..1.5), corner_edge in 0_usize..6, slides: bool,
     ) {
         let corner_edge = CornerEdge::ALL[corner_edge];
         let scale = Parallelogram::new(half_base, slant).unwrap();
         let pair = Pair::new(scale, 2.0 * half_base + gap);
+        let coordinate = if slides { Pair::slide } else { Pair::gap };
         let (left, right) = poses(&q);
-        let ours = pair.gap(corner_edge, &left, &right);
+        let ours = coordinate(&pair, corner_edge, &left, &right);
         let h = 1e-6;
         for i in 0..6 {
             let (l, r) = moved(&q, i, h);
-            let high = pair.gap(corner_edge, &l, &r);
+            let high = coordinate(&pair, corner_edge, &l, &r);
             let (l, r) = moved(&q, i, -h);
-            let low = pair.gap(corner_edge, &l, &r);
+            let low = coordinate(&pair, corner_edge, &l, &r);
             assert_relative_eq!(
                 ours.gradient[i], (high.value - low.value) / (2.0 * h), epsilon = 1e-7, max_relative = 1e-7
             );

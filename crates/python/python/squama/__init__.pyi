@@ -140,6 +140,7 @@ class Skin:
         law: str | None = None,
         c1: float | None = None,
         c2: float | None = None,
+        friction: float | None = None,
         scales: int | str | None = None,
         load_position: float | None = None,
         load_inset_over_t: float | None = None,
@@ -203,6 +204,8 @@ class Skin:
     def c1(self) -> float: ...
     @property
     def c2(self) -> float: ...
+    @property
+    def friction(self) -> float: ...
     @property
     def scales(self) -> int | str: ...
     @property

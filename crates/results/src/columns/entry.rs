@@ -149,12 +149,17 @@ impl MeasuredValue {
         Self { name, unit, meaning, ..self }
     }
 
+    /// It has this unit.
+    pub(super) const fn in_unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
     /// Only runs with a guided needle have it.
     pub(super) const fn guided(self) -> Self {
         Self { is_of_guided_needle: true, ..self }
     }
 
-    /// Only runs that give one of these parameters have it.
+    /// Only runs that set one of these parameters have it.
     pub(super) const fn needing(self, needs: &'static [&'static str]) -> Self {
         Self { needs, ..self }
     }

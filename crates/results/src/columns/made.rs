@@ -161,7 +161,7 @@ impl ValueColumn {
             && table.is_none_or(|table| self.value.tables.contains(&table))
             && (sweep.is_imperfect() || !self.is_of_samples())
             && (sweep.is_guided() || !self.value.is_of_guided_needle)
-            && (self.value.needs.is_empty() || self.value.needs.iter().any(|key| sweep.gives(key)))
+            && (self.value.needs.is_empty() || self.value.needs.iter().any(|key| sweep.sets(key)))
     }
 
     fn cell(&self, row: &DesignRow) -> Cell {

@@ -36,7 +36,7 @@ pub struct MeasuredValue {
     pub shown: Shown,
     /// Whether only runs with a guided needle have it.
     pub(super) is_of_guided_needle: bool,
-    /// The parameters, in two units, that say where it is measured: only runs that give one of them have it.
+    /// The parameters, in two units, that say where it is measured: only runs that set one of them have it.
     pub(super) needs: &'static [&'static str],
 }
 

@@ -318,6 +318,30 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "puncture force at the depth that is asked for, or at the critical tilt if that comes first: skins that sink are weak by it",
         |m| &mut m.force_at_depth,
     ).large().first().needing(&[key::DEPTH, key::DEPTH_MM]),
+    other(
+        "friction_work",
+        BOTH,
+        "work that friction between scales has taken up to the critical tilt",
+        |r| measured(r, |m| m.friction_work),
+    ).in_unit("E* t^3").needing(&[key::FRICTION]),
+    other(
+        "unique",
+        BOTH,
+        "yes or no: whether no event of the path had another way on, among the ways of sticking and slipping that were looked at",
+        |r| measured(r, |m| m.unique.map(yes_or_no)),
+    ).needing(&[key::FRICTION]),
+    other(
+        "flexure_friction_work",
+        COMPLIANCE,
+        "work that friction between scales has taken at the largest rotation, of the whole strip",
+        |r| bent(r, |m| m.friction_work),
+    ).in_unit("E_m t^3").needing(&[key::FRICTION]),
+    other(
+        "locking_curvature",
+        COMPLIANCE,
+        "curvature from which on scales stick on each other and hold the strip; empty if it does not lock",
+        |r| bent(r, |m| m.locking_curvature),
+    ).in_unit("1/t").needing(&[key::FRICTION]),
     bending(
             "contact_curvature",
             "1/t",

@@ -106,6 +106,21 @@ fn derivatives_are_those_of_whole_solutions() {
     compare_designs(if is_long() { 300 } else { FEW });
 }
 
+/// Rows of scales that rub, of which some stick at the end. What sticks keeps something of the way, and the parameter moves that, too.
+#[test]
+fn derivatives_of_rows_that_rub_are_those_of_whole_solutions() {
+    let begun = Instant::now();
+    let count = if is_long() { 100 } else { 8 };
+    let has_time = |number: &u64| *number < 8 || begun.elapsed() < LONGEST;
+    let compared = (0..count).into_par_iter().filter(has_time).map(|number| {
+        let mut case = random_case(1000 + number);
+        case.common.friction = 0.05 + 0.4 * (number % 7) as f64 / 7.0;
+        compare(&case)
+    });
+    let compared: Vec<_> = compared.collect();
+    assert!(compared.iter().sum::<usize>() > 80 * compared.len(), "{compared:?}");
+}
+
 /// The place of a smooth maximum moves along the path.
 #[test]
 fn the_place_of_a_smooth_peak_has_derivatives() {

@@ -19,8 +19,18 @@ const AHEAD: [f64; 4] = [1e-8, 1e-7, 1e-6, 1e-5];
 const BEHIND: f64 = 1e-3;
 
 impl Contacts {
-    /// Forces of a contact on the left scale of its pair: of its corners, and of its flush contact.
+    /// Forces of a contact on the left scale of its pair, with their friction: of its corners, and of its flush contact.
     pub(super) fn forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
+        let [on_corners, on_flush] = self.normal_forces_on_left(state, contact);
+        if self.rub() {
+            [on_corners + self.traction_on_left(state, contact, on_corners), on_flush]
+        } else {
+            [on_corners, on_flush]
+        }
+    }
+
+    /// The parts of these forces along the normals, for which the law holds.
+    fn normal_forces_on_left(&self, state: &SkinState, contact: usize) -> [Vec2; 2] {
         let poses = self.pair_poses(&state.z, contact);
         let forces = self.forces_of(&state.z, contact);
         state.mode[contact].forces_on_left(&self.corners(contact, &poses), forces)
@@ -30,7 +40,7 @@ impl Contacts {
     fn force(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode[contact] {
             CornerContact::Open => 0.0,
-            _ => self.forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
+            _ => self.normal_forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
         }
     }
 

@@ -1,8 +1,8 @@
 //! Changes of contacts at events.
 
-use contact::{FORCES, Force};
+use contact::Force;
 
-use super::SkinState;
+use super::{Contacts, SkinState};
 
 /// A change of a contact at an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +18,10 @@ pub enum ContactChange {
     /// The contact passes the corner as its partner, the corners having changed their parts; or the contact at the other
     /// end of flush edges carries alone.
     HandedOver,
+    /// The contact begins to slip.
+    Slips,
+    /// The contact ceases to slip, and sticks.
+    Sticks,
 }
 
 impl ContactChange {
@@ -29,13 +33,20 @@ impl ContactChange {
             Self::ReachedCorner => "reached corner",
             Self::LeftCorner => "left corner",
             Self::HandedOver => "handed over",
+            Self::Slips => "slips",
+            Self::Sticks => "sticks",
         }
     }
 
     /// The change of a contact of which a force has changed sides, from the state after the event.
-    pub(crate) fn of(state: &SkinState, change: solver::Change) -> Self {
+    pub(crate) fn of(contacts: &Contacts, state: &SkinState, change: solver::Change) -> Self {
         let acts = state.active[change.constraint];
-        match (Force::ALL[change.constraint % FORCES], change.activated) {
+        let (contact, slot) = contacts.contact_of(change.constraint);
+        let Some(&force) = Force::ALL.get(slot) else {
+            let [sticks, _] = state.mode.rubs[contact].acting();
+            return if sticks { Self::Sticks } else { Self::Slips };
+        };
+        match (force, change.activated) {
             (Force::Own | Force::Flush, true) => Self::Closed,
             (Force::Own, false) if acts => Self::HandedOver,
             (Force::Own | Force::Flush, false) => Self::Opened,

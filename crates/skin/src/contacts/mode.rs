@@ -4,13 +4,26 @@ use std::ops::{Deref, DerefMut};
 
 use contact::CornerContact;
 
+use super::rubbing::Rub;
 use crate::puncture::NeedleMode;
 
-/// The mode of a skin: the state of every contact, as which it is read, and that of a guided needle.
+/// The mode of a skin: the state of every contact, as which it is read, its friction, and that of a guided needle.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SkinMode {
     pub(crate) contacts: Vec<CornerContact>,
+    /// How each contact rubs; nothing without friction.
+    pub(crate) rubs: Vec<Rub>,
     pub(crate) needle: NeedleMode,
+}
+
+impl SkinMode {
+    /// Whether contacts do and rub alike in two modes.
+    pub(crate) fn is_same_form(&self, other: &Self) -> bool {
+        let rubs = self.rubs.iter().zip(&other.rubs);
+        self.contacts == other.contacts
+            && self.needle == other.needle
+            && rubs.into_iter().all(|(one, other)| one.is_same_form(*other))
+    }
 }
 
 impl Deref for SkinMode {

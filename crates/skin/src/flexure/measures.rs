@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 use solver::Path;
 
 use super::FlexurePoint;
+use super::problem::LOCKED;
 use super::strip::Strip;
+use crate::contacts::Contacts;
 use crate::record::Record;
 
 /// The measures of bending; `None` where the value does not exist.
@@ -32,6 +34,12 @@ pub struct FlexureMeasures {
     pub error: Option<f64>,
     /// Gaps `n` of the strip, a whole number in a chain.
     pub gaps: f64,
+    /// What friction between scales has taken at the end of the path, over `E_m t³`, of the whole strip.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
+    /// `κ*` at which friction locks the strip: from there on contacts stick, and next to nothing turns.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub locking_curvature: Option<f64>,
     /// `κ*` at which scales would touch, whether or not the path goes so far; `None` for a gap that cannot close, and for
     /// imperfect strips.
     pub contact_curvature: Option<f64>,
@@ -54,6 +62,11 @@ impl FlexureMeasures {
             axial_energy_share: share.filter(|share| share.is_finite()),
             membrane_strain_max: strains.reduce(f64::max),
             error: None,
+            friction_work: strip
+                .contacts
+                .rub()
+                .then(|| record.friction_work.last().map_or(0.0, |work| work * strip.repeats())),
+            locking_curvature: locking(record, path),
             contact_curvature: None,
             gaps: strip.gaps() as f64 * strip.repeats(),
         }
@@ -82,6 +95,14 @@ impl FlexureMeasures {
             ..Self::default()
         }
     }
+}
+
+/// The curvature of the last change of a contact, if contacts stick from there on and hold the strip.
+fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
+    let [sticking, _] = Contacts::rubbing(&path.point().state);
+    let (start, end) = record.path.first().zip(record.path.last())?;
+    let is_locked = sticking > 0 && end.stiffness.abs() >= LOCKED * start.stiffness;
+    record.events.last().filter(|_| is_locked).map(|event| event.point.curvature)
 }
 
 /// The moment of the larger size.

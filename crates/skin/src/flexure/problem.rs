@@ -110,7 +110,8 @@ impl<'a> FlexureProblem<'a> {
             row,
             half_base: design.half_base(),
             section: Section::new(design.width, parameters.membrane_thickness)?,
-            law: ContactLaw::new(common.law, design.length, design.width, modulus)?,
+            law: ContactLaw::new(common.law, design.length, design.width, modulus)?
+                .with_friction(common.friction)?,
             gaps,
             solved,
             contact_curvature: None,
@@ -246,7 +247,7 @@ impl<'a> FlexureProblem<'a> {
 }
 
 /// A strip that is so many times as stiff as at rest is held by its scales alone.
-const LOCKED: f64 = 100.0;
+pub(super) const LOCKED: f64 = 100.0;
 
 /// A strain of a membrane of which its law, for small strains, says nothing.
 const BEYOND_LAW: f64 = 1.0;

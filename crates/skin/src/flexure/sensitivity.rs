@@ -8,11 +8,11 @@ use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
 use super::{Flexure, FlexureParameters};
-use crate::contacts::SkinState;
+use crate::contacts::{Contacts, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
     self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
-    rest,
+    missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -77,7 +77,14 @@ impl FlexureProblem<'_> {
         };
         let strips: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(strip)).collect();
-        let mut derivatives = derivatives(bent.path.system(), spots, &strips?, &self.common.solver);
+        let strip = bent.path.system();
+        let sticks = |spot: &MeasuredPoint<Strip>| {
+            spot.place.as_ref().is_some_and(|place| Contacts::rubbing(&place.state)[0] > 0)
+        };
+        let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(sticks);
+        let unknown = missing(strip, &sticking, variations.len());
+        let mut derivatives = derivatives(strip, free, &strips?, &self.common.solver);
+        derivatives.extend(unknown);
         if bent.record.touching().is_none() {
             self.mark_touching(&mut derivatives, variations)?;
         }

@@ -7,7 +7,7 @@ use solver::{Blocks, Change, Condition, Control, NoTangent, Residual, System, Ta
 
 use super::frame::Step;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, Part, SkinMode, SkinState};
+use crate::contacts::{Contacts, Part, SkinMode, SkinState, pair_constraints};
 
 /// The order of the unknowns of a strip of `n` gaps. The first scale is held.
 ///
@@ -23,11 +23,13 @@ struct Layout {
     gaps: usize,
     /// Unknowns of the membrane of a gap.
     interior: usize,
+    /// Unknowns of the contacts of a gap.
+    pair: usize,
 }
 
 impl Layout {
     fn block(self) -> usize {
-        PAIR_FORCES + self.interior + 3
+        self.pair + self.interior + 3
     }
 
     fn size(self) -> usize {
@@ -46,11 +48,11 @@ impl Layout {
 
     /// First unknown of a gap's membrane.
     fn membrane(self, gap: usize) -> usize {
-        self.block() * gap + PAIR_FORCES
+        self.block() * gap + self.pair
     }
 
     fn force(self, force: usize) -> usize {
-        self.block() * (force / PAIR_FORCES) + force % PAIR_FORCES
+        self.block() * (force / self.pair) + force % self.pair
     }
 
     /// A block for each scale that is not held, with the forces of its contacts with the next one. The first has those with
@@ -109,9 +111,10 @@ impl Strip {
         section: Section,
         StripExtent { gaps, repeats, rotation }: StripExtent,
     ) -> Self {
-        let layout = Layout { gaps, interior: membranes[0].interior() };
+        let layout =
+            Layout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
-        let forces = (0..PAIR_FORCES * gaps).map(|force| layout.force(force)).collect();
+        let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             let of_gap = membranes[gap.min(membranes.len() - 1)].units();
@@ -209,7 +212,7 @@ impl Strip {
         for gap in 0..self.layout.gaps {
             let start = self.layout.membrane(gap);
             let membrane = &state.z[start..start + self.layout.interior + 3];
-            z.extend_from_slice(&state.z[start - PAIR_FORCES..start]);
+            z.extend_from_slice(&state.z[start - self.layout.pair..start]);
             z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
         }
         z.push(state.z[self.layout.moment()]);
@@ -231,7 +234,7 @@ impl Strip {
     /// Number of leading unknowns of a gap's membrane that vanish. Where no contact force acts in a gap no force goes
     /// through its membrane, for none goes through any cut of a strip in pure bending, and it bends to an arc.
     fn vanishing(&self, active: &[bool], gap: usize) -> usize {
-        let forces = &active[PAIR_FORCES * gap..][..PAIR_FORCES];
+        let forces = &active[self.layout.pair * gap..][..self.layout.pair];
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
@@ -314,6 +317,18 @@ impl System for Strip {
 
     fn constraints(&self) -> &[usize] {
         self.contacts.forces()
+    }
+
+    fn growing(&self) -> &[usize] {
+        self.contacts.growing()
+    }
+
+    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        self.contacts.companions(constraint)
+    }
+
+    fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {
+        one.is_same_form(other)
     }
 
     fn mode_at_rest(&self) -> SkinMode {

@@ -58,8 +58,11 @@ fn the_work_of_the_moment_is_stored() {
                 membrane_length: 20.0,
                 ..FlexureParameters::default()
             };
-            let [off, axial, contact] =
-                balance(&design(gap, length, slant_deg), &Common { law, solver }, &parameters);
+            let [off, axial, contact] = balance(
+                &design(gap, length, slant_deg),
+                &Common { law, solver, ..Common::default() },
+                &parameters,
+            );
             assert!(off < 1e-6, "{gap} {length} {slant_deg} {law:?} {modulus}: {off:e}");
             most_axial = most_axial.max(axial);
             most_contact = most_contact.max(contact);

@@ -66,6 +66,12 @@ pub struct PunctureMeasures {
     /// `F*` at the depth that is asked for, or at the critical tilt if that comes first.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force_at_depth: Option<f64>,
+    /// What friction between scales has taken up to the critical tilt, over `E* t³`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_work: Option<f64>,
+    /// Whether no event of the path had another way on among those that were looked at; `None` without friction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unique: Option<bool>,
     /// How a guided needle came through.
     #[serde(default, skip_serializing_if = "Passage::is_none")]
     pub passage: Passage,
@@ -102,6 +108,12 @@ impl PunctureMeasures {
             fold_displacement: fold.map(|fold| fold.displacement),
             fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
             sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
+            friction_work: chain
+                .contacts
+                .rub()
+                .then(|| record.friction_work.last().copied())
+                .flatten(),
+            unique: chain.contacts.rub().then(|| path.is_unique()),
             ..Self::default()
         }
     }
@@ -122,6 +134,7 @@ impl PunctureMeasures {
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
             force_at_depth: self.force_at_depth,
+            unique: self.unique,
             passage: self.passage,
             ..Self::default()
         }

@@ -26,7 +26,7 @@ use solver::{Condition, Newton};
 use super::system::Chain;
 use crate::contacts::{Contacts, SkinState};
 
-pub(super) use history::{HistoryWatch, anchors, event_before, history, with};
+pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
 use mode::{Place, Rub, Touch};
 use outline::{Face, Tip};

@@ -5,7 +5,7 @@ use solver::{AnchoredPoint, Neighbours, Path, PathAnchor};
 use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
-use super::needle::{NeedleMode, anchors, event_before, history, with};
+use super::needle::{Kept, anchors, event_before, history, with};
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
 use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
@@ -13,7 +13,7 @@ use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
     self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
-    rest,
+    missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -75,7 +75,7 @@ impl Problem<'_> {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
             let kept = state.map(history).unwrap_or_default();
             let system = path.system();
-            found.extend(if kept == NeedleMode::default() {
+            found.extend(if kept.is_empty() {
                 derivatives(system, spots, &variations, &self.settings)
             } else {
                 // Neighbours come to these places on ways of their own.
@@ -160,7 +160,7 @@ impl PunctureInput {
 
 /// The spots, together where the equations keep the same of the way to them.
 fn by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>> {
-    let mut groups: Vec<(NeedleMode, Vec<MeasuredPoint<Chain>>)> = Vec::new();
+    let mut groups: Vec<(Vec<Kept>, Vec<MeasuredPoint<Chain>>)> = Vec::new();
     for spot in spots {
         let kept = spot.place.as_ref().map(|place| history(&place.state)).unwrap_or_default();
         match groups.iter_mut().find(|(other, _)| *other == kept) {
@@ -169,26 +169,6 @@ fn by_history(spots: Vec<MeasuredPoint<Chain>>) -> Vec<Vec<MeasuredPoint<Chain>>
         }
     }
     groups.into_iter().map(|(_, group)| group).collect()
-}
-
-/// Derivatives that are not known, each with the reason.
-fn missing(chain: &Chain, spots: &[MeasuredPoint<Chain>], parameters: usize) -> Vec<Derivative> {
-    let mut derivatives = Vec::new();
-    for MeasuredPoint { place, quantities } in spots {
-        for (quantity, place) in quantities.iter().zip(std::iter::repeat(place)) {
-            let value = place.as_ref().map_or(0.0, |place| quantity.at(chain, place));
-            let kink = "the needle sticks where something else changes, too";
-            derivatives.extend((0..parameters).map(|parameter| Derivative {
-                measure: quantity.measure,
-                parameter,
-                value,
-                left: None,
-                right: None,
-                kink: Some(kink.to_owned()),
-            }));
-        }
-    }
-    derivatives
 }
 
 impl Chain {

@@ -9,10 +9,7 @@ use super::PunctureParameters;
 use super::needle::{FARTHEST, GuidedNeedle, Needle};
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, PAIR_FORCES, SkinMode, SkinState};
-
-/// Unknowns of a scale and of its contacts with the next one.
-const BLOCK: usize = 3 + PAIR_FORCES;
+use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
 
 /// Depth in which the way of a guided needle is measured, over `t`: about what a tilt of 10° takes, but no more than some tops of a
 /// scale, since steps are parts of it and a needle is soon beyond a narrow top.
@@ -36,7 +33,7 @@ pub(super) const DEPTH_RATE: usize = 1;
 /// scale 0  upper   lower       punctured                           last
 /// ```
 ///
-/// The unknowns of a guided needle follow the load.
+/// Where scales rub each contact has its grip and its way besides. The unknowns of a guided needle follow the load.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Scales to the left of the punctured one.
@@ -45,9 +42,16 @@ pub(crate) struct Layout {
     pub(crate) right: usize,
     /// Unknowns of a guided needle, behind the load; 0 under a free one.
     pub(crate) needle: usize,
+    /// Unknowns of the contacts of a pair.
+    pub(crate) pair: usize,
 }
 
 impl Layout {
+    /// Unknowns of a scale and of its contacts with the next one.
+    fn block(self) -> usize {
+        3 + self.pair
+    }
+
     pub(crate) fn scales(self) -> usize {
         self.left + 1 + self.right
     }
@@ -59,27 +63,23 @@ impl Layout {
 
     /// Number of unknowns.
     pub(crate) fn size(self) -> usize {
-        BLOCK * self.scales() - PAIR_FORCES + 1 + self.needle
+        self.block() * self.scales() - self.pair + 1 + self.needle
     }
 
     /// First of the three unknowns of a scale.
     pub(crate) fn scale(self, scale: usize) -> usize {
-        BLOCK * scale + if scale > self.left { 1 + self.needle } else { 0 }
+        self.block() * scale + if scale > self.left { 1 + self.needle } else { 0 }
     }
 
     pub(crate) fn load(self) -> usize {
-        BLOCK * self.left + 3
+        self.block() * self.left + 3
     }
 
     /// A block for each scale, with the forces of its contacts with the neighbour on the side of the punctured one.
     fn blocks(self) -> Blocks {
         let scales = 0..self.scales();
         let start = |scale: usize| {
-            if scale <= self.left {
-                self.scale(scale)
-            } else {
-                self.force(PAIR_FORCES * (scale - 1))
-            }
+            if scale <= self.left { self.scale(scale) } else { self.force(self.pair * (scale - 1)) }
         };
         Blocks {
             starts: scales.clone().map(start).collect(),
@@ -90,7 +90,7 @@ impl Layout {
 
     /// The scale that an unknown belongs to; of a contact force the left one of its pair.
     pub(crate) fn scale_of(self, unknown: usize) -> usize {
-        (unknown - if unknown > self.load() { 1 + self.needle } else { 0 }) / BLOCK
+        (unknown - if unknown > self.load() { 1 + self.needle } else { 0 }) / self.block()
     }
 
     /// Units of the equations: the stiffness of a scale for itself in its balances, 1 elsewhere.
@@ -105,9 +105,9 @@ impl Layout {
     /// Unknown of a contact force. Forces are numbered along the row: those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
-        let left = force / PAIR_FORCES;
+        let left = force / self.pair;
         let behind_load = if left >= self.left { 1 + self.needle } else { 0 };
-        BLOCK * left + 3 + force % PAIR_FORCES + behind_load
+        self.block() * left + 3 + force % self.pair + behind_load
     }
 }
 
@@ -142,6 +142,8 @@ pub(crate) struct Chain {
     pub(super) needle: Option<GuidedNeedle>,
     /// The contact forces, and the constraints of a guided needle.
     constraints: Vec<usize>,
+    /// Numbers of the constraints that only grow.
+    growing: Vec<usize>,
     pub(super) controls: Vec<Control>,
     /// Blocks of the tangent, where scales feel their nearest neighbours alone.
     blocks: Option<Blocks>,
@@ -164,7 +166,7 @@ impl Chain {
         let RowStiffness { direct, roll, neighbours, .. } = stiffness.with_lengths_over(a);
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces: Vec<usize> =
-            (0..PAIR_FORCES * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
+            (0..layout.pair * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -173,6 +175,7 @@ impl Chain {
         let load_arm = left + parameters.load_position * (right - left);
         let depth = layout.load() + 1;
         let contacts = forces.len();
+        debug_assert_eq!(layout.pair, pair_constraints(&law));
         let needle = match parameters.needle {
             Needle::Free => None,
             Needle::Guided { friction } => {
@@ -191,9 +194,13 @@ impl Chain {
             SubstrateLaw::Linear => None,
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
+        let contacts = Contacts::new(arrangement, law, scales, forces);
+        let of_needle = needle.iter().flat_map(|needle| needle.growing);
+        let growing = contacts.growing().iter().copied().chain(of_needle).collect();
         Self {
             layout,
-            contacts: Contacts::new(arrangement, law, scales, forces),
+            contacts,
+            growing,
             length,
             plane_modulus: 1.0 / (1.0 - parameters.poisson_ratio.powi(2)),
             half_base: a,
@@ -324,7 +331,7 @@ impl System for Chain {
         // From x of a scale to φ of the last that it is coupled with, with the load between them. A guided needle is coupled with
         // all scales that it may come to.
         let coupled = self.needle.as_ref().map_or(0, |_| FARTHEST.unsigned_abs() as usize);
-        BLOCK * self.coupled_scales().max(coupled) + 3 + self.layout.needle
+        self.layout.block() * self.coupled_scales().max(coupled) + 3 + self.layout.needle
     }
 
     fn blocks(&self) -> Option<&Blocks> {
@@ -350,7 +357,14 @@ impl System for Chain {
     }
 
     fn growing(&self) -> &[usize] {
-        self.needle.as_ref().map_or(&[], |needle| &needle.growing)
+        &self.growing
+    }
+
+    fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
+        if constraint >= self.contacts.forces().len() {
+            return constraint..constraint + 1;
+        }
+        self.contacts.companions(constraint)
     }
 
     fn load_only_pushes(&self) -> bool {
@@ -368,6 +382,10 @@ impl System for Chain {
 
     fn constraints(&self) -> &[usize] {
         &self.constraints
+    }
+
+    fn is_same_form(&self, one: &SkinMode, other: &SkinMode) -> bool {
+        one.is_same_form(other)
     }
 
     fn mode_at_rest(&self) -> SkinMode {

@@ -1,6 +1,5 @@
 //! The places of a path at which measures are taken.
 
-use contact::FORCES;
 use solver::{
     AnchoredPoint, Change, Event, Newton, Path, PathAnchor, Point, Settings, State, Summit, System,
 };
@@ -114,12 +113,24 @@ pub(crate) fn vanished<S: Skin>(
     state: &SkinState,
     changes: &[Change],
 ) -> Option<usize> {
+    if let [change] = changes
+        && !change.activated
+        && system.growing().contains(&change.constraint)
+    {
+        // What slips comes to rest where its rate vanishes: no guard does so.
+        return None;
+    }
     let guards = Newton::guards(system, state);
     let changed = |constraint: &usize| {
-        let contact = constraint / FORCES;
-        changes.iter().any(|change| change.constraint / FORCES == contact)
+        let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
+        changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
     };
-    let candidates = (0..guards.len()).filter(changed).map(|c| (c, guards[c].abs()));
-    let (constraint, guard) = candidates.min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (guard < VANISHED).then_some(constraint)
+    let contacts = system.contacts();
+    let vanished = (0..guards.len()).filter(changed).filter(|&c| guards[c].abs() < VANISHED);
+    // The way of what has begun to slip is counted from a place that moves with the event.
+    let known = vanished.filter(|&c| !contacts.slips(state, c));
+    known.min_by(|&a, &b| {
+        let friction_last = contacts.is_friction(a).cmp(&contacts.is_friction(b));
+        friction_last.then(guards[a].abs().total_cmp(&guards[b].abs()))
+    })
 }

@@ -15,7 +15,12 @@ fn steps_ten_times_smaller_give_the_same_compliance() {
     for law in LAWS {
         forty().par_iter().for_each(|design| {
             let with = |solver| {
-                solve(design, &Common { law, solver }, &FlexureParameters::default()).unwrap()
+                solve(
+                    design,
+                    &Common { law, solver, ..Common::default() },
+                    &FlexureParameters::default(),
+                )
+                .unwrap()
             };
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() > 3 * ours.path.len());
@@ -35,7 +40,9 @@ fn a_tolerance_at_round_off_gives_the_same_compliance() {
         forty().par_iter().for_each(|design| {
             let compliance = |solver| {
                 let parameters = FlexureParameters::default();
-                let flexure = solve(design, &Common { law, solver }, &parameters).unwrap();
+                let flexure =
+                    solve(design, &Common { law, solver, ..Common::default() }, &parameters)
+                        .unwrap();
                 assert_eq!(flexure.status, Status::Complete, "{design:?} {law:?}");
                 flexure.measures.compliance.unwrap()
             };

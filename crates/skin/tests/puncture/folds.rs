@@ -120,7 +120,14 @@ fn folds_do_not_depend_on_the_steps() {
     let (known, coarse) = (Calibrations::default(), Settings::default());
     for design in folded() {
         for law in LAWS {
-            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &automatic());
+            let with = |solver| {
+                solve_as(
+                    &known,
+                    &design,
+                    &Common { law, solver, ..Common::default() },
+                    &automatic(),
+                )
+            };
             let [ours, theirs] = [with(coarse), with(finer(coarse))].map(|solved| solved.folds);
             assert_eq!(ours.len(), theirs.len(), "{design:?}");
             for (ours, theirs) in ours.iter().zip(&theirs) {

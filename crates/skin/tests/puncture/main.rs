@@ -15,6 +15,7 @@
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `tilts` | measures at tilts on the way, against paths that end there |
+//! | `rubbing` | friction between scales: independent programs, steps, work |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 
 mod ends;
@@ -26,6 +27,7 @@ mod neo_hookean;
 mod outputs;
 mod robustness;
 mod rows;
+mod rubbing;
 #[path = "../samples/mod.rs"]
 mod samples;
 mod scaling;

@@ -92,7 +92,7 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     for design in spread() {
         for law in LAWS {
             let with = |solver| {
-                let common = Common { law, solver };
+                let common = Common { law, solver, ..Common::default() };
                 complete(&solve_as(&known, &design, &common, &neo_hookean(on_row(41))))
             };
             assert_same_measures(&with(coarse), &with(finer(coarse)), 1e-6);

@@ -3,7 +3,6 @@
 use std::collections::{HashMap, HashSet};
 
 use approx::assert_relative_eq;
-use contact::Law;
 use skin::puncture::{self, At, Needle, Puncture, PunctureParameters, PuncturePoint};
 use skin::{Base, Common, ContactChange, ContactEvent, Status};
 
@@ -110,7 +109,7 @@ fn every_point_of_the_path_has_its_iterations() {
 #[test]
 fn a_path_that_stops_keeps_how_it_began() {
     let solver = Settings { max_points: 20, ..Settings::default() };
-    let (known, common) = (Calibrations::default(), Common { solver, law: Law::PRINTED });
+    let (known, common) = (Calibrations::default(), Common { solver, ..Common::default() });
     let cut = solve_as(&known, &domino(), &common, &on_row(41));
     let whole = solve(&domino(), &on_row(41));
     assert_eq!(cut.status, Status::Stopped(Stop::TooManyPoints));

@@ -13,7 +13,9 @@ fn steps_ten_times_smaller_give_the_same_measures() {
     let fine = finer(coarse);
     for design in spread() {
         for law in LAWS {
-            let with = |solver| solve_as(&known, &design, &Common { law, solver }, &on_row(41));
+            let with = |solver| {
+                solve_as(&known, &design, &Common { law, solver, ..Common::default() }, &on_row(41))
+            };
             let [ours, theirs] = [with(coarse), with(fine)];
             assert!(theirs.path.len() >= ours.path.len() + 30);
             crate::assert_same_measures(&crate::complete(&ours), &crate::complete(&theirs), 1e-6);

@@ -97,7 +97,9 @@ fn fastest<S: System>(
     direction: &[f64],
 ) -> Option<(usize, f64)> {
     let constraints = system.constraints().iter().zip(&state.active).enumerate();
-    let active = constraints.filter(|(_, (_, active))| **active);
+    // How far something has slid is counted from a place of this path, which another design has elsewhere.
+    let counts = |number: usize| !system.growing().contains(&number);
+    let active = constraints.filter(|(number, (_, active))| **active && counts(*number));
     let ways = active
         .map(|(constraint, (&index, _))| (constraint, (state.z[index] / direction[index]).abs()));
     ways.filter(|(_, way)| way.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))

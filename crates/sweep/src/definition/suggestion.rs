@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn hints_are_near_or_none() {
         assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
-        assert_eq!(for_key("contact", "c3"), "expected one of c1, c2");
+        assert_eq!(for_key("contact", "c3"), "expected one of c1, c2, friction");
         assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
         assert_eq!(for_key("designs", "gap"), "did you mean designs.gap_over_t?");
         assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");

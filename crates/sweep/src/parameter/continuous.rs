@@ -1,8 +1,11 @@
 //! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
 
 use super::Bound::{Excluded, Included};
-use super::{Parameter, ParameterKind, Scalar};
+use super::{Parameter, ParameterKind, Scalar, key};
 use crate::case::Case;
+
+/// Friction smaller than this has no derivatives: a step of differences would lead below zero.
+const LEAST_FRICTION: f64 = 1e-4;
 
 impl Parameter {
     /// The value of this parameter in `case`, which is its own: `None` if its alternative is given, from which it follows.
@@ -40,6 +43,10 @@ impl Parameter {
             return None;
         };
         let value = self.own(case)?.number()?.abs();
+        if self.key == key::FRICTION && value < LEAST_FRICTION {
+            // A path of scales that do not rub knows nothing of how they slip, and so not what a little friction does.
+            return None;
+        }
         // A range that begins above zero has no place where a part of the value would be no step.
         let may_vanish = match range.low {
             Excluded(low) => low < 0.0,

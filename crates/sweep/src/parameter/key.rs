@@ -26,6 +26,9 @@ pub const NEEDLE: &str = "needle";
 /// The friction between needle and scale.
 pub const NEEDLE_FRICTION: &str = "needle_friction";
 
+/// The coefficient of friction between two scales.
+pub const FRICTION: &str = "friction";
+
 /// The depth at which the force is measured besides.
 pub const DEPTH: &str = "depth_over_t";
 /// The same in mm.

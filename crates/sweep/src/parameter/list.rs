@@ -162,6 +162,19 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: key::FRICTION,
+        section: "contact",
+        unit: "-",
+        meaning: "coefficient of friction between two scales",
+        roles: NUMBER,
+        kind: ParameterKind::Number {
+            noun: "a number",
+            // Rubber on a rough surface has about 2.
+            range: Range { low: Included(0.0), high: Included(2.0) },
+            field: |c| &mut c.common.friction,
+        },
+    },
+    Parameter {
         key: "scales",
         section: "puncture",
         unit: "-",

@@ -5,7 +5,7 @@ use solver::{Residual, Tangent};
 use super::mode::{Place, Rub, Touch};
 use super::outline::{COORDINATES, Tip};
 use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
-use crate::contacts::SkinState;
+use crate::contacts::{Contacts, SkinState};
 use crate::puncture::system::Chain;
 
 /// Value of a condition that does not exist: any number above zero.
@@ -187,9 +187,12 @@ impl Chain {
         slopes.extend(before.iter().zip(after).map(|(a, b)| (b - a) / (2.0 * step)));
     }
 
-    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row: its forces have no
-    /// energy then.
+    /// Whether the needle slides with friction, or is held in a notch with a force that does not turn with the row, or scales rub: their
+    /// forces have no energy then.
     pub(in crate::puncture) fn rubs(&self, state: &SkinState) -> bool {
+        if Contacts::rubs(state) {
+            return true;
+        }
         let Some(needle) = &self.needle else { return false };
         state.mode.needle.touches.iter().flatten().any(|touch| match touch.rub {
             Rub::Slip { sign, .. } => sign * needle.friction != 0.0,

@@ -1,7 +1,7 @@
-//! What a needle keeps of its way, and how that changes with a parameter.
+//! What a row keeps of its way, and how that changes with a parameter.
 //!
-//! Where the tip sticks it does so at an anchor, and in a notch it is held with a ratio of forces. Both were set at an event of the path,
-//! and a parameter moves them as it moves that event:
+//! Where the tip of a needle or a contact sticks it does so at an anchor, and in a notch a needle is held with a ratio of forces. All were
+//! set at an event of the path, and a parameter moves them as it moves that event:
 //!
 //! ```text
 //! da/dq = ∂a/∂q + ∂a/∂z dz/dq   at the event,     dz/dq = −J⁻¹ (∂r/∂q + ∂r/∂a da/dq) + s v   behind it      (L6)
@@ -11,14 +11,33 @@
 
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
+use super::GuidedNeedle;
 use super::mode::{Place, Rub, Touch};
-use super::{GuidedNeedle, NeedleMode};
-use crate::contacts::{SkinMode, SkinPoint, SkinState};
+use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
 use crate::sensitivity::vanished;
 
-/// The segments of a path at whose ends the needle comes to keep something of its way.
+/// What the equations keep of the way to a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::puncture) enum Kept {
+    /// Where a touch of the needle, by its slot, sticks, or how it is held.
+    Touch(usize, Touch),
+    /// Where a contact, by its number, sticks.
+    Contact(usize, f64),
+}
+
+impl Kept {
+    /// Whether both are one: a touch may change its slot.
+    fn is(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Touch(_, one), Self::Touch(_, other)) => one == other,
+            (one, other) => one == other,
+        }
+    }
+}
+
+/// The segments of a path at whose ends the row comes to keep something of its way.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct HistoryWatch {
     pub(in crate::puncture) segments: Vec<[SkinPoint; 2]>,
@@ -26,15 +45,15 @@ pub(in crate::puncture) struct HistoryWatch {
 
 impl HistoryWatch {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
-        if kept(&to.state).any(|(_, touch)| !is_in(&touch, &from.state)) {
+        if history(&to.state).into_iter().any(|kept| !is_in(kept, &from.state)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
     }
 }
 
-/// What a touch keeps of its way, and its rates of change with each parameter; `None` where that is not known.
+/// Something that is kept, and its rates of change with each parameter; `None` where that is not known.
 pub(in crate::puncture) struct Anchor {
-    touch: Touch,
+    kept: Kept,
     rates: Vec<Option<f64>>,
 }
 
@@ -46,26 +65,36 @@ pub(in crate::puncture) fn anchors(
 ) -> Vec<Anchor> {
     let rest = path.system().at_rest();
     let mut anchors: Vec<Anchor> = Vec::new();
-    for (_, touch) in kept(&rest) {
+    for kept in history(&rest) {
         // The needle is set down: its first anchor is a matter of the design alone.
         let of = |neighbours: &Neighbours<Chain>| {
-            let [below, above] = [&neighbours.below, &neighbours.above]
-                .map(|chain| Some(chain.tip(&rest.z, touch.scale, touch.place)?.way));
-            Some((above? - below?) / (2.0 * neighbours.step))
+            let at = |chain: &Chain| chain.keeps(&rest, kept, &rest);
+            let (below, above) = (at(&neighbours.below)?, at(&neighbours.above)?);
+            Some((above - below) / (2.0 * neighbours.step))
         };
-        anchors.push(Anchor { touch, rates: variations.iter().map(of).collect() });
+        anchors.push(Anchor { kept, rates: variations.iter().map(of).collect() });
     }
     for [from, to] in segments {
         let place = event_before(path, [from, to]);
         let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
-        for (slot, touch) in kept(&to.state).filter(|(_, touch)| !is_in(touch, &from.state)) {
-            let unknown = || vec![None; variations.len()];
-            let known = place.as_ref().zip(varied.as_ref()).and_then(|(place, varied)| {
-                let mut here = Linearisation::new(path.system(), place.clone()).ok()?;
-                let rate = |q| rate(path.system(), &mut here, q, slot, &touch);
-                Some(varied.iter().map(rate).collect())
+        let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
+        let new = history(&to.state).into_iter().filter(|kept| !is_in(*kept, &from.state));
+        // The equilibria of neighbours at the event serve all that is kept from there on.
+        let moved: Vec<_> =
+            here.as_mut().zip(varied.as_ref()).map_or_else(Vec::new, |(here, varied)| {
+                varied.iter().map(|q| moved_to(path.system(), here, q)).collect()
             });
-            anchors.push(Anchor { touch, rates: known.unwrap_or_else(unknown) });
+        for kept in new {
+            let rate = |(at, neighbours): (&Option<[SkinState; 2]>, &Neighbours<Chain>)| {
+                let [below, above] = at.as_ref()?;
+                let value = |chain: &Chain, state| chain.keeps(state, kept, &to.state);
+                let rise = value(&neighbours.above, above)? - value(&neighbours.below, below)?;
+                Some(rise / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
+            };
+            let known: Vec<_> = moved.iter().zip(variations).map(rate).collect();
+            let unknown = || vec![None; variations.len()];
+            let rates = if known.is_empty() { unknown() } else { known };
+            anchors.push(Anchor { kept, rates });
         }
     }
     anchors
@@ -78,30 +107,29 @@ pub(in crate::puncture) fn with(
     variations: &[Neighbours<Chain>],
 ) -> Option<Vec<Neighbours<Chain>>> {
     let mut varied = variations.to_vec();
-    for (slot, touch) in kept(state) {
-        let anchor = anchors.iter().rev().find(|anchor| anchor.touch == touch)?;
+    for kept in history(state) {
+        let anchor = anchors.iter().rev().find(|anchor| anchor.kept.is(kept))?;
         for (neighbours, rate) in varied.iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
-            neighbours.below.needle.as_mut()?.moved[slot] = Some((touch, -change));
-            neighbours.above.needle.as_mut()?.moved[slot] = Some((touch, change));
+            neighbours.below.move_kept(kept, -change);
+            neighbours.above.move_kept(kept, change);
         }
     }
     Some(varied)
 }
 
-/// The touches of a state that keep something of its way.
-pub(in crate::puncture) fn history(state: &SkinState) -> NeedleMode {
-    let touches = state.mode.needle.touches;
-    NeedleMode { touches: touches.map(|touch| touch.filter(Touch::has_history)) }
+/// What the equations of a state keep of the way to it.
+pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
+    let touches = state.mode.needle.touches.into_iter().enumerate();
+    let touches = touches.filter_map(|(slot, touch)| Some(Kept::Touch(slot, touch?)));
+    let touches =
+        touches.filter(|kept| matches!(kept, Kept::Touch(_, touch) if touch.has_history()));
+    let contacts = Contacts::anchors(state).map(|(contact, at)| Kept::Contact(contact, at));
+    touches.chain(contacts).collect()
 }
 
-fn kept(state: &SkinState) -> impl Iterator<Item = (usize, Touch)> + use<> {
-    let touches = history(state).touches.into_iter().enumerate();
-    touches.filter_map(|(slot, touch)| Some((slot, touch?)))
-}
-
-fn is_in(touch: &Touch, state: &SkinState) -> bool {
-    state.mode.needle.touches.contains(&Some(*touch))
+fn is_in(kept: Kept, state: &SkinState) -> bool {
+    history(state).into_iter().any(|other| other.is(kept))
 }
 
 /// The event at the end of a segment, seen from before it.
@@ -119,31 +147,28 @@ pub(in crate::puncture) fn event_before(
     Some(AnchoredPoint { state, direction, anchor })
 }
 
-/// The rate of what a touch keeps from an event on; `None` where the event becomes another one with the parameter.
-fn rate(
+/// The equilibria of neighbours at an event; `None` where it becomes another one with the parameter.
+fn moved_to(
     chain: &Chain,
     here: &mut Linearisation<SkinMode>,
     neighbours: &Neighbours<Chain>,
-    slot: usize,
-    touch: &Touch,
-) -> Option<f64> {
+) -> Option<[SkinState; 2]> {
     let moved = here.moved(chain, neighbours, false);
     let systems = [&neighbours.below, &neighbours.above];
     let mut both = systems.into_iter().zip(&moved);
-    if both.clone().any(|(system, moved)| here.violated(system, moved).is_some()) {
+    if both.any(|(system, moved)| here.violated(system, moved).is_some()) {
         return None;
     }
-    let mut value = || {
-        let (system, moved) = both.next()?;
-        system.keeps(&moved.state, slot, touch)
-    };
-    let (below, above) = (value()?, value()?);
-    Some((above - below) / (2.0 * neighbours.step)).filter(|rate| rate.is_finite())
+    Some(moved.map(|moved| moved.state))
 }
 
 impl Chain {
-    /// What a touch will keep of a state in which it does not yet: its place, or its ratio of forces.
-    fn keeps(&self, state: &SkinState, slot: usize, touch: &Touch) -> Option<f64> {
+    /// What will be kept, in the state `to`, of a state in which it is not yet: a place, or a ratio of forces.
+    fn keeps(&self, state: &SkinState, kept: Kept, to: &SkinState) -> Option<f64> {
+        let (slot, touch) = match kept {
+            Kept::Contact(contact, _) => return self.contacts.way_of(state, contact, to),
+            Kept::Touch(slot, touch) => (slot, touch),
+        };
         let Rub::Held { .. } = touch.rub else {
             return Some(self.tip(&state.z, touch.scale, touch.place)?.way);
         };
@@ -154,6 +179,15 @@ impl Chain {
         }
         let push = self.needle.as_ref()?.push(slot);
         Some(state.z[push + 1] / state.z[push])
+    }
+
+    /// Takes what is kept to that of a neighbour.
+    fn move_kept(&mut self, kept: Kept, by: f64) {
+        match (kept, &mut self.needle) {
+            (Kept::Touch(slot, touch), Some(needle)) => needle.moved[slot] = Some((touch, by)),
+            (Kept::Touch(..), None) => {}
+            (Kept::Contact(contact, _), _) => self.contacts.move_anchor(contact, by),
+        }
     }
 }
 

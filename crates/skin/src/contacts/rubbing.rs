@@ -1,0 +1,399 @@
+//! Friction between neighbours: scales that stick and slip on each other.
+//!
+//! On an edge the contact force has a part `T` along it, on the left scale in the direction of the normal force turned counter-clockwise
+//! by a quarter. With the normal forces `Λ` that bear on the edge and the way `s` that the left scale has slid in that direction
+//!
+//! ```text
+//! |T| ≤ μ Λ,    stick:  s = s₀, T unknown,    slip:  T = −μ Λ sign ṡ                          (R1)
+//! ```
+//!
+//! Sticking is an equality. Its unknown is the *grip* `a = T + μ Λ`, which vanishes where the contact begins to slip forward; backward it
+//! slips where `2 μ Λ − a` does. A contact that slips has the way that it has come as an unknown that only grows: where it turns back the
+//! contact sticks (R2). So a contact that rubs has two constraints more than one that does not:
+//!
+//! ```text
+//! 0 ≤ a   where it sticks          0 ≤ σ (s − s₀)  ⟂  2 μ Λ − a ≥ 0
+//! ```
+//!
+//! Two contacts of a pair whose sides lie on each other slide along one line: only the sum of their friction counts, and one of them, the
+//! *host*, bears it for both. Corners that are together keep the ratio of `T` and `Λ` with which they came; it is that of sliding on, on
+//! the edge behind the corner.
+
+use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose};
+use geometry::Vec2;
+use solver::{Residual, Tangent};
+
+use super::{Contacts, HOLDS, LEVELS, SkinMode, SkinPoint, SkinState};
+
+/// Constraints of a contact that rubs, behind those of its forces.
+pub(super) const GRIP: usize = FORCES;
+pub(super) const WAY: usize = FORCES + 1;
+
+/// A normal force smaller than this has just begun to act.
+pub(super) const NO_FORCE: f64 = 1e-12;
+
+/// How a contact rubs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Rub {
+    /// Not at all: it is open, or the other contact of the pair bears its friction.
+    #[default]
+    None,
+    /// It sticks where `s` is `at`, its anchor.
+    Stick {
+        /// `s₀`.
+        at: f64,
+    },
+    /// It slips with this sign of `ṡ`, since `s` was `from`.
+    Slip {
+        /// `σ`, 1 or −1.
+        sign: f64,
+        /// `s` where it began to.
+        from: f64,
+    },
+    /// The corners are together, with this ratio of `T` and `Λ`.
+    Held {
+        /// `T/Λ`.
+        ratio: f64,
+    },
+}
+
+impl Rub {
+    /// Whether the contact bears friction on an edge.
+    pub(super) fn is_host(self) -> bool {
+        matches!(self, Self::Stick { .. } | Self::Slip { .. })
+    }
+
+    /// Whether both stick, or slip the same way.
+    pub(super) fn is_same_form(self, other: Self) -> bool {
+        match (self, other) {
+            (Self::Slip { sign, .. }, Self::Slip { sign: of_other, .. }) => sign == of_other,
+            _ => std::mem::discriminant(&self) == std::mem::discriminant(&other),
+        }
+    }
+
+    /// Whether it sticks, and whether it slips.
+    pub(super) fn acting(self) -> [bool; 2] {
+        [matches!(self, Self::Stick { .. }), matches!(self, Self::Slip { .. })]
+    }
+}
+
+/// How a closed contact slides: its friction, and the way with its derivatives.
+struct Sliding {
+    rub: Rub,
+    traction: f64,
+    /// `∂T/∂Λ`, with the grip held.
+    by_pressure: f64,
+    slide: Gap,
+}
+
+impl Contacts {
+    /// Whether neighbours rub.
+    pub(crate) fn rub(&self) -> bool {
+        self.law.friction() > 0.0
+    }
+
+    /// Whether friction acts anywhere.
+    pub(crate) fn rubs(state: &SkinState) -> bool {
+        state.mode.rubs.iter().any(|rub| *rub != Rub::None)
+    }
+
+    /// Numbers of contacts that stick and that slip.
+    pub(crate) fn rubbing(state: &SkinState) -> [usize; 2] {
+        let count = |k: usize| state.mode.rubs.iter().filter(|rub| rub.acting()[k]).count();
+        [0, 1].map(count)
+    }
+
+    /// Whether a constraint is one of friction.
+    pub(crate) fn is_friction(&self, constraint: usize) -> bool {
+        constraint < self.forces.len() && self.contact_of(constraint).1 >= FORCES
+    }
+
+    /// Whether a constraint is one of friction of a contact that slips.
+    pub(crate) fn slips(&self, state: &SkinState, constraint: usize) -> bool {
+        self.is_friction(constraint)
+            && state.mode.rubs[self.contact_of(constraint).0].acting() == [false, true]
+    }
+
+    /// The contacts that stick, each with its anchor.
+    pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
+        let rubs = state.mode.rubs.iter().enumerate();
+        rubs.filter_map(|(contact, rub)| match rub {
+            Rub::Stick { at } => Some((contact, *at)),
+            _ => None,
+        })
+    }
+
+    /// `s` of a contact, on the edge on which it is in the state `to`.
+    pub(crate) fn way_of(&self, state: &SkinState, contact: usize, to: &SkinState) -> Option<f64> {
+        Some(self.way(state, to.mode[contact].edge()?, contact))
+    }
+
+    /// Moves the anchor of a contact that sticks, to that of a neighbour of a row which has come to the same state on its own way.
+    pub(crate) fn move_anchor(&mut self, contact: usize, by: f64) {
+        self.moved.push((contact, by));
+    }
+
+    /// The ratio with which the corners of a contact are held together.
+    pub(super) fn held(mode: &SkinMode, contact: usize) -> f64 {
+        match mode.rubs.get(contact) {
+            Some(Rub::Held { ratio }) => *ratio,
+            _ => 0.0,
+        }
+    }
+
+    /// Adds the friction of a pair to its balance, and the equations of grips and ways.
+    pub(super) fn add_friction(
+        &self,
+        state: &SkinState,
+        left: usize,
+        poses: &[Pose; 2],
+        residual: &mut Residual,
+        matrix: &mut impl Tangent,
+    ) {
+        for contact in Self::contacts_of(left) {
+            let Some(sliding) = self.sliding(state, contact, poses) else { continue };
+            let Sliding { rub, traction, by_pressure, slide } = sliding;
+            let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
+            let parts = self.parts(contact);
+            for row in parts.iter().flatten() {
+                let along = row.sign * slide.gradient[row.coordinate];
+                residual.add(row.unknown, -traction * along);
+                for column in parts.iter().flatten() {
+                    let turning = slide.hessian[row.coordinate][column.coordinate];
+                    matrix.add(
+                        row.unknown,
+                        column.unknown,
+                        -traction * row.sign * column.sign * turning,
+                    );
+                }
+                for force in self.pressing(&state.mode, contact) {
+                    matrix.add(row.unknown, force, -by_pressure * along);
+                }
+                if let Rub::Stick { .. } = rub {
+                    matrix.add(row.unknown, grip, -along);
+                }
+            }
+            let mut add_way = |row: usize, factor: f64, value: f64| {
+                residual.add(row, factor * value);
+                for part in parts.iter().flatten() {
+                    let along = part.sign * slide.gradient[part.coordinate];
+                    matrix.add(row, part.unknown, factor * along);
+                }
+            };
+            match rub {
+                Rub::Stick { at } => {
+                    let moved = self.moved.iter().find(|(moved, _)| *moved == contact);
+                    let at = at + moved.map_or(0.0, |(_, by)| *by);
+                    add_way(grip, 1.0, slide.value - at);
+                }
+                Rub::Slip { sign, from } => {
+                    add_way(way, -sign, slide.value - from);
+                    residual.add(way, state.z[way]);
+                    matrix.add(way, way, 1.0);
+                }
+                Rub::None | Rub::Held { .. } => {}
+            }
+        }
+    }
+
+    /// The condition of a grip or a way that does not act, or with a direction for `z` its derivative: that of the way of a contact that
+    /// sticks alone may be violated.
+    pub(super) fn slot_condition(
+        &self,
+        state: &SkinState,
+        z: &[f64],
+        contact: usize,
+        slot: usize,
+    ) -> Option<f64> {
+        let SkinState { mode, .. } = state;
+        let Rub::Stick { .. } = mode.rubs[contact] else { return None };
+        if slot != WAY {
+            return None;
+        }
+        let pressing: f64 = self.pressing(mode, contact).map(|force| z[force]).sum();
+        Some(2.0 * self.law.friction() * pressing - z[self.unknown(contact, GRIP)])
+    }
+
+    /// The derivative of the equation of a grip or a way that acts, or of the condition of one that does not.
+    pub(super) fn slot_slope(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        contact: usize,
+        slot: usize,
+    ) -> f64 {
+        let poses = self.pair_poses(&state.z, contact);
+        let along = |sliding: Sliding| -> f64 {
+            let parts = self.parts(contact).into_iter().flatten();
+            let slope = |part: super::Part| part.sign * sliding.slide.gradient[part.coordinate];
+            parts.map(|part| slope(part) * direction[part.unknown]).sum()
+        };
+        let along = || self.sliding(state, contact, &poses).map_or(0.0, along);
+        match (state.mode.rubs[contact], slot) {
+            (Rub::Stick { .. }, GRIP) => along(),
+            (Rub::Slip { sign, .. }, WAY) => direction[self.unknown(contact, WAY)] - sign * along(),
+            _ => self.slot_condition(state, direction, contact, slot).unwrap_or(0.0),
+        }
+    }
+
+    /// Replaces the conditions of grips and ways.
+    pub(super) fn friction_conditions(&self, state: &SkinState, values: &mut [f64]) {
+        for contact in 0..state.mode.rubs.len() {
+            values[self.slots * contact + WAY] =
+                self.slot_condition(state, &state.z, contact, WAY).unwrap_or(HOLDS);
+        }
+    }
+
+    /// Replaces the derivatives of these conditions along a direction, in which they are linear.
+    pub(super) fn friction_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut [f64]) {
+        for contact in 0..state.mode.rubs.len() {
+            slopes[self.slots * contact + WAY] =
+                self.slot_condition(state, direction, contact, WAY).unwrap_or(0.0);
+        }
+    }
+
+    /// What friction takes between two neighbouring points of a path, `∫ μ Λ |ds|`. `spans` are the units of the directions in which the
+    /// path leaves the one and comes to the other ([`solver::Path::spans`]): with them both factors are known to the third order.
+    pub(crate) fn friction_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
+        let slips = from.state.mode.rubs.iter().enumerate();
+        let work = |(contact, rub): (usize, &Rub)| {
+            let Rub::Slip { sign, from: start } = *rub else { return 0.0 };
+            let Some(edge) = from.state.mode[contact].edge() else { return 0.0 };
+            let pressing = |z: &[f64]| -> f64 {
+                // A force may have been handed on at the second point.
+                let mode = &from.state.mode;
+                let contacts = [Some(contact), Self::guest_of(mode, contact)];
+                let both = contacts.into_iter().flatten().map(|contact| self.forces_of(z, contact));
+                both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
+            };
+            let way = self.unknown(contact, WAY);
+            let end = sign * (self.way(&to.state, edge, contact) - start);
+            let ways = [from.state.z[way], end];
+            let rates = [spans[0] * from.leaving[way], spans[1] * to.arriving[way]];
+            let forces = [pressing(&from.state.z), pressing(&to.state.z)];
+            let growth = [spans[0] * pressing(&from.leaving), spans[1] * pressing(&to.arriving)];
+            self.law.friction() * product_integral([forces, growth], [ways, rates])
+        };
+        slips.map(work).sum()
+    }
+
+    /// The contact whose friction a contact bears besides its own.
+    fn guest_of(mode: &SkinMode, contact: usize) -> Option<usize> {
+        let other = Self::beside(contact);
+        (mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open).then_some(other)
+    }
+
+    /// Friction on the left scale at a contact whose normal force has this direction.
+    pub(super) fn traction_on_left(
+        &self,
+        state: &SkinState,
+        contact: usize,
+        normal_force: Vec2,
+    ) -> Vec2 {
+        let poses = self.pair_poses(&state.z, contact);
+        let quarter = |v: Vec2| Vec2::new(-v.y, v.x);
+        match (self.sliding(state, contact, &poses), normal_force.norm()) {
+            (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
+            _ => Self::held(&state.mode, contact) * quarter(normal_force),
+        }
+    }
+
+    fn sliding(&self, state: &SkinState, contact: usize, poses: &[Pose; 2]) -> Option<Sliding> {
+        let rub = *state.mode.rubs.get(contact)?;
+        let by_pressure = match rub {
+            Rub::Stick { .. } => -self.law.friction(),
+            Rub::Slip { sign, .. } => -sign * self.law.friction(),
+            Rub::None | Rub::Held { .. } => return None,
+        };
+        let slide = self.slide(state.mode[contact].edge()?, contact, poses);
+        let pressing: f64 = self.pressing(&state.mode, contact).map(|force| state.z[force]).sum();
+        let grip = state.z[self.unknown(contact, GRIP)];
+        Some(Sliding { rub, traction: grip + by_pressure * pressing, by_pressure, slide })
+    }
+
+    fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
+        self.pair(Self::left(contact)).slide(edge, left, right)
+    }
+
+    /// Unknown of a constraint of a contact.
+    pub(super) fn unknown(&self, contact: usize, slot: usize) -> usize {
+        self.forces[self.slots * contact + slot]
+    }
+
+    /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
+    fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
+        let both = [Some(contact), Self::guest_of(mode, contact)];
+        let acting = both.map(|contact| contact.map(|contact| (contact, mode[contact].acting())));
+        acting
+            .into_iter()
+            .flatten()
+            .flat_map(move |(contact, acting)| {
+                let forces = [Force::Own, Force::Flush].map(|force| force as usize);
+                forces
+                    .into_iter()
+                    .filter(move |&force| acting[force])
+                    .map(move |force| (contact, force))
+            })
+            .map(|(contact, force)| self.unknown(contact, force))
+    }
+
+    /// The other contact of a pair.
+    pub(super) fn beside(contact: usize) -> usize {
+        let first = Self::contacts_of(Self::left(contact)).start;
+        2 * first + LEVELS.len() - 1 - contact
+    }
+
+    /// `T/Λ` of a contact.
+    pub(super) fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
+        let other = Self::beside(contact);
+        match state.mode.rubs[contact] {
+            Rub::Held { ratio } => ratio,
+            Rub::Slip { sign, .. } => -sign * self.law.friction(),
+            Rub::Stick { .. } => {
+                let pressing = self.pressure(state, contact);
+                let grip = state.z[self.unknown(contact, GRIP)];
+                if pressing > NO_FORCE { grip / pressing - self.law.friction() } else { 0.0 }
+            }
+            Rub::None if Self::is_guest(state, contact) => self.ratio(state, other),
+            Rub::None => 0.0,
+        }
+    }
+
+    /// Whether the other contact of the pair bears the friction of this one.
+    pub(super) fn is_guest(state: &SkinState, contact: usize) -> bool {
+        state.mode.rubs[contact] == Rub::None
+            && state.mode[contact] != CornerContact::Open
+            && state.mode.rubs[Self::beside(contact)].is_host()
+    }
+
+    /// The normal forces on the edge of a contact that bears its friction.
+    pub(super) fn pressure(&self, state: &SkinState, contact: usize) -> f64 {
+        self.pressing(&state.mode, contact).map(|force| state.z[force]).sum()
+    }
+
+    /// `s` of a contact.
+    pub(super) fn way(&self, state: &SkinState, edge: CornerEdge, contact: usize) -> f64 {
+        self.slide(edge, contact, &self.pair_poses(&state.z, contact)).value
+    }
+}
+
+/// `∫ f dg` over a unit interval, of cubics through values and slopes at both ends: exact with three points of Gauss.
+fn product_integral([values, slopes]: [[f64; 2]; 2], [of_g, slopes_of_g]: [[f64; 2]; 2]) -> f64 {
+    let points = [
+        (0.5, 4.0 / 9.0),
+        (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),
+        (0.5 + 0.15_f64.sqrt(), 5.0 / 18.0),
+    ];
+    let integrand = |x: f64| {
+        let [start, end] = values;
+        let cubic = start * (1.0 + 2.0 * x) * (1.0 - x).powi(2)
+            + end * x * x * (3.0 - 2.0 * x)
+            + slopes[0] * x * (1.0 - x).powi(2)
+            + slopes[1] * x * x * (x - 1.0);
+        let rate = 6.0 * x * (1.0 - x) * (of_g[1] - of_g[0])
+            + slopes_of_g[0] * (1.0 - x) * (1.0 - 3.0 * x)
+            + slopes_of_g[1] * x * (3.0 * x - 2.0);
+        cubic * rate
+    };
+    points.into_iter().map(|(x, weight)| weight * integrand(x)).sum()
+}

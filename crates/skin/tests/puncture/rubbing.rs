@@ -1,0 +1,146 @@
+//! Friction between scales.
+
+use approx::assert_relative_eq;
+use skin::puncture::{self, Puncture, PunctureParameters, RowLength};
+use skin::{Base, Common, Design, Status};
+use solver::Settings;
+use substrate::Calibrations;
+
+use super::complete;
+use super::samples::{
+    BASES, design, finer, long_campaigns, on_row, random, reference_study, solve_as,
+};
+
+fn rubbing(friction: f64) -> Common {
+    Common { friction, ..Common::default() }
+}
+
+fn solve(design: &Design, friction: f64, parameters: &PunctureParameters) -> Puncture {
+    solve_as(&Calibrations::default(), design, &rubbing(friction), parameters)
+}
+
+/// Critical force and penetration of two independent programs, whose contacts stick by springs that return to the cone.
+#[test]
+fn forces_and_penetration_are_those_of_independent_programs() {
+    let row = |slant_deg: f64, friction: f64| {
+        let measures =
+            complete(&solve(&design(0.1, 1.0, slant_deg, Base::L), friction, &on_row(41)));
+        (measures.critical_force.unwrap(), measures.penetration.unwrap())
+    };
+    assert_relative_eq!(row(45.0, 0.0).0, 0.4163, max_relative = 2e-4);
+    assert_relative_eq!(row(45.0, 0.1).0, 0.4514, max_relative = 2e-4);
+    assert_relative_eq!(row(60.0, 0.0).1, 0.426, max_relative = 2e-3);
+    assert_relative_eq!(row(60.0, 0.1).1, 0.475, max_relative = 2e-3);
+}
+
+#[test]
+fn a_row_that_rubs_next_to_nothing_is_one_that_does_not() {
+    for slant_deg in [0.0, 45.0, 60.0] {
+        let design = design(0.1, 1.0, slant_deg, Base::L);
+        let [none, little] =
+            [0.0, 1e-9].map(|friction| complete(&solve(&design, friction, &on_row(21))));
+        let [none, little] = [none, little].map(|measures| measures.critical_force.unwrap());
+        assert_relative_eq!(none, little, max_relative = 1e-7);
+    }
+}
+
+#[test]
+fn the_path_does_not_depend_on_its_steps() {
+    for (gap, length, slant_deg, friction) in
+        [(0.1, 1.0, 45.0, 0.1), (0.1, 0.3, 60.0, 0.3), (0.2, 0.3, 75.0, 0.1), (0.1, 1.0, 75.0, 0.2)]
+    {
+        let design = design(gap, length, slant_deg, Base::L);
+        let known = Calibrations::default();
+        let with = |solver| {
+            let common = Common { solver, ..rubbing(friction) };
+            complete(&solve_as(&known, &design, &common, &on_row(41)))
+        };
+        let (coarse, fine) = (with(Settings::default()), with(finer(Settings::default())));
+        assert_relative_eq!(
+            coarse.critical_force.unwrap(),
+            fine.critical_force.unwrap(),
+            max_relative = 1e-8
+        );
+        assert_eq!(coarse.contacts, fine.contacts);
+    }
+}
+
+/// The work of the load is stored or taken by friction.
+#[test]
+fn what_friction_takes_is_missing_from_the_energy() {
+    for (gap, length, slant_deg, friction) in
+        [(0.1, 1.0, 45.0, 0.05), (0.2, 0.5, 60.0, 0.1), (0.2, 0.3, 75.0, 0.05)]
+    {
+        let design = design(gap, length, slant_deg, Base::L);
+        let solver = Settings { first_step: 4e-4, max_step: 4e-4, ..Settings::default() };
+        let common = Common { solver, ..rubbing(friction) };
+        let puncture = solve_as(&Calibrations::default(), &design, &common, &on_row(21));
+        // The trapezoidal rule, of the third order in short steps.
+        let pairs = puncture.path.iter().zip(&puncture.path[1..]);
+        let work: f64 = pairs
+            .map(|(a, b)| 0.5 * (a.force + b.force) * (b.displacement - a.displacement) * length)
+            .sum();
+        let end = puncture.path.last().unwrap();
+        let taken = complete(&puncture).friction_work.unwrap();
+        assert!(taken > 1e-3 * work, "{taken} {work}");
+        assert_relative_eq!(
+            work,
+            end.substrate_energy + end.contact_energy + taken,
+            max_relative = 4e-8
+        );
+        // With usual steps it is what cubics make of it.
+        let usual = complete(&solve(&design, friction, &on_row(21))).friction_work.unwrap();
+        assert_relative_eq!(usual, taken, max_relative = 3e-4);
+    }
+}
+
+#[test]
+fn contacts_slip_and_stick_in_turn() {
+    let puncture = solve(&design(0.1, 1.0, 45.0, Base::L), 0.1, &on_row(21));
+    let changes: Vec<_> = puncture.events.iter().map(|event| event.change.name()).collect();
+    assert!(changes.contains(&"slips") && changes.contains(&"sticks"), "{changes:?}");
+}
+
+/// Steep, short scales touch dozens of neighbours.
+#[test]
+fn dominoes_that_rub_fall_to_the_end() {
+    for (gap, length, slant_deg) in [(0.1, 0.3, 60.0), (0.2, 0.3, 75.0), (0.1, 0.1, 75.0)] {
+        let design = design(gap, length, slant_deg, Base::L);
+        let forces = [0.0, 0.1].map(|friction| {
+            let row =
+                PunctureParameters { scales: RowLength::Auto, ..PunctureParameters::default() };
+            complete(&solve(&design, friction, &row)).critical_force.unwrap()
+        });
+        assert!(forces[1] > 1.05 * forces[0], "{forces:?}");
+    }
+}
+
+/// How the punctures of these designs end with this friction, of those that are not complete.
+fn incomplete(designs: impl IntoIterator<Item = Design>, friction: f64) -> Vec<(Design, Status)> {
+    let known = Calibrations::default();
+    let status = |design: Design| {
+        let springs = known.get(&design.footprint(0.5).unwrap()).unwrap();
+        let parameters = PunctureParameters::default();
+        let puncture = puncture::solve(&design, &springs, &rubbing(friction), &parameters).unwrap();
+        (design, puncture.status)
+    };
+    designs.into_iter().map(status).filter(|(_, status)| *status != Status::Complete).collect()
+}
+
+#[test]
+fn the_reference_study_is_complete_with_friction() {
+    for friction in [0.1, 0.3] {
+        for base in BASES {
+            let every = if long_campaigns() { 1 } else { 24 };
+            let designs = reference_study(base).into_iter().skip(5).step_by(every);
+            assert_eq!(incomplete(designs, friction), []);
+        }
+    }
+}
+
+#[test]
+fn random_designs_are_complete_with_friction() {
+    let count = if long_campaigns() { 2000 } else { 100 };
+    let failed = incomplete(random(count, 21), 0.3);
+    assert!(failed.len() <= count / 1000, "{failed:?}");
+}
