@@ -12,6 +12,7 @@ mod explore;
 mod export;
 mod figure_file;
 mod init;
+mod make;
 mod man;
 mod merge;
 mod optimise;
@@ -104,6 +105,8 @@ pub enum Command {
     Compare(compare::Arguments),
     /// Draw designs to scale: at rest, punctured, bent
     Draw(draw::Arguments),
+    /// Write a design as a file for a printer, a CAD program or a laser cutter
+    Make(make::Arguments),
     /// Plot the figures of a sweep, a map, or the curves of designs
     Plot(plot::Arguments),
     /// Write one HTML page with the figures and designs of a sweep
@@ -141,6 +144,7 @@ impl Command {
             Self::Optimise(arguments) => optimise::optimise(&arguments, interrupt),
             Self::Compare(arguments) => compare::compare(&arguments),
             Self::Draw(arguments) => draw::draw(&arguments),
+            Self::Make(arguments) => make::make(&arguments, interrupt),
             Self::Plot(arguments) => plot::plot(&arguments),
             Self::Report(arguments) => report::report(&arguments),
             Self::Explore(arguments) => explore::explore(&arguments),

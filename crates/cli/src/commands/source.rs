@@ -49,7 +49,8 @@ pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
 }
 
-/// The file of the definition, which is as it was written if a run has written it: `path`, or the record of the run in the folder `path`.
+/// The file of the definition, which is as it was written if a run has written it: `path`, or in the folder `path` the record of the run
+/// or the optimum of the search.
 pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !path.is_dir() {
         // A run.toml that was edited is no longer the record of its run.
@@ -57,6 +58,10 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
         return Ok(path.to_owned());
     }
     let record = path.join(RunFolder::RUN_INFO);
+    let optimum = path.join("optimum.toml");
+    if !record.is_file() && optimum.is_file() {
+        return Ok(optimum);
+    }
     ensure!(
         record.is_file(),
         "{}: holds no {}, expected a definition in TOML or a results folder",

@@ -13,6 +13,7 @@ mod images;
 mod imperfections;
 mod json;
 mod kills;
+mod making;
 mod materials;
 mod optimising;
 mod output;

@@ -68,6 +68,9 @@ fn every_command_does_what_it_says() {
         "results/palm/optimum.csv",
         "results/palm-front/front.svg",
         "results/palm-fitness/optimum.csv",
+        "palm.3mf",
+        "palm.step",
+        "palm-cut.parts.txt",
         "results/made/tolerance/yield.csv",
         "results/box/sensitivity/sobol.csv",
     ] {

@@ -1,0 +1,64 @@
+//! `squama make`: files for makers.
+
+use crate::Place;
+
+/// One design, 2 mm thick, whose gap and slant deviate.
+const SKIN: &str = "name = 'skin'\nmeasures = ['coverage']\n[designs]\ngap_over_t = 0.3\nlength_over_t = 0.8\nslant_deg = 60\n\
+                    [material]\nthickness_mm = 2\nscale_density_kg_m3 = 1100\n[tolerance]\ngap_mm = { batch_sd = 0.1 }\n";
+
+#[test]
+fn each_format_has_its_file_and_a_list_of_parts() {
+    let place = Place::with(SKIN);
+    let beginnings: [(&str, &[u8]); 5] = [
+        ("3mf", b"PK"),
+        ("stl", b"squama"),
+        ("step", b"ISO-10303-21;"),
+        ("dxf", b"  0\nSECTION"),
+        ("svg", b"<svg"),
+    ];
+    for (ending, beginning) in beginnings {
+        place.prints(&format!("make x.toml --design 1 --scales 3x2 --out {ending}.{ending}"));
+        let bytes = std::fs::read(place.path(format!("{ending}.{ending}"))).expect("a file");
+        assert!(bytes.starts_with(beginning), "{ending}");
+        assert!(place.path(format!("{ending}.parts.txt")).is_file(), "{ending}");
+    }
+}
+
+#[test]
+fn the_list_has_sizes_counts_masses_and_what_deviations_do() {
+    let place = Place::with(SKIN);
+    insta::assert_snapshot!(
+        place.prints("make x.toml --design 1 --scales 3x2 --gap-across-mm 0.5")
+    );
+}
+
+#[test]
+fn a_search_is_made_from_its_folder() {
+    let place = Place::with(SKIN);
+    std::fs::create_dir(place.path("search")).expect("a folder");
+    std::fs::rename(place.path("x.toml"), place.path("search/optimum.toml")).expect("moved");
+    place.prints("make search --design 1");
+    assert!(place.path("skin.3mf").is_file());
+}
+
+#[test]
+fn what_cannot_be_made_is_refused() {
+    let place = Place::with(SKIN);
+    let refused = [
+        "--out skin.obj",
+        "--out nowhere/skin.3mf",
+        "--kerf 0.1",
+        "--out x.dxf --kerf 1.8",
+        "--out x.dxf --kerf=-1",
+        "--gap-across-mm 0",
+        "--scales 0x4",
+        "--scales 5",
+    ]
+    .map(|options| place.refused(&format!("make x.toml --design 1 {options}")));
+    let text = SKIN.replace("thickness_mm = 2\n", "").replace("gap_mm", "gap_over_t");
+    std::fs::write(place.path("y.toml"), text).expect("a file");
+    let unknown = ["--design 1", "--gap 0.2,0.3 --set material.thickness_mm=2"]
+        .map(|options| place.refused(&format!("make y.toml {options}")));
+    insta::assert_snapshot!([refused.concat(), unknown.concat()].concat());
+    assert_eq!(place.list("."), "x.toml y.toml", "nothing is written");
+}

@@ -1,0 +1,40 @@
+//! Triangles of prisms.
+
+use crate::Prism;
+
+/// The triangles of a prism, by its corners; seen from outside they turn counter-clockwise.
+pub(crate) fn triangles() -> impl Iterator<Item = [usize; 3]> {
+    Prism::FACES.into_iter().flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+}
+
+/// Six times the volume that the triangles enclose.
+#[cfg(test)]
+pub(crate) fn volume(corners: &[[f64; 3]], triangles: impl Iterator<Item = [usize; 3]>) -> f64 {
+    let of = |[a, b, c]: [[f64; 3]; 3]| {
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+            + a[1] * (b[2] * c[0] - b[0] * c[2])
+            + a[2] * (b[0] * c[1] - b[1] * c[0])
+    };
+    triangles.map(|triangle| of(triangle.map(|k| corners[k]))).sum::<f64>() / 6.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::tests::patch;
+
+    #[test]
+    fn a_prism_is_closed_and_turned_outwards() {
+        let edges: Vec<_> = triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+        for [from, to] in &edges {
+            // Each edge is run through once in each direction: no open and no double edge.
+            assert_eq!(edges.iter().filter(|edge| **edge == [*from, *to]).count(), 1);
+            assert_eq!(edges.iter().filter(|edge| **edge == [*to, *from]).count(), 1);
+        }
+        let patch = patch();
+        for scale in patch.scale_prisms() {
+            let enclosed = volume(&scale.corners(), triangles());
+            assert!((enclosed / patch.scale_volume() - 1.0).abs() < 1e-12, "{enclosed}");
+        }
+    }
+}

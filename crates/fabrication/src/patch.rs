@@ -1,0 +1,205 @@
+//! The solids of a patch.
+
+use geometry::Row;
+
+/// The largest number of scales of a patch: files grow to some 100 MB.
+const MOST_SCALES: usize = 20_000;
+
+/// A patch of skin: equal scales in rows on a membrane. All lengths are in millimetres.
+///
+/// `x` runs along a row, `y` across the rows, `z` upwards; the lowest corner of the membrane is the origin. The bases of the
+/// scales stand on the upper face of the membrane, which reaches a gap beyond them on every side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    row: Row,
+    thickness: f64,
+    width: f64,
+    membrane: f64,
+    scales: [usize; 2],
+    gap_across: f64,
+}
+
+/// Why there is no such patch.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoPatch {
+    /// A length is not positive.
+    #[error("{0} is {1} mm, expected a positive length")]
+    Length(&'static str, f64),
+    /// No scale, or too many.
+    #[error("{0}x{1} scales: out of range, expected at least 1x1 and at most {MOST_SCALES} in all")]
+    Scales(usize, usize),
+}
+
+/// A solid between two parallel faces: an outline in `x` and `z`, counter-clockwise seen along `y`, and its places in `y`, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prism {
+    /// Corners of the outline, `[x, z]`.
+    pub outline: [[f64; 2]; 4],
+    /// Where it begins and ends in `y`.
+    pub across: [f64; 2],
+}
+
+impl Patch {
+    /// A patch of rows of `row`, whose lengths are over the `thickness`; `scales` along and across.
+    ///
+    /// # Errors
+    /// If a length is not positive, or the number of scales is out of range.
+    pub fn new(
+        row: Row,
+        thickness: f64,
+        [width, membrane, gap_across]: [f64; 3],
+        scales: [usize; 2],
+    ) -> Result<Self, NoPatch> {
+        let lengths = [
+            ("the thickness of the scales", thickness),
+            ("the width of the scales", width),
+            ("the thickness of the membrane", membrane),
+            ("the gap across", gap_across),
+        ];
+        for (name, length) in lengths {
+            if !(length > 0.0 && length.is_finite()) {
+                return Err(NoPatch::Length(name, length));
+            }
+        }
+        let [along, across] = scales;
+        match along.checked_mul(across) {
+            Some(1..=MOST_SCALES) => {}
+            _ => return Err(NoPatch::Scales(along, across)),
+        }
+        Ok(Self { row, thickness, width, membrane, scales, gap_across })
+    }
+
+    /// Number of scales along and across.
+    pub fn scales(&self) -> [usize; 2] {
+        self.scales
+    }
+
+    /// Length of a scale's base along the row.
+    pub fn base(&self) -> f64 {
+        2.0 * self.row.scale().half_base() * self.thickness
+    }
+
+    /// Thickness of the scales.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Width of the scales across the row.
+    pub fn width(&self) -> f64 {
+        self.width
+    }
+
+    /// Slant of the scales from the vertical, degrees.
+    pub fn slant_deg(&self) -> f64 {
+        self.row.scale().slant().to_degrees()
+    }
+
+    /// Horizontal shift of the top of a scale against its base.
+    pub fn shift(&self) -> f64 {
+        self.row.scale().shift() * self.thickness
+    }
+
+    /// Gaps between bases, along and across.
+    pub fn gaps(&self) -> [f64; 2] {
+        [self.row.gap() * self.thickness, self.gap_across]
+    }
+
+    /// Distances of equal points of neighbouring scales, along and across.
+    pub fn pitches(&self) -> [f64; 2] {
+        let [along, across] = self.gaps();
+        [self.base() + along, self.width + across]
+    }
+
+    /// Length, width and thickness of the membrane.
+    pub fn membrane_size(&self) -> [f64; 3] {
+        let ([along, across], [nx, ny]) = (self.gaps(), self.scales.map(|n| n as f64));
+        let [px, py] = self.pitches();
+        [nx * px + along, ny * py + across, self.membrane]
+    }
+
+    /// Volume of one scale, mm³.
+    pub fn scale_volume(&self) -> f64 {
+        self.base() * self.thickness * self.width
+    }
+
+    /// The outline of a scale from the side, `[x, z]`, its base from the origin to the right, counter-clockwise.
+    pub fn profile(&self) -> [[f64; 2]; 4] {
+        let (base, shift, t) = (self.base(), self.shift(), self.thickness);
+        [[0.0, 0.0], [base, 0.0], [base + shift, t], [shift, t]]
+    }
+
+    /// The sheet of membrane.
+    pub fn membrane(&self) -> Prism {
+        let [length, width, h] = self.membrane_size();
+        Prism { outline: [[0.0, 0.0], [length, 0.0], [length, h], [0.0, h]], across: [0.0, width] }
+    }
+
+    /// Lower left corners of the bases in `x` and `y`, row by row.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        let ([gx, gy], [px, py], [nx, ny]) = (self.gaps(), self.pitches(), self.scales);
+        (0..ny).flat_map(move |j| (0..nx).map(move |i| [gx + i as f64 * px, gy + j as f64 * py]))
+    }
+
+    /// The scales, row by row.
+    pub fn scale_prisms(&self) -> impl Iterator<Item = Prism> {
+        let (profile, h, width) = (self.profile(), self.membrane, self.width);
+        self.places().map(move |[x, y]| Prism {
+            outline: profile.map(|[along, up]| [x + along, h + up]),
+            across: [y, y + width],
+        })
+    }
+}
+
+impl Prism {
+    /// The corners: the outline in front (at the smaller `y`), then behind.
+    pub fn corners(&self) -> [[f64; 3]; 8] {
+        std::array::from_fn(|k| {
+            let [x, z] = self.outline[k % 4];
+            [x, self.across[k / 4], z]
+        })
+    }
+
+    /// The faces, each by its corners, counter-clockwise seen from outside.
+    pub const FACES: [[usize; 4]; 6] =
+        [[0, 1, 2, 3], [7, 6, 5, 4], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]];
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use geometry::Parallelogram;
+
+    use super::*;
+
+    /// Scales 2 mm thick with a base of 1.6 mm that lean by 60°, 5 along and 4 across.
+    pub fn patch() -> Patch {
+        let row = Row::new(Parallelogram::new(0.4, 60.0).expect("a scale"), 0.3).expect("a row");
+        Patch::new(row, 2.0, [3.0, 0.25, 0.6], [5, 4]).expect("a patch")
+    }
+
+    #[test]
+    fn scales_stand_on_the_membrane_at_their_pitch() {
+        let patch = patch();
+        let scales: Vec<_> = patch.scale_prisms().collect();
+        assert_eq!(scales.len(), 20);
+        let [first, second, sixth] = [scales[0], scales[1], scales[5]];
+        assert_eq!(first.outline[0], [0.6, 0.25], "a gap from the rim, on top of the membrane");
+        assert!((second.outline[0][0] - first.outline[0][0] - 2.2).abs() < 1e-12);
+        assert!((second.outline[0][0] - first.outline[1][0] - 0.6).abs() < 1e-12, "the gap");
+        assert!((sixth.across[0] - first.across[1] - 0.6).abs() < 1e-12, "the gap across");
+        let [length, width, _] = patch.membrane_size();
+        assert!((length - scales[19].outline[1][0] - 0.6).abs() < 1e-12);
+        assert!((width - scales[19].across[1] - 0.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_cannot_be_made_is_refused() {
+        let row = patch().row;
+        let refused = |lengths, scales| Patch::new(row, 2.0, lengths, scales).unwrap_err();
+        assert_eq!(
+            refused([3.0, 0.0, 0.6], [5, 4]),
+            NoPatch::Length("the thickness of the membrane", 0.0)
+        );
+        assert_eq!(refused([3.0, 0.2, 0.6], [0, 4]), NoPatch::Scales(0, 4));
+        assert_eq!(refused([3.0, 0.2, 0.6], [usize::MAX, 2]), NoPatch::Scales(usize::MAX, 2));
+    }
+}

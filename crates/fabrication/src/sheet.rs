@@ -1,0 +1,220 @@
+//! What a laser cutter cuts from sheets: the scales from the side, and a template that holds them while they are glued.
+
+use crate::Patch;
+
+/// Distance between parts on a sheet, mm.
+const SPACING: f64 = 2.0;
+
+/// Rim of the template around its holes, mm.
+const RIM: f64 = 10.0;
+
+/// The least web between two holes of a template, mm: thinner ones burn away.
+const LEAST_WEB: f64 = 0.2;
+
+/// Side of the square that tells whether a file came through in millimetres.
+const CHECK: f64 = 100.0;
+
+/// A closed outline on a layer; the last corner is joined to the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outline {
+    /// Name of the layer, which says what the outline is for.
+    pub layer: &'static str,
+    /// Corners, counter-clockwise, mm.
+    pub corners: Vec<[f64; 2]>,
+}
+
+/// Outlines to cut, in millimetres.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheet {
+    outlines: Vec<Outline>,
+    web: f64,
+}
+
+/// Why there is no such sheet.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoSheet {
+    /// A length below zero, or none.
+    #[error("{0} is {1} mm, expected a length of at least 0")]
+    Length(&'static str, f64),
+    /// The beam is as wide as a hole.
+    #[error("a kerf of {0} mm leaves no hole in the template, which needs holes of {1:.4} mm")]
+    Kerf(f64, f64),
+}
+
+impl Sheet {
+    /// The layers, in the order in which they are cut: holes before what holds them.
+    pub const LAYERS: [&'static str; 3] = ["PROFILES", "GLUE_TEMPLATE", "CHECK_100_MM"];
+
+    /// The outlines of a patch, for a beam that burns a line as wide as `kerf`, and a template from a sheet as thick as `template`.
+    ///
+    /// # Errors
+    /// If a length is below zero, or the kerf is as wide as a hole.
+    pub fn new(patch: &Patch, kerf: f64, template: f64) -> Result<Self, NoSheet> {
+        for (name, length) in [("the kerf", kerf), ("the thickness of the template", template)] {
+            if !(length >= 0.0 && length.is_finite()) {
+                return Err(NoSheet::Length(name, length));
+            }
+        }
+        // A leaning scale needs a longer hole, by what it leans within the sheet.
+        let lean = patch.shift() / patch.thickness() * template;
+        let hole = [patch.base() + lean, patch.width()];
+        let smallest = hole[0].min(hole[1]);
+        if kerf >= smallest {
+            return Err(NoSheet::Kerf(kerf, smallest));
+        }
+        let [along, across] = patch.gaps();
+        let mut sheet = Self { outlines: Vec::new(), web: (along - lean).min(across) };
+        let top = sheet.profiles(patch, kerf);
+        let top = if sheet.has_template() { sheet.template(patch, hole, kerf, top) } else { top };
+        // The square is measured, not used: it is drawn as it is, without kerf.
+        sheet.add(Self::LAYERS[2], rectangle([0.0, top + SPACING], [CHECK; 2], 0.0));
+        Ok(sheet)
+    }
+
+    /// The outlines.
+    pub fn outlines(&self) -> &[Outline] {
+        &self.outlines
+    }
+
+    /// The narrowest web between holes of the template, mm; below zero the holes would run into each other.
+    pub fn web(&self) -> f64 {
+        self.web
+    }
+
+    /// Whether there is a template: its webs would hold.
+    pub fn has_template(&self) -> bool {
+        self.web >= LEAST_WEB
+    }
+
+    /// Corners of the smallest upright rectangle around all outlines, the lowest and the highest.
+    pub fn bounds(&self) -> [[f64; 2]; 2] {
+        let corners = self.outlines.iter().flat_map(|outline| &outline.corners);
+        corners.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], at| {
+            let lowest = std::array::from_fn(|k| low[k].min(at[k]));
+            [lowest, std::array::from_fn(|k| high[k].max(at[k]))]
+        })
+    }
+
+    fn add(&mut self, layer: &'static str, corners: [[f64; 2]; 4]) {
+        self.outlines.push(Outline { layer, corners: corners.to_vec() });
+    }
+
+    /// One profile for each scale, in as many rows as the patch has; returns where they end.
+    fn profiles(&mut self, patch: &Patch, kerf: f64) -> f64 {
+        let profile = grown(patch.profile(), kerf / 2.0);
+        // Parts lean alike, so they stand closer than their lengths: what counts is the distance across their sides.
+        let slant = (patch.shift() / patch.thickness()).atan();
+        let step = patch.base() + (SPACING + kerf) / slant.cos();
+        let [nx, ny] = patch.scales();
+        let rise = patch.thickness() + kerf + SPACING;
+        for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
+            let place = [i as f64 * step, j as f64 * rise];
+            self.add(Self::LAYERS[0], profile.map(|at| [at[0] + place[0], at[1] + place[1]]));
+        }
+        ny as f64 * rise
+    }
+
+    /// The template above what ends at `top`; returns where it ends.
+    fn template(&mut self, patch: &Patch, hole: [f64; 2], kerf: f64, top: f64) -> f64 {
+        let [length, width, _] = patch.membrane_size();
+        let size = [length + 2.0 * RIM, width + 2.0 * RIM];
+        let origin = [0.0, top + SPACING];
+        // Holes come before the rim, because a part that is cut out may shift.
+        for [x, y] in patch.places() {
+            let place = [origin[0] + RIM + x, origin[1] + RIM + y];
+            self.add(Self::LAYERS[1], rectangle(place, hole, -kerf / 2.0));
+        }
+        self.add(Self::LAYERS[1], rectangle(origin, size, kerf / 2.0));
+        origin[1] + size[1] + kerf
+    }
+}
+
+/// A rectangle from its lower left corner, grown by `by` on every side.
+fn rectangle([x, y]: [f64; 2], [length, width]: [f64; 2], by: f64) -> [[f64; 2]; 4] {
+    grown([[x, y], [x + length, y], [x + length, y + width], [x, y + width]], by)
+}
+
+/// A parallelogram whose sides are moved outwards by `by`.
+fn grown(corners: [[f64; 2]; 4], by: f64) -> [[f64; 2]; 4] {
+    let side = |from: usize| -> [f64; 2] {
+        let (a, b) = (corners[from], corners[(from + 1) % 4]);
+        let (u, v) = (b[0] - a[0], b[1] - a[1]);
+        [u / u.hypot(v), v / u.hypot(v)]
+    };
+    std::array::from_fn(|k| {
+        // The corner moves by the same distance from both of its sides.
+        let (before, after) = (side((k + 3) % 4), side(k));
+        let sine = before[0] * after[1] - before[1] * after[0];
+        std::array::from_fn(|axis| corners[k][axis] + by * (before[axis] - after[axis]) / sine)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use geometry::{Parallelogram, Row};
+
+    use super::*;
+    use crate::patch::tests::patch;
+
+    fn area(corners: &[[f64; 2]]) -> f64 {
+        let next = corners.iter().cycle().skip(1);
+        corners.iter().zip(next).map(|(a, b)| (a[0] * b[1] - a[1] * b[0]) / 2.0).sum()
+    }
+
+    fn of(sheet: &Sheet, layer: usize) -> Vec<&Outline> {
+        sheet.outlines.iter().filter(|outline| outline.layer == Sheet::LAYERS[layer]).collect()
+    }
+
+    #[test]
+    fn what_the_beam_leaves_is_the_nominal_part() {
+        let (patch, kerf) = (patch(), 0.15);
+        let sheet = Sheet::new(&patch, kerf, 0.1).expect("a sheet");
+        let [profiles, template] = [of(&sheet, 0), of(&sheet, 1)];
+        assert_eq!((profiles.len(), template.len()), (20, 21));
+        for profile in profiles {
+            let corners: [_; 4] = profile.corners.clone().try_into().expect("four");
+            let part = grown(corners, -kerf / 2.0);
+            assert!((area(&part) - patch.base() * patch.thickness()).abs() < 1e-12);
+            assert!((part[1][0] - part[0][0] - patch.base()).abs() < 1e-12);
+            let lean = (part[3][0] - part[0][0]) / (part[3][1] - part[0][1]);
+            assert!((lean - 60.0_f64.to_radians().tan()).abs() < 1e-12);
+        }
+        let hole = &template[0].corners;
+        let lean = 0.1 * 60.0_f64.to_radians().tan();
+        assert!((hole[1][0] - hole[0][0] + kerf - patch.base() - lean).abs() < 1e-12);
+        assert!((hole[2][1] - hole[1][1] + kerf - patch.width()).abs() < 1e-12);
+        let pitch = template[1].corners[0][0] - hole[0][0];
+        assert!((pitch - patch.pitches()[0]).abs() < 1e-12, "the template holds the pitch");
+    }
+
+    #[test]
+    fn parts_lie_apart_by_more_than_the_kerf() {
+        let sheet = Sheet::new(&patch(), 0.15, 0.1).expect("a sheet");
+        let profiles = of(&sheet, 0);
+        let [first, second] = [profiles[0], profiles[1]].map(|outline| outline.corners.clone());
+        let distance = (second[0][0] - first[1][0]) * 60.0_f64.to_radians().cos();
+        assert!((distance - SPACING).abs() < 1e-12, "{distance}");
+        let sixth = &profiles[5].corners;
+        assert!((sixth[0][1] - first[2][1] - SPACING).abs() < 1e-12);
+        let square = of(&sheet, 2);
+        assert!((area(&square[0].corners) - 1e4).abs() < 1e-9);
+        assert_eq!(square.len(), 1);
+    }
+
+    #[test]
+    fn holes_that_would_run_into_each_other_are_left_out() {
+        let sheet = Sheet::new(&patch(), 0.15, 0.5).expect("a sheet");
+        assert!(!sheet.has_template() && of(&sheet, 1).is_empty(), "{}", sheet.web());
+        assert!((sheet.web() - (0.6 - 0.5 * 60.0_f64.to_radians().tan())).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_kerf_that_burns_all_is_refused() {
+        let refused = |kerf| Sheet::new(&patch(), kerf, 0.0).unwrap_err();
+        assert_eq!(refused(1.6), NoSheet::Kerf(1.6, 1.6));
+        assert_eq!(refused(-0.1), NoSheet::Length("the kerf", -0.1));
+        let row = Row::new(Parallelogram::new(0.4, 0.0).expect("a scale"), 0.3).expect("a row");
+        let upright = Patch::new(row, 2.0, [3.0, 0.25, 0.6], [1, 1]).expect("a patch");
+        assert!(Sheet::new(&upright, 0.2, 5.0).expect("a sheet").has_template());
+    }
+}
