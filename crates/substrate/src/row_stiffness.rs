@@ -69,6 +69,9 @@ pub struct Neighbour {
     pub roll: f64,
 }
 
+/// Whether boundary elements are compiled: without them there is the table alone.
+pub(crate) const SOLVES: bool = cfg!(feature = "boundary-elements");
+
 impl RowStiffness {
     /// Returns the stiffness of a row with a coupling: from the table, or solved for a footprint that lies beyond it.
     ///
@@ -78,6 +81,9 @@ impl RowStiffness {
         let half_space = Self::on_half_space(footprint, coupling)?;
         if !footprint.is_on_layer() {
             return Ok(half_space);
+        }
+        if !SOLVES {
+            return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
         let stiffer = layered::addition(footprint, footprint, coupling)?;
         let error = half_space.error + stiffer.error;
@@ -123,7 +129,7 @@ impl RowStiffness {
     /// # Errors
     /// If the gap is lost in rounding, and always without the feature `boundary-elements`.
     pub fn solve(footprint: &Footprint, neighbours: usize) -> Result<Self, Unresolved> {
-        if !cfg!(feature = "boundary-elements") {
+        if !SOLVES {
             return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
         let on = |n: usize| row_reactions(footprint, neighbours, n).map(|found| found.numbers());

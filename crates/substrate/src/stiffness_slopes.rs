@@ -1,5 +1,6 @@
 //! How fast the stiffness of a row changes with its footprint.
 
+use crate::row_stiffness::SOLVES;
 use crate::{Coupling, Footprint, RowStiffness, Unresolved, layered, table};
 
 /// The stiffness of a row and its derivatives with respect to the numbers of the footprint.
@@ -32,7 +33,7 @@ impl StiffnessSlopes {
             None => differences(footprint, coupling)?,
         };
         let mut slopes = [by_gap, by_width, by_poisson_ratio];
-        let by_thickness = if footprint.is_on_layer() {
+        let by_thickness = if SOLVES && footprint.is_on_layer() {
             let [gap, width, ratio, thickness] = layered::slopes(footprint, coupling)?;
             let [of_gap, of_width, of_ratio] = slopes;
             slopes = [of_gap + gap, of_width + width, of_ratio + ratio];
