@@ -2,8 +2,8 @@
 
 use pyo3::prelude::*;
 use results::columns::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, GUIDED_PATH, PATH,
-    PunctureEvent, SCALES, design_columns, measure_of,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, PunctureEvent, SCALES, design_columns,
+    flexure_path_columns, measure_of, path_columns,
 };
 use results::{Column, DERIVATIVE_COLUMNS, DesignRow, SolvedDesign};
 
@@ -51,8 +51,9 @@ impl Solved {
                 "path" => {
                     let points = puncture.path.iter().copied();
                     let points: Vec<_> = points.zip(puncture.instability.iter().copied()).collect();
-                    let is_free = puncture.measures.passage.is_none();
-                    return table(if is_free { PATH } else { GUIDED_PATH }, &points);
+                    let is_guided = !puncture.measures.passage.is_none();
+                    let rubs = puncture.path.iter().any(|point| point.friction_work.is_some());
+                    return table(&path_columns(is_guided, rubs), &points);
                 }
                 "events" => return table(EVENTS, &PunctureEvent::all(puncture)),
                 "scales" => return table(SCALES, &puncture.scales),
@@ -61,7 +62,10 @@ impl Solved {
         }
         if let Some(flexure) = flexure {
             match name {
-                "flexure_path" => return table(FLEXURE_PATH, &flexure.path),
+                "flexure_path" => {
+                    let rubs = flexure.path.iter().any(|point| point.friction_work.is_some());
+                    return table(&flexure_path_columns(rubs), &flexure.path);
+                }
                 "flexure_events" => return table(FLEXURE_EVENTS, &flexure.events),
                 "flexure_scales" => {
                     let last = flexure.path.len().saturating_sub(1);

@@ -5,8 +5,8 @@ use skin::puncture::Puncture;
 use store::OutputError;
 
 use crate::columns::{
-    BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES,
-    FLEXURE_STEPS, GUIDED_PATH, PATH, PunctureEvent, SCALES, STEPS,
+    BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS,
+    PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
@@ -43,9 +43,9 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    // A free needle has no lateral force, and its table no column for it.
-    let columns = if puncture.measures.passage.is_none() { PATH } else { GUIDED_PATH };
-    write_rows(folder, path, Plain, columns, points.collect::<Vec<_>>())?;
+    let rubs = puncture.path.iter().any(|point| point.friction_work.is_some());
+    let columns = path_columns(!puncture.measures.passage.is_none(), rubs);
+    write_rows(folder, path, Plain, &columns, points.collect::<Vec<_>>())?;
     write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
     write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
@@ -56,7 +56,8 @@ fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str;
     let [path, events, scales, steps] = RunFolder::FLEXURE;
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
-    write_rows(folder, path, Plain, FLEXURE_PATH, &flexure.path)?;
+    let rubs = flexure.path.iter().any(|point| point.friction_work.is_some());
+    write_rows(folder, path, Plain, &flexure_path_columns(rubs), &flexure.path)?;
     write_rows(folder, events, Plain, FLEXURE_EVENTS, &flexure.events)?;
     write_rows(folder, scales, Plain, FLEXURE_SCALES, &shape)?;
     write_rows(folder, steps, Plain, FLEXURE_STEPS, &flexure.history)?;

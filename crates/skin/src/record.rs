@@ -46,6 +46,9 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// The numbers to record of an equilibrium.
     fn path_point(&self, point: &SkinPoint) -> Self::PathPoint;
 
+    /// Notes in the numbers of a point what friction between neighbours has taken up to there.
+    fn note_friction(&self, point: &mut Self::PathPoint, work: f64);
+
     /// The control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
@@ -67,8 +70,8 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
-    /// What friction between neighbours has taken up to each point of the path.
-    pub(crate) friction_work: Vec<f64>,
+    /// What friction between neighbours has taken so far.
+    friction_work: f64,
     initial_stiffness: f64,
     stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
@@ -87,7 +90,7 @@ impl<S: Skin> Record<S> {
             path: vec![skin.path_point(start)],
             events: Vec::new(),
             history: Vec::new(),
-            friction_work: vec![0.0],
+            friction_work: 0.0,
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -103,9 +106,11 @@ impl<S: Skin> Record<S> {
         let residuals = path.take_history();
         let spans = path.spans(from, point);
         let skin = path.system();
-        let before = self.friction_work.last().copied().unwrap_or_default();
-        self.friction_work.push(before + skin.contacts().friction_work(from, point, spans));
-        let (here, step) = (skin.path_point(point), self.path.len());
+        let (mut here, step) = (skin.path_point(point), self.path.len());
+        if skin.contacts().rub() {
+            self.friction_work += skin.contacts().friction_work(from, point, spans);
+            skin.note_friction(&mut here, self.friction_work);
+        }
         let angle_deg = skin.angle_deg(&point.state);
         let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
         self.history.extend(residuals.into_iter().enumerate().map(iteration));

@@ -9,8 +9,8 @@ use ranking::{
     ranking_columns, winner_columns,
 };
 use results::columns::{
-    EVENTS, FLEXURE_EVENTS, FLEXURE_PATH, FLEXURE_SCALES, FLEXURE_STEPS, PATH, SCALES, STEPS,
-    design_columns,
+    EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, SCALES, STEPS, design_columns,
+    flexure_path_columns, path_columns,
 };
 use results::{
     Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
@@ -89,11 +89,11 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`sensitivity.csv`", columns(DERIVATIVE_COLUMNS)),
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
         ("`measures.csv`", columns(MEASURE_COLUMNS)),
-        ("`path.csv`", columns(PATH)),
+        ("`path.csv`", columns(&path_columns(true, true))),
         ("`events.csv`", columns(EVENTS)),
         ("`scales.csv`", columns(SCALES)),
         ("`steps.csv`", columns(STEPS)),
-        ("`flexure_path.csv`", columns(FLEXURE_PATH)),
+        ("`flexure_path.csv`", columns(&flexure_path_columns(true))),
         ("`flexure_events.csv`", columns(FLEXURE_EVENTS)),
         ("`flexure_scales.csv`", columns(FLEXURE_SCALES)),
         ("`flexure_steps.csv`", columns(FLEXURE_STEPS)),

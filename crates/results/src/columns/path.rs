@@ -10,63 +10,69 @@ use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
 
-/// The columns of `path.csv`, with more behind them.
-macro_rules! path_columns {
-    ($($more:expr),*) => {
-        &[
-    Column::new("displacement", "t", "downward displacement of the punctured point", |(p, _)| {
-        p.displacement.into()
-    }),
-    Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |(p, _)| p.force.into()),
-    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
-        p.tilt_deg.into()
-    }),
-    Column::new("contacts", "-", "closed contacts", |(p, _)| p.contacts.into()),
-    Column::new(
-        "unstable_under_load",
-        "-",
-        "negative eigenvalues of the stiffness if the load is held, as the path leaves",
-        |(_, i)| i.load.into(),
-    ),
-    Column::new(
-        "unstable_under_depth",
-        "-",
-        "negative eigenvalues of the stiffness if the depth of the punctured point is held",
-        |(_, i)| i.depth.into(),
-    ),
-    Column::new(
-        "unstable_under_tilt",
-        "-",
-        "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
-        |(_, i)| i.tilt.into(),
-    ),
-    Column::new(
-        GAP_STRETCH_MIN,
-        "-",
-        "width of the tightest gap between bases over that at rest",
-        |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
-    ),
-    Column::new(
-        GAP_STRETCH_MAX,
-        "-",
-        "width of the widest gap between bases over that at rest",
-        |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
-    ),
-            $($more),*
-        ]
-    };
+/// The columns of `path.csv`; those of a guided needle and of scales that rub stand in no other.
+pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> {
+    let mut columns: Vec<Column<StabilityPoint>> = vec![
+        Column::new(
+            "displacement",
+            "t",
+            "downward displacement of the punctured point",
+            |(p, _)| p.displacement.into(),
+        ),
+        Column::new("force", "E_s L t/(1-nu^2)", "puncture force", |(p, _)| p.force.into()),
+        Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |(p, _)| {
+            p.tilt_deg.into()
+        }),
+        Column::new("contacts", "-", "closed contacts", |(p, _)| p.contacts.into()),
+        Column::new(
+            "unstable_under_load",
+            "-",
+            "negative eigenvalues of the stiffness if the load is held, as the path leaves",
+            |(_, i)| i.load.into(),
+        ),
+        Column::new(
+            "unstable_under_depth",
+            "-",
+            "negative eigenvalues of the stiffness if the depth of the punctured point is held",
+            |(_, i)| i.depth.into(),
+        ),
+        Column::new(
+            "unstable_under_tilt",
+            "-",
+            "negative eigenvalues of the stiffness if the tilt of the punctured scale is held",
+            |(_, i)| i.tilt.into(),
+        ),
+        Column::new(
+            GAP_STRETCH_MIN,
+            "-",
+            "width of the tightest gap between bases over that at rest",
+            |(p, _)| p.gap_stretch.map(|stretch| stretch.min).into(),
+        ),
+        Column::new(
+            GAP_STRETCH_MAX,
+            "-",
+            "width of the widest gap between bases over that at rest",
+            |(p, _)| p.gap_stretch.map(|stretch| stretch.max).into(),
+        ),
+    ];
+    if is_guided {
+        columns.push(Column::new(
+            "lateral_force",
+            "E_s L t/(1-nu^2)",
+            "force of the guided needle on the scales along the row, to the right",
+            |(p, _)| p.lateral_force.into(),
+        ));
+    }
+    if rubs {
+        columns.push(Column::new(
+            "friction_work",
+            "E* t^3",
+            "work that friction between scales has taken up to here",
+            |(p, _)| p.friction_work.into(),
+        ));
+    }
+    columns
 }
-
-/// The columns of `path.csv`.
-pub static PATH: &[Column<StabilityPoint>] = path_columns!();
-
-/// The same under a guided needle.
-pub static GUIDED_PATH: &[Column<StabilityPoint>] = path_columns!(Column::new(
-    "lateral_force",
-    "E_s L t/(1-nu^2)",
-    "force of the guided needle on the scales along the row, to the right",
-    |(p, _)| p.lateral_force.into()
-));
 
 /// An event of a puncture.
 pub enum PunctureEvent {
@@ -194,32 +200,46 @@ pub static STEPS: &[Column<Iteration>] = &[
     Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale", |i| i.angle_deg.into()),
 ];
 
-/// The columns of `flexure_path.csv`.
-pub static FLEXURE_PATH: &[Column<flexure::FlexurePoint>] = &[
-    Column::new("curvature", "1/t", "curvature of the strip", |p| p.curvature.into()),
-    Column::new("moment", "E_m I_m/t", "bending moment", |p| p.moment.into()),
-    Column::new(
-        "stiffness",
-        "E_m I_m",
-        "moment per curvature of the path that goes on from here",
-        |p| p.stiffness.into(),
-    ),
-    Column::new("end_rotation_deg", "deg", "rotation of each end", |p| p.end_rotation_deg.into()),
-    Column::new("bending_energy", "E_m t^3", "energy that bends the membrane", |p| {
-        p.bending_energy.into()
-    }),
-    Column::new("axial_energy", "E_m t^3", "energy that stretches the membrane", |p| {
-        p.axial_energy.into()
-    }),
-    Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| p.contact_energy.into()),
-    Column::new("contacts", "-", "closed contacts of the strip, rounded to whole gaps", |p| {
-        p.contacts.into()
-    }),
-    Column::new("membrane_strain", "-", "largest strain at the surface of the membrane", |p| {
-        p.membrane_strain.into()
-    }),
-];
-
+/// The columns of `flexure_path.csv`; that of scales that rub stands in no other.
+pub fn flexure_path_columns(rubs: bool) -> Vec<Column<flexure::FlexurePoint>> {
+    let mut columns: Vec<Column<flexure::FlexurePoint>> = vec![
+        Column::new("curvature", "1/t", "curvature of the strip", |p| p.curvature.into()),
+        Column::new("moment", "E_m I_m/t", "bending moment", |p| p.moment.into()),
+        Column::new(
+            "stiffness",
+            "E_m I_m",
+            "moment per curvature of the path that goes on from here",
+            |p| p.stiffness.into(),
+        ),
+        Column::new("end_rotation_deg", "deg", "rotation of each end", |p| {
+            p.end_rotation_deg.into()
+        }),
+        Column::new("bending_energy", "E_m t^3", "energy that bends the membrane", |p| {
+            p.bending_energy.into()
+        }),
+        Column::new("axial_energy", "E_m t^3", "energy that stretches the membrane", |p| {
+            p.axial_energy.into()
+        }),
+        Column::new("contact_energy", "E_m t^3", "energy of the contacts", |p| {
+            p.contact_energy.into()
+        }),
+        Column::new("contacts", "-", "closed contacts of the strip, rounded to whole gaps", |p| {
+            p.contacts.into()
+        }),
+        Column::new("membrane_strain", "-", "largest strain at the surface of the membrane", |p| {
+            p.membrane_strain.into()
+        }),
+    ];
+    if rubs {
+        columns.push(Column::new(
+            "friction_work",
+            "E_m t^3",
+            "work that friction between scales has taken up to here, of the whole strip",
+            |p| p.friction_work.into(),
+        ));
+    }
+    columns
+}
 /// The columns of `flexure_events.csv`.
 pub static FLEXURE_EVENTS: &[Column<ContactEvent<flexure::FlexurePoint>>] = &[
     Column::new("curvature", "1/t", "curvature of the strip", |e| e.point.curvature.into()),

@@ -62,10 +62,7 @@ impl FlexureMeasures {
             axial_energy_share: share.filter(|share| share.is_finite()),
             membrane_strain_max: strains.reduce(f64::max),
             error: None,
-            friction_work: strip
-                .contacts
-                .rub()
-                .then(|| record.friction_work.last().map_or(0.0, |work| work * strip.repeats())),
+            friction_work: record.path.last().and_then(|point| point.friction_work),
             locking_curvature: locking(record, path),
             contact_curvature: None,
             gaps: strip.gaps() as f64 * strip.repeats(),

@@ -21,6 +21,8 @@ pub struct FlexurePoint {
     pub axial_energy: f64,
     /// Energy of the contacts, over `E_m t³`.
     pub contact_energy: f64,
+    /// What friction between scales has taken up to here, over `E_m t³`, of the whole strip; `None` without friction.
+    pub friction_work: Option<f64>,
     /// Closed contacts of the strip, rounded to whole gaps.
     pub contacts: usize,
     /// Largest strain `|ε| + ½ h |κ|` at the surface of the membrane.
@@ -46,9 +48,14 @@ impl Skin for Strip {
             bending_energy: membrane.bending * repeats,
             axial_energy: membrane.axial * repeats,
             contact_energy: self.contacts.energy(state) * repeats,
+            friction_work: None,
             contacts: self.whole_gaps() / self.gaps() * Contacts::closed(state),
             membrane_strain: self.largest_strain(state),
         }
+    }
+
+    fn note_friction(&self, point: &mut FlexurePoint, work: f64) {
+        point.friction_work = Some(work * self.repeats());
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {

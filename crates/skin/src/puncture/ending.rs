@@ -44,6 +44,7 @@ mod tests {
             contacts: 1,
             substrate_energy: 0.0,
             contact_energy: 0.0,
+            friction_work: None,
             gap_stretch: None,
         };
         points.iter().map(point).collect()

@@ -108,11 +108,7 @@ impl PunctureMeasures {
             fold_displacement: fold.map(|fold| fold.displacement),
             fold_tilt_deg: fold.map(|fold| fold.tilt_deg),
             sound_force: Some(fold.map_or(end.force, |fold| fold.force)),
-            friction_work: chain
-                .contacts
-                .rub()
-                .then(|| record.friction_work.last().copied())
-                .flatten(),
+            friction_work: record.path.last().and_then(|point| point.friction_work),
             unique: chain.contacts.rub().then(|| path.is_unique()),
             ..Self::default()
         }

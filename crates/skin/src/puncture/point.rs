@@ -23,6 +23,8 @@ pub struct PuncturePoint {
     /// Elastic energy of the contacts, over `E* t³`. With that of the substrate it is the work
     /// `∫ F du` of the load.
     pub contact_energy: f64,
+    /// What friction between scales has taken up to here, over `E* t³`; `None` without friction.
+    pub friction_work: Option<f64>,
     /// Stretch of the tightest and of the widest gap; `None` for a single scale.
     pub gap_stretch: Option<GapStretch>,
 }
@@ -57,8 +59,13 @@ impl Skin for Chain {
             contacts: Contacts::closed(state),
             substrate_energy: self.substrate_energy(state),
             contact_energy: self.contacts.energy(state),
+            friction_work: None,
             gap_stretch: self.gap_stretches(state),
         }
+    }
+
+    fn note_friction(&self, point: &mut PuncturePoint, work: f64) {
+        point.friction_work = Some(work);
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
