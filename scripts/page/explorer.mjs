@@ -35,6 +35,13 @@ export default ({ openFile, open, place, results, run }) => {
     return page;
   };
   const values = (page) => page.evaluate(() => Object.fromEntries(squama.live.answer.values.map(({ name, value }) => [name, value])));
+  /** What the command says of the skin under the hand, also of one whose path ends early. */
+  const solved = (command) => {
+    try { return JSON.parse(run(command, "--json", "--out", out)).measures; } catch (error) {
+      if (error.status !== 1) throw error;
+      return JSON.parse(error.stdout).measures;
+    }
+  };
   const of = (tests) => Object.fromEntries(SIZES.flatMap((size) => tests(size)));
 
   return {
@@ -46,7 +53,7 @@ export default ({ openFile, open, place, results, run }) => {
           const pairs = squama.live.controls().filter(({ words }) => !words).map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
           squama.live.set(Object.fromEntries(pairs));
         }, shares));
-        const there = JSON.parse(run(await page.locator("#live-command").textContent(), "--json", "--out", out)).measures;
+        const there = solved(await page.locator("#live-command").textContent());
         for (const [name, value] of Object.entries(await values(page))) {
           if (typeof value === "number" && typeof there[name] === "number" && isMeasured(name)) same(value, there[name], `${name} of ${await page.locator("#live-command").textContent()}`);
         }
