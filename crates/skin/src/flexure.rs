@@ -29,7 +29,7 @@ pub use first_touch::contact_curvature;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
-pub use sensitivity::{FlexureInput, differentiate};
+pub use sensitivity::{FlexureInput, differentiate, moment_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
 /// The part of a strip that is solved for.

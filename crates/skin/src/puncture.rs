@@ -44,7 +44,7 @@ pub use needle::{CriticalEvent, Needle, Passage};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
-pub use sensitivity::{PunctureInput, differentiate};
+pub use sensitivity::{PunctureInput, differentiate, force_curve};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
