@@ -12,6 +12,7 @@ mod stiffness;
 pub use change::ContactChange;
 pub use closed::Contact;
 pub(crate) use mode::SkinMode;
+pub(crate) use rubbing::product_integral;
 use rubbing::{Rub, WAY};
 
 use contact::{

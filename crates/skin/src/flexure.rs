@@ -23,7 +23,7 @@ use problem::FlexureProblem;
 
 use crate::arrangement::Arrangement;
 use crate::record::{ContactEvent, Iteration};
-use crate::{Common, ContactChange, Design, Sample, Status};
+use crate::{Common, ContactChange, Design, Sample, Status, WayBack};
 
 pub use first_touch::contact_curvature;
 pub use measures::FlexureMeasures;
@@ -61,6 +61,8 @@ pub struct FlexureParameters {
     /// Rotation of each end at which bending ends, degrees. Below zero the strip bends the other way, the scales on the
     /// outside.
     pub max_end_rotation_deg: f64,
+    /// Whether the moment is taken away again at the end.
+    pub unload: bool,
 }
 
 impl Default for FlexureParameters {
@@ -76,6 +78,7 @@ impl Default for FlexureParameters {
             membrane_axis_offset: 0.0,
             elements_per_gap: MembraneMesh::Auto,
             max_end_rotation_deg: 180.0,
+            unload: false,
         }
     }
 }
@@ -93,6 +96,8 @@ pub struct Flexure {
     pub events: Vec<ContactEvent<FlexurePoint>>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
+    /// The way back, where it is asked for and the path came to its end.
+    pub way_back: Option<WayBack<FlexurePoint>>,
     /// Gaps of the strip, rounded to a whole number.
     pub gaps: usize,
     /// The gaps that were solved for, at every point of the path.

@@ -60,6 +60,7 @@ pub mod puncture;
 mod record;
 mod sensitivity;
 mod status;
+mod way_back;
 
 pub use common::Common;
 pub use contacts::{Contact, ContactChange};
@@ -69,3 +70,4 @@ pub use record::{ContactEvent, Iteration};
 pub use sensitivity::{CurvePoint, Derivative};
 pub use solver::Neighbours;
 pub use status::Status;
+pub use way_back::{Remains, WayBack};

@@ -35,7 +35,7 @@ use watch::PathWatch;
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, pair_constraints};
 use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
-use crate::{Common, Design, Sample, Status};
+use crate::{Common, Design, Sample, Status, WayBack};
 
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
@@ -88,6 +88,8 @@ pub struct PunctureParameters {
     pub needle: Needle,
     /// Depth `u*` at which the force is measured besides.
     pub depth: Option<f64>,
+    /// Whether the load is taken away again at the end.
+    pub unload: bool,
 }
 
 impl Default for PunctureParameters {
@@ -103,6 +105,7 @@ impl Default for PunctureParameters {
             tilts_deg: NumberList::default(),
             needle: Needle::Free,
             depth: None,
+            unload: false,
         }
     }
 }
@@ -130,6 +133,8 @@ pub struct Puncture {
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
+    /// The way back, where it is asked for and the path came to its end.
+    pub way_back: Option<WayBack<PuncturePoint>>,
 }
 
 impl Puncture {
@@ -219,8 +224,8 @@ struct Followed {
 }
 
 impl Followed {
-    /// The result of the puncture.
-    fn puncture(self) -> Puncture {
+    /// The result of the puncture; with `unload` the path is turned back at its end.
+    fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
         let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, depth, .. } = watch;
         let path = &mut path;
@@ -232,7 +237,7 @@ impl Followed {
         measures.force_at_depth =
             deep.and_then(|deep| Some(path.system().force(deep.or_else(end)?)));
         let (instability, snaps) = needle.finish(path, &mut measures);
-        let measures = match status {
+        let mut measures = match status {
             Status::Complete => measures,
             _ => measures.without_final_values(),
         };
@@ -240,18 +245,23 @@ impl Followed {
         let scales = scales(chain, &path.point().state);
         let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
         let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
-        let Record { path, events, history, .. } = record;
+        let Record { path: points, events, history, work, .. } = record;
+        let way_back = (unload && status == Status::Complete).then(|| WayBack::follow(path, work));
+        if let Some(way_back) = &way_back {
+            measures.remains = way_back.remains(|point: &PuncturePoint| point.displacement);
+        }
         Puncture {
             status,
             measures,
             at_tilts,
-            path,
+            path: points,
             instability,
             events,
             snaps,
             folds,
             scales,
             history,
+            way_back,
         }
     }
 }
@@ -304,7 +314,7 @@ impl<'a> Problem<'a> {
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
         let (start, longest) = self.start()?;
-        Ok(self.follow(start, longest, &[], &[])?.puncture())
+        Ok(self.follow(start, longest, &[], &[])?.puncture(self.parameters.unload))
     }
 
     /// The system with which the path begins, and the longest row that it may grow to.

@@ -49,6 +49,24 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     /// Notes in the numbers of a point what friction between neighbours has taken up to there.
     fn note_friction(&self, point: &mut Self::PathPoint, work: f64);
 
+    /// Whether friction acts anywhere on the path.
+    fn rubs(&self) -> bool {
+        self.contacts().rub()
+    }
+
+    /// What friction at the tip of a needle takes between two neighbouring points, as [`Contacts::friction_work`] does.
+    fn tip_work(&self, _from: &SkinPoint, _to: &SkinPoint, _spans: [f64; 2]) -> f64 {
+        0.0
+    }
+
+    /// Elastic energy, of all that the load works on.
+    fn stored(&self, state: &SkinState) -> f64;
+
+    /// How often all that is solved for is there.
+    fn repeats(&self) -> f64 {
+        1.0
+    }
+
     /// The control parameter, degrees.
     fn angle_deg(&self, state: &SkinState) -> f64;
 
@@ -62,6 +80,38 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
     fn interpenetrates(&self, state: &SkinState) -> bool;
 }
 
+/// What friction has taken along a path, of what is solved for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Work {
+    /// Between neighbours.
+    between_scales: f64,
+    /// At the tip of a needle.
+    at_tip: f64,
+}
+
+impl Work {
+    /// Adds what is taken between two neighbouring points.
+    pub(crate) fn add<S: Skin>(&mut self, path: &Path<S>, from: &SkinPoint, to: &SkinPoint) {
+        let skin = path.system();
+        if skin.rubs() {
+            let spans = path.spans(from, to);
+            self.between_scales += skin.contacts().friction_work(from, to, spans);
+            self.at_tip += skin.tip_work(from, to, spans);
+        }
+    }
+
+    /// Notes in the numbers of a point what neighbours have taken up to there.
+    pub(crate) fn note<S: Skin>(&self, skin: &S, point: &mut S::PathPoint) {
+        if skin.contacts().rub() {
+            skin.note_friction(point, skin.repeats() * self.between_scales);
+        }
+    }
+
+    pub(crate) fn taken(&self) -> f64 {
+        self.between_scales + self.at_tip
+    }
+}
+
 /// A function of a skin, an equilibrium and the direction of the path there.
 pub(crate) type PathFunction<S> = fn(&S, &SkinState, &[f64]) -> f64;
 
@@ -70,8 +120,8 @@ pub(crate) struct Record<S: Skin> {
     pub(crate) path: Vec<S::PathPoint>,
     pub(crate) events: Vec<ContactEvent<S::PathPoint>>,
     pub(crate) history: Vec<Iteration>,
-    /// What friction between neighbours has taken so far.
-    friction_work: f64,
+    /// What friction has taken so far.
+    pub(crate) work: Work,
     initial_stiffness: f64,
     stiffness: Peak<SkinMode>,
     /// The largest stiffness between the points too, once it has been searched.
@@ -90,7 +140,7 @@ impl<S: Skin> Record<S> {
             path: vec![skin.path_point(start)],
             events: Vec::new(),
             history: Vec::new(),
-            friction_work: 0.0,
+            work: Work::default(),
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -105,12 +155,9 @@ impl<S: Skin> Record<S> {
     pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
-        if path.system().contacts().rub() {
-            let spans = path.spans(from, point);
-            self.friction_work += path.system().contacts().friction_work(from, point, spans);
-            path.system().note_friction(&mut here, self.friction_work);
-        }
+        self.work.add(path, from, point);
         let skin = path.system();
+        self.work.note(skin, &mut here);
         let angle_deg = skin.angle_deg(&point.state);
         let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
         self.history.extend(residuals.into_iter().enumerate().map(iteration));

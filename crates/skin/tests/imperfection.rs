@@ -18,6 +18,7 @@ fn strip() -> flexure::FlexureParameters {
         gaps: None,
         elements_per_gap: MembraneMesh::Auto,
         max_end_rotation_deg: 40.0,
+        unload: false,
     }
 }
 

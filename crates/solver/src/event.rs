@@ -288,16 +288,15 @@ impl<S: System> Path<S> {
 
     /// Whether a load that only pushes would have to pull at the candidate.
     pub(crate) fn pulls(&self, candidate: &Candidate<S::Mode>) -> bool {
-        self.system.load_only_pushes() && candidate.state.z[self.system.load()] < 0.0
+        self.pushes.is_some_and(|sign| sign * candidate.state.z[self.system.load()] < 0.0)
     }
 
     /// Whether what carries the load lets go of it at the candidate, to round-off: the path ends there as where it pulls.
     pub(crate) fn lets_go(&self, candidate: &Candidate<S::Mode>) -> bool {
         let load = self.system.load();
-        self.system.load_only_pushes()
-            && matches!(candidate.event, Some(Event::Changed(_)))
+        matches!(candidate.event, Some(Event::Changed(_)))
             && candidate.state.z[load].abs() <= FLOOR
-            && candidate.direction[load] < 0.0
+            && self.pushes.is_some_and(|sign| sign * candidate.direction[load] < 0.0)
     }
 
     /// The point before `beyond` where the load comes back to zero.
@@ -307,10 +306,11 @@ impl<S: System> Path<S> {
         beyond: &Candidate<S::Mode>,
     ) -> Result<Candidate<S::Mode>, NewtonFailure> {
         let load = self.system.load();
-        let (start, end) = (from.state.z[load].max(0.0), beyond.state.z[load]);
+        let sign = self.pushes.unwrap_or(1.0);
+        let (start, end) = ((sign * from.state.z[load]).max(0.0), sign * beyond.state.z[load]);
         let state = from.state.interpolated(&beyond.state, start / (start - end));
         // The load falls as the path goes on.
-        let mut candidate = self.correct(state, &Condition::new(vec![(load, -1.0)], 0.0))?;
+        let mut candidate = self.correct(state, &Condition::new(vec![(load, -sign)], 0.0))?;
         if self.turns_sharply(from, &candidate) {
             return Err(NewtonFailure::TooManyIterations);
         }

@@ -87,9 +87,13 @@ pub struct Path<S: System> {
     pub(crate) is_positive: bool,
     /// Whether no event had another way on among those that were looked at.
     pub(crate) is_unique: bool,
+    /// The sign of a load that only pushes: the path ends where it comes back to zero.
+    pub(crate) pushes: Option<f64>,
+    /// Whether the path has been turned back, away from its target.
+    pub(crate) is_back: bool,
     step: f64,
     points: usize,
-    stop: Option<Stop>,
+    pub(crate) stop: Option<Stop>,
 }
 
 /// A candidate for the next point.
@@ -117,10 +121,13 @@ impl<S: System> Path<S> {
             guards: Vec::new(),
             slopes: Vec::new(),
             is_unique: true,
+            pushes: None,
+            is_back: false,
             step: settings.first_step.min(settings.max_step),
             points: 0,
             stop: None,
         };
+        path.pushes = path.system.load_only_pushes().then_some(1.0);
         path.start(point);
         path
     }
@@ -235,6 +242,13 @@ impl<S: System> Path<S> {
             }
             Err(failure) => self.stop = Some(Stop::from(failure)),
         }
+        self.stand(point);
+    }
+
+    /// Begins at a point anew.
+    pub(crate) fn begin(&mut self, point: Point<S::Mode>) {
+        self.step = self.settings.first_step.min(self.settings.max_step);
+        self.points = 0;
         self.stand(point);
     }
 
@@ -508,7 +522,7 @@ impl<S: System> Path<S> {
     }
 
     fn at_target(&self, state: &State<S::Mode>) -> bool {
-        (self.progress(&state.z) - self.system.target()).abs() <= FLOOR
+        !self.is_back && (self.progress(&state.z) - self.system.target()).abs() <= FLOOR
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::event::Change;
 use crate::newton::{Condition, FLOOR, Newton, guard_slope};
-use crate::path::Path;
+use crate::path::{Path, Point};
 use crate::stop::Stop;
 use crate::system::{State, System};
 
@@ -57,6 +57,11 @@ impl<S: System> Path<S> {
             *state = next;
             return Ok(leaving);
         }
+        // What bears friction lets go of it as it opens: round-off alone says which of the two comes first.
+        let companions = self.system.companions(changes[0].constraint);
+        let group = changes.iter().take_while(|change| companions.contains(&change.constraint));
+        let group = group.count();
+        changes[..group].sort_by_key(|change| change.constraint);
         let mut found: Option<Resolved<S::Mode>> = None;
         let mut failure = Stop::Singular;
         let before = self.is_positive;
@@ -80,6 +85,24 @@ impl<S: System> Path<S> {
             found.ok_or(failure)?;
         (*state, *changes, self.is_positive) = (next, made, is_positive);
         Ok(leaving)
+    }
+
+    /// Turns the path back where it stands: what slides sticks, the load falls, and the path ends where that comes to zero.
+    pub fn turn_back(&mut self) {
+        let mut state = self.point.state.clone();
+        self.system.stop_sliding(&mut state);
+        self.is_back = true;
+        self.pushes = Some(state.z[self.system.load()].signum());
+        let back: Vec<f64> = self.point.arriving.iter().map(|rate| -rate).collect();
+        // Everything may change that is at its limit, such as what falls faster than what it bears.
+        let meeting = (0..self.guards.len()).collect();
+        let first = Pivoted { state, meeting, made: Vec::new(), holds: None, turns_back: true };
+        let resolved = self.pivot_from(first, None, &back, false);
+        self.stop = resolved.as_ref().err().copied();
+        if let Ok(Resolved { state, leaving, is_positive, .. }) = resolved {
+            self.is_positive = is_positive;
+            self.begin(Point { state, arriving: leaving.clone(), leaving, event: None });
+        }
     }
 
     /// The changes with which pivoting may begin: that of the event, or that and one of a companion which it leaves undecided. What
@@ -129,7 +152,7 @@ impl<S: System> Path<S> {
         let valid: Option<Vec<usize>> =
             changes.iter().map(|&change| self.pivot(&mut next, change)).collect();
         let valid = valid?;
-        let leaving = self.direction(&mut next, arriving, valid[0]).ok()?;
+        let leaving = self.direction(&mut next, arriving, valid.first().copied()).ok()?;
         let meeting = self.meeting(valid);
         self.violated(&next, &leaving, &meeting).is_empty().then_some((next, leaving))
     }
@@ -145,13 +168,31 @@ impl<S: System> Path<S> {
         start: &[Change],
     ) -> Result<Resolved<S::Mode>, Stop> {
         let meeting = self.meeting(changes.iter().map(|change| change.constraint));
-        let first = Pivoted { state: state.clone(), meeting, made: Vec::new(), holds: None };
+        let first = Pivoted {
+            state: state.clone(),
+            meeting,
+            made: Vec::new(),
+            holds: None,
+            turns_back: false,
+        };
         let (&last, before) = start.split_last().ok_or(Stop::Singular)?;
         let mut at = first;
         for &change in before {
             at = self.pivoted(&at, change)?;
         }
-        let mut waiting = vec![(at, last)];
+        self.pivot_from(at, Some(last), arriving, changes.len() == 1)
+    }
+
+    /// Tries one set of changes after the other, beginning with those of a state and one more. `is_single` tells of an event that is one
+    /// change.
+    fn pivot_from(
+        &mut self,
+        first: Pivoted<S::Mode>,
+        change: Option<Change>,
+        arriving: &[f64],
+        is_single: bool,
+    ) -> Result<Resolved<S::Mode>, Stop> {
+        let mut waiting = vec![(first, change)];
         let mut tried = Vec::new();
         let has_companions =
             (0..self.guards.len()).any(|other| self.system.companions(other).len() > 1);
@@ -159,7 +200,11 @@ impl<S: System> Path<S> {
             if tried.len() >= self.most_changes(has_companions) {
                 break;
             }
-            let way = self.pivoted(&from, change).and_then(|mut at| {
+            let pivoted = match change {
+                Some(change) => self.pivoted(&from, change),
+                None => Ok(from),
+            };
+            let way = pivoted.and_then(|mut at| {
                 let is_known = tried.iter().any(|(active, mode)| {
                     *active == at.state.active && self.system.is_same_form(mode, &at.state.mode)
                 });
@@ -167,14 +212,13 @@ impl<S: System> Path<S> {
                     return Err(Stop::Cycling);
                 }
                 tried.push((at.state.active.clone(), at.state.mode.clone()));
-                let leaving =
-                    self.direction(&mut at.state, arriving, at.holds.unwrap_or_default())?;
+                let leaving = self.direction(&mut at.state, arriving, at.holds)?;
                 Ok((at, leaving))
             });
             let (at, leaving) = match way {
                 Ok(way) => way,
                 // Without companions there is one way to go on, and it has failed.
-                Err(stop) if changes.len() == 1 && !has_companions => return Err(stop),
+                Err(stop) if is_single && !has_companions => return Err(stop),
                 Err(_) => continue,
             };
             let violated = self.violated(&at.state, &leaving, &at.meeting);
@@ -187,7 +231,7 @@ impl<S: System> Path<S> {
                 .into_iter()
                 .map(|constraint| Change { constraint, activated: !at.state.active[constraint] });
             // The one that is violated fastest is tried next.
-            waiting.extend(next.rev().map(|change| (at.clone(), change)));
+            waiting.extend(next.rev().map(|change| (at.clone(), Some(change))));
         }
         Err(if has_companions { Stop::Jumps } else { Stop::Cycling })
     }
@@ -204,7 +248,7 @@ impl<S: System> Path<S> {
         // What changes elsewhere because of friction does not tell which way the path goes: that is said by what has happened.
         let companions = self.system.companions(change.constraint);
         let is_elsewhere = |holds: &usize| companions.len() > 1 && !companions.contains(holds);
-        next.holds = next.holds.filter(is_elsewhere).or(Some(valid));
+        next.holds = next.holds.filter(is_elsewhere).or(Some(valid)).filter(|_| !next.turns_back);
         Ok(next)
     }
 
@@ -227,13 +271,13 @@ impl<S: System> Path<S> {
         self.system.transition(state, change)
     }
 
-    /// The direction in which a constraint that has just changed sides stays valid. A transition may have disturbed
-    /// the equilibrium; it is restored first.
+    /// The direction in which a constraint that has just changed sides stays valid, or without one that along `arriving`. A transition may
+    /// have disturbed the equilibrium; it is restored first.
     fn direction(
         &mut self,
         state: &mut State<S::Mode>,
         arriving: &[f64],
-        valid: usize,
+        valid: Option<usize>,
     ) -> Result<Vec<f64>, Stop> {
         // A corner that closes may turn the path so far that it goes on at right angles to the direction in which it
         // came; then one of the controls alone still grows.
@@ -242,7 +286,8 @@ impl<S: System> Path<S> {
             let solved = self.newton.solve(&self.system, &mut trial, &condition, &self.settings);
             let Ok(direction) = solved else { continue };
             let mut direction = self.normalised(direction);
-            let slope = guard_slope(&self.system, &trial, valid, &direction);
+            let slope =
+                valid.map_or(1.0, |valid| guard_slope(&self.system, &trial, valid, &direction));
             // At a slope of zero neither sign of the direction is the valid one.
             if slope == 0.0 || !direction.iter().all(|x| x.is_finite()) {
                 continue;
@@ -308,6 +353,8 @@ struct Pivoted<M> {
     made: Vec<Change>,
     /// The constraint that has to hold as the path goes on.
     holds: Option<usize>,
+    /// Whether the path turns back, so that it is its direction that is given, and no constraint.
+    turns_back: bool,
 }
 
 /// A way on from an event.

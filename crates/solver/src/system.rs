@@ -88,6 +88,9 @@ pub trait System {
         &[]
     }
 
+    /// Lets everything stick that slides, where a path turns back. Nothing does unless the system knows better.
+    fn stop_sliding(&self, _state: &mut State<Self::Mode>) {}
+
     /// Constraints that may change sides where this one does, because of it: what was at rest may begin to slip, say. Itself alone unless
     /// the system knows of others.
     fn companions(&self, constraint: usize) -> std::ops::Range<usize> {

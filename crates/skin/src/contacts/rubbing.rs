@@ -153,6 +153,20 @@ impl Contacts {
         }
     }
 
+    /// Lets all contacts stick that slide, where they are.
+    pub(crate) fn stop_sliding(&self, state: &mut SkinState) {
+        for contact in 0..state.mode.rubs.len() {
+            let (Rub::Slip { sign, .. }, Some(edge)) =
+                (state.mode.rubs[contact], Self::edge_of(&state.mode, contact))
+            else {
+                continue;
+            };
+            let grip = (1.0 - sign) * self.law.friction() * self.pressure(state, contact);
+            state.mode.rubs[contact] = Rub::Stick { at: self.way(state, edge, contact) };
+            self.set_friction(state, contact, grip, true);
+        }
+    }
+
     /// Lets the friction of a contact on an edge keep its ratio, since the tip of a needle has come to the place of the corner.
     pub(crate) fn hold(&self, state: &mut SkinState, contact: usize) {
         if !self.rub() {
@@ -429,7 +443,10 @@ impl Contacts {
 }
 
 /// `∫ f dg` over a unit interval, of cubics through values and slopes at both ends: exact with three points of Gauss.
-fn product_integral([values, slopes]: [[f64; 2]; 2], [of_g, slopes_of_g]: [[f64; 2]; 2]) -> f64 {
+pub(crate) fn product_integral(
+    [values, slopes]: [[f64; 2]; 2],
+    [of_g, slopes_of_g]: [[f64; 2]; 2],
+) -> f64 {
     let points = [
         (0.5, 4.0 / 9.0),
         (0.5 - 0.15_f64.sqrt(), 5.0 / 18.0),

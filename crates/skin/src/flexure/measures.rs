@@ -6,6 +6,7 @@ use solver::Path;
 use super::FlexurePoint;
 use super::problem::LOCKED;
 use super::strip::Strip;
+use crate::Remains;
 use crate::contacts::Contacts;
 use crate::record::Record;
 
@@ -40,6 +41,9 @@ pub struct FlexureMeasures {
     /// `κ*` at which friction locks the strip: from there on contacts stick, and next to nothing turns.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub locking_curvature: Option<f64>,
+    /// What is left once the moment is gone.
+    #[serde(default, skip_serializing_if = "Remains::is_none")]
+    pub remains: Remains,
     /// `κ*` at which scales would touch, whether or not the path goes so far; `None` for a gap that cannot close, and for
     /// imperfect strips.
     pub contact_curvature: Option<f64>,
@@ -64,6 +68,7 @@ impl FlexureMeasures {
             error: None,
             friction_work: record.path.last().and_then(|point| point.friction_work),
             locking_curvature: locking(record, path),
+            remains: Remains::default(),
             contact_curvature: None,
             gaps: strip.gaps() as f64 * strip.repeats(),
         }

@@ -54,8 +54,17 @@ impl Skin for Strip {
         }
     }
 
+    fn stored(&self, state: &SkinState) -> f64 {
+        let membrane = self.membrane_energy(state);
+        (membrane.bending + membrane.axial + self.contacts.energy(state)) * self.repeats()
+    }
+
+    fn repeats(&self) -> f64 {
+        self.repeats()
+    }
+
     fn note_friction(&self, point: &mut FlexurePoint, work: f64) {
-        point.friction_work = Some(work * self.repeats());
+        point.friction_work = Some(work);
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {

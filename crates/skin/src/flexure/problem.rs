@@ -15,7 +15,7 @@ use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::crossing::{Crossing, PlaceWatch};
 use crate::record::{PathFunction, Record};
-use crate::{Common, Design, Sample, Status};
+use crate::{Common, Design, Sample, Status, WayBack};
 
 /// Largest relative change of any measure between two resolutions at which the coarser one suffices.
 const TOLERANCE: f64 = 1e-4;
@@ -220,8 +220,13 @@ impl<'a> FlexureProblem<'a> {
             _ => measures.without_final_values(),
         };
         let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
-        let Record { path, events, history, .. } = record;
-        Flexure { status, measures, path, events, history, gaps, steps, row }
+        let Record { path: points, events, history, work, .. } = record;
+        let unload = self.parameters.unload && status == Status::Complete;
+        let way_back = unload.then(|| WayBack::follow(&mut path, work));
+        let remains =
+            way_back.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
+        let measures = FlexureMeasures { remains: remains.unwrap_or_default(), ..measures };
+        Flexure { status, measures, path: points, events, history, way_back, gaps, steps, row }
     }
 
     /// The largest change of any measure with a finer resolution; `None` where there is none.

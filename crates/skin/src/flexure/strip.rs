@@ -323,6 +323,10 @@ impl System for Strip {
         self.contacts.growing()
     }
 
+    fn stop_sliding(&self, state: &mut SkinState) {
+        self.contacts.stop_sliding(state);
+    }
+
     fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
         self.contacts.companions(constraint)
     }

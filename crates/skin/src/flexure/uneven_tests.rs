@@ -20,6 +20,7 @@ fn parameters() -> FlexureParameters {
         gaps: None,
         elements_per_gap: MembraneMesh::Elements(2),
         max_end_rotation_deg: 60.0,
+        unload: false,
     }
 }
 

@@ -6,6 +6,7 @@ use solver::Path;
 use super::fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint};
+use crate::Remains;
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
 
@@ -72,6 +73,9 @@ pub struct PunctureMeasures {
     /// Whether no event of the path had another way on among those that were looked at; `None` without friction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unique: Option<bool>,
+    /// What is left once the load is gone.
+    #[serde(default, skip_serializing_if = "Remains::is_none")]
+    pub remains: Remains,
     /// How a guided needle came through.
     #[serde(default, skip_serializing_if = "Passage::is_none")]
     pub passage: Passage,

@@ -105,6 +105,11 @@ impl GuidedNeedle {
         Self { friction, tip, critical_tilt, depth, contacts, growing, moved: [None; 2] }
     }
 
+    /// Whether its tip rubs.
+    pub(super) fn rubs(&self) -> bool {
+        self.friction > 0.0
+    }
+
     /// The unknowns of its constraints, in their order.
     pub(super) fn constraints(&self) -> Vec<usize> {
         let of_touch = |touch: usize| {

@@ -1,6 +1,7 @@
 //! Equilibria of a row as they are recorded.
 
 use super::fold::GapStretch;
+use super::needle::GuidedNeedle;
 use super::system::Chain;
 use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::Skin;
@@ -62,6 +63,18 @@ impl Skin for Chain {
             friction_work: None,
             gap_stretch: self.gap_stretches(state),
         }
+    }
+
+    fn rubs(&self) -> bool {
+        self.contacts.rub() || self.needle.as_ref().is_some_and(GuidedNeedle::rubs)
+    }
+
+    fn tip_work(&self, from: &SkinPoint, to: &SkinPoint, spans: [f64; 2]) -> f64 {
+        self.taken_at_tip(from, to, spans)
+    }
+
+    fn stored(&self, state: &SkinState) -> f64 {
+        self.substrate_energy(state) + self.contacts.energy(state)
     }
 
     fn note_friction(&self, point: &mut PuncturePoint, work: f64) {

@@ -55,7 +55,7 @@ pub fn differentiate(
         Status::Complete => problem.derivatives(&mut followed, variations)?,
         _ => Vec::new(),
     };
-    Ok((followed.puncture(), derivatives))
+    Ok((followed.puncture(parameters.unload), derivatives))
 }
 
 /// The force over the depth of the needle.

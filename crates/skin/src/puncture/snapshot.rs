@@ -87,7 +87,7 @@ pub fn snapshots(
         let chain = followed.path.system();
         let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, row.pitch(), &point?.state));
         let at_places = found.into_iter().map(snapshot).collect();
-        let puncture = followed.puncture();
+        let puncture = followed.puncture(false);
         if !reaches_short(&puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
             return Ok(Snapshots { puncture, at: at_places });
         }

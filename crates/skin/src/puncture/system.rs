@@ -360,6 +360,13 @@ impl System for Chain {
         &self.growing
     }
 
+    fn stop_sliding(&self, state: &mut SkinState) {
+        self.contacts.stop_sliding(state);
+        if let Some(needle) = &self.needle {
+            self.stop_tip(needle, state);
+        }
+    }
+
     fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
         if constraint >= self.contacts.forces().len() {
             return constraint..constraint + 1;

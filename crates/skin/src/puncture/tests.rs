@@ -331,7 +331,7 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
     let grown = |longest| {
         let start = problem.start().unwrap().0;
-        problem.follow(start, longest, &[], &[]).unwrap().puncture()
+        problem.follow(start, longest, &[], &[]).unwrap().puncture(false)
     };
     let cut = grown(60);
     assert_eq!(cut.status, Status::RowLimit);

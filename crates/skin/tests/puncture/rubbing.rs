@@ -196,3 +196,44 @@ fn random_designs_are_complete_with_friction() {
     let failed = incomplete(random(count, 21), 0.3, &PunctureParameters::default());
     assert!(failed.len() <= count / 1000, "{failed:?}");
 }
+
+/// Without friction the way back is the way there. With it less work is given back: what is missing is the area of the loop, which friction
+/// has taken or what does not come back stores.
+#[test]
+fn the_load_is_taken_away_again() {
+    for (gap, length, slant_deg, friction, needle) in [
+        (0.1, 1.0, 45.0, 0.0, Needle::Free),
+        (0.1, 1.0, 45.0, 0.1, Needle::Free),
+        (0.2, 0.5, 60.0, 0.3, Needle::Free),
+        (0.3, 0.7, 60.0, 0.0, Needle::Guided { friction: 0.3 }),
+        (0.2, 1.0, 60.0, 0.1, Needle::Guided { friction: 0.3 }),
+        (0.5, 1.0, 0.0, 0.1, Needle::Guided { friction: 0.1 }),
+    ] {
+        let design = design(gap, length, slant_deg, Base::L);
+        let parameters =
+            PunctureParameters { needle, unload: true, load_position: 0.95, ..on_row(21) };
+        let solver = Settings { first_step: 4e-4, max_step: 4e-4, ..Settings::default() };
+        let common = Common { solver, ..rubbing(friction) };
+        let puncture = solve_as(&Calibrations::default(), &design, &common, &parameters);
+        let back = puncture.way_back.as_ref().unwrap();
+        assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
+        let work = |path: &[puncture::PuncturePoint]| -> f64 {
+            let steps = path.windows(2).map(|pair| {
+                let mean = 0.5 * (pair[0].force + pair[1].force) * length;
+                mean * (pair[1].displacement - pair[0].displacement)
+            });
+            steps.sum()
+        };
+        let (there, given_back) = (work(&puncture.path), -work(&back.path));
+        let loop_work = puncture.measures.remains.loop_work.unwrap();
+        println!("{design:?} {there} {given_back} {loop_work} {:?}", puncture.measures.remains);
+        assert!((there - given_back - loop_work).abs() < 1e-5 * there, "{design:?}");
+        let end = back.path.last().unwrap();
+        assert!(end.force.abs() < 1e-9);
+        if friction == 0.0 && needle == Needle::Free {
+            assert!(end.displacement.abs() < 1e-9 && loop_work.abs() < 1e-9 * there);
+        } else {
+            assert!(loop_work > 1e-3 * there && end.displacement > -1e-9);
+        }
+    }
+}

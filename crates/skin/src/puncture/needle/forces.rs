@@ -5,7 +5,7 @@ use solver::{Residual, Tangent};
 use super::mode::{Place, Rub, Touch};
 use super::outline::{COORDINATES, Tip};
 use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::{Contacts, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
 
 /// Value of a condition that does not exist: any number above zero.
@@ -265,6 +265,31 @@ impl Chain {
             Some(tip.force([state.z[push], state.z[push + 1]]).x)
         };
         touches.filter_map(lateral).sum()
+    }
+
+    /// What friction takes at the tip between two neighbouring points, `∫ μ_n N |dξ|`.
+    pub(in crate::puncture) fn taken_at_tip(
+        &self,
+        from: &SkinPoint,
+        to: &SkinPoint,
+        spans: [f64; 2],
+    ) -> f64 {
+        let Some(needle) = &self.needle else { return 0.0 };
+        let of_touch = |slot: usize| -> f64 {
+            let Some(Touch { rub: Rub::Slip { sign, from: start }, scale, place }) =
+                from.state.mode.needle.touches[slot]
+            else {
+                return 0.0;
+            };
+            let Some(end) = self.tip(&to.state.z, scale, place) else { return 0.0 };
+            let slid = needle.push(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
+            let push = needle.push(slot);
+            let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
+            let pushes = [from.state.z[push], to.state.z[push]];
+            let ways = [from.state.z[slid], sign * (end.way - start)];
+            needle.friction * product_integral([pushes, along(push)], [ways, along(slid)])
+        };
+        of_touch(0) + of_touch(1)
     }
 
     /// `T` and `ξ` of both touches: friction takes `∫ T dξ`.

@@ -63,6 +63,18 @@ impl Chain {
         }
     }
 
+    /// Lets the tip stick where it slides.
+    pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
+        for slot in 0..2 {
+            let touch = state.mode.needle.touches[slot];
+            let slides = touch.is_some_and(|touch| matches!(touch.rub, Rub::Slip { .. }));
+            if let Some(at) = self.way(state, slot).filter(|_| slides && needle.friction > 0.0) {
+                needle.end_sliding(state, slot);
+                rub(state, slot, Rub::Stick { at });
+            }
+        }
+    }
+
     /// `ξ` of a touch.
     fn way(&self, state: &SkinState, slot: usize) -> Option<f64> {
         let touch = state.mode.needle.touches[slot]?;
