@@ -125,7 +125,8 @@ const FLEXURE_ENERGY: FigureText = FigureText {
 
 fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
-    let points = puncture.path.iter().map(|p| [p.displacement, p.force]);
+    let back = puncture.way_back.iter().flat_map(|back| &back.path);
+    let points = puncture.path.iter().chain(back).map(|p| [p.displacement, p.force]);
     let crosses = puncture.events.iter().map(|e| [e.point.displacement, e.point.force]);
     let unstable = puncture.instability.iter().map(|instability| instability.depth > 0);
     let fold = puncture.folds.first().map(|fold| [fold.point.displacement, fold.point.force]);
@@ -139,7 +140,8 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
     let flexure = solved.flexure?;
-    let points = flexure.path.iter().map(|p| [p.curvature, p.moment]);
+    let back = flexure.way_back.iter().flat_map(|back| &back.path);
+    let points = flexure.path.iter().chain(back).map(|p| [p.curvature, p.moment]);
     let crosses = flexure.events.iter().map(|e| [e.point.curvature, e.point.moment]);
     Some(CurveValues {
         points: points.collect(),

@@ -90,7 +90,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 40] = [
+pub static FILES: [FileEntry; 42] = [
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -131,6 +131,8 @@ pub static FILES: [FileEntry; 40] = [
     plain(RunFolder::FLEXURE[1], Maker::Design, Role::Record),
     plain(RunFolder::FLEXURE[2], Maker::Design, Role::Record),
     plain(RunFolder::FLEXURE[3], Maker::Design, Role::Record),
+    plain(RunFolder::WAY_BACK[0], Maker::Design, Role::Record),
+    plain(RunFolder::WAY_BACK[1], Maker::Design, Role::Record),
 ];
 
 impl FileEntry {
@@ -186,6 +188,8 @@ impl RunFolder {
     /// The tables of the bending of one design: path, events, scales, iterations.
     pub const FLEXURE: [&'static str; 4] =
         ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
+    /// The tables of the way back of one design, of its puncture and of its bending.
+    pub const WAY_BACK: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
 
     /// The folder at `path`, which need not exist.
     pub fn new(path: impl Into<PathBuf>) -> Self {

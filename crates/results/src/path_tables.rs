@@ -1,7 +1,7 @@
 //! The path tables of one design: its paths, events, scales and Newton iterations.
 
 use skin::flexure::Flexure;
-use skin::puncture::Puncture;
+use skin::puncture::{Instability, Puncture};
 use store::OutputError;
 
 use crate::columns::{
@@ -29,10 +29,37 @@ pub fn write_path_tables(
     if let Some(flexure) = &solved.flexure {
         files.extend(write_flexure(folder, flexure)?);
     }
+    files.extend(write_ways_back(folder, solved)?);
     if !solved.row.result.sensitivity.is_empty() {
         let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
         write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;
         files.push(name);
+    }
+    Ok(files)
+}
+
+/// Writes the ways back of a design that was unloaded, in the columns of its paths.
+fn write_ways_back(
+    folder: &RunFolder,
+    solved: &SolvedDesign,
+) -> Result<Vec<&'static str>, OutputError> {
+    let [puncture, flexure] = RunFolder::WAY_BACK;
+    let mut files = Vec::new();
+    if let Some(solved) = &solved.puncture
+        && let Some(back) = &solved.way_back
+    {
+        let mut columns = path_columns(!solved.measures.passage.is_none(), solved.rubs());
+        // Nothing is known of the stability of a row whose load is taken away.
+        columns.retain(|column| !column.name.starts_with("unstable"));
+        let points = back.path.iter().map(|&point| (point, Instability::default()));
+        write_rows(folder, puncture, Plain, &columns, points.collect::<Vec<_>>())?;
+        files.push(puncture);
+    }
+    if let Some(solved) = &solved.flexure
+        && let Some(back) = &solved.way_back
+    {
+        write_rows(folder, flexure, Plain, &flexure_path_columns(solved.rubs()), &back.path)?;
+        files.push(flexure);
     }
     Ok(files)
 }

@@ -227,7 +227,8 @@ impl Parameter {
                 let decimal = text.parse::<Decimal>().ok();
                 decimal.and_then(Decimal::to_usize).map(Scalar::Count)
             }
-            (ParameterKind::Word { words, .. }, Value::Text(text)) => {
+            // A boolean is one of the two words of a parameter that says whether.
+            (ParameterKind::Word { words, .. }, Value::Text(text) | Value::Other(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
             }
             (ParameterKind::CountOrAuto { .. }, Value::Text(text)) => {

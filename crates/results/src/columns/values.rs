@@ -325,6 +325,18 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         |r| measured(r, |m| m.friction_work),
     ).in_unit("E* t^3").needing(&[key::FRICTION]),
     other(
+        "loop_work",
+        BOTH,
+        "work of the load that is not given back as it is taken away: taken by friction, or stored in what does not come back",
+        |r| measured(r, |m| m.remains.loop_work),
+    ).in_unit("E* t^3").needing(&[key::UNLOAD]),
+    other(
+        "remaining_displacement",
+        BOTH,
+        "displacement of the punctured point that remains once the load is gone",
+        |r| measured(r, |m| m.remains.displacement),
+    ).in_unit("t").needing(&[key::UNLOAD]),
+    other(
         "unique",
         BOTH,
         "yes or no: whether no event of the path had another way on, among the ways of sticking and slipping that were looked at",
@@ -336,6 +348,18 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "work that friction between scales has taken at the largest rotation, of the whole strip",
         |r| bent(r, |m| m.friction_work),
     ).in_unit("E_m t^3").needing(&[key::FRICTION]),
+    other(
+        "flexure_loop_work",
+        COMPLIANCE,
+        "work of the moment that is not given back as it is taken away, of the whole strip",
+        |r| bent(r, |m| m.remains.loop_work),
+    ).in_unit("E_m t^3").needing(&[key::UNBEND]),
+    other(
+        "remaining_curvature",
+        COMPLIANCE,
+        "curvature that remains once the moment is gone",
+        |r| bent(r, |m| m.remains.displacement),
+    ).in_unit("1/t").needing(&[key::UNBEND]),
     other(
         "locking_curvature",
         COMPLIANCE,

@@ -171,6 +171,7 @@ mod tests {
             folds,
             scales,
             history,
+            way_back: None,
         }
     }
 

@@ -23,6 +23,13 @@ pub const LOAD_POSITION: &str = "load_position";
 
 /// How the needle is held.
 pub const NEEDLE: &str = "needle";
+
+/// Whether the load is taken away at the end of a puncture.
+pub const UNLOAD: &str = "unload";
+
+/// Whether the moment is taken away at the end of bending.
+pub const UNBEND: &str = "unbend";
+
 /// The friction between needle and scale.
 pub const NEEDLE_FRICTION: &str = "needle_friction";
 

@@ -231,6 +231,18 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: key::UNLOAD,
+        section: "puncture",
+        unit: "-",
+        meaning: "whether the load is taken away again at the end of the puncture",
+        roles: &[],
+        kind: ParameterKind::Word {
+            words: &["false", "true"],
+            get: |c| usize::from(c.puncture.unload),
+            set: |c, word| c.puncture.unload = word == 1,
+        },
+    },
+    Parameter {
         key: key::CRITICAL_TILT,
         section: "puncture",
         unit: "deg",
@@ -380,6 +392,18 @@ pub static PARAMETERS: &[Parameter] = &[
                 c.flexure.elements_per_gap =
                     count.map_or(MembraneMesh::Auto, MembraneMesh::Elements);
             },
+        },
+    },
+    Parameter {
+        key: key::UNBEND,
+        section: "flexure",
+        unit: "-",
+        meaning: "whether the moment is taken away again at the end of bending",
+        roles: &[],
+        kind: ParameterKind::Word {
+            words: &["false", "true"],
+            get: |c| usize::from(c.flexure.unload),
+            set: |c, word| c.flexure.unload = word == 1,
         },
     },
     Parameter {

@@ -54,10 +54,10 @@ impl Scalar {
         }
     }
 
-    /// The value as it is written in a definition: words in quotes.
+    /// The value as it is written in a definition: words in quotes, but for booleans.
     pub fn to_toml(self) -> String {
         match self {
-            Self::Word(word) => format!("\"{word}\""),
+            Self::Word(word) if word.parse::<bool>().is_err() => format!("\"{word}\""),
             value => value.to_string(),
         }
     }
