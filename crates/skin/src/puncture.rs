@@ -132,6 +132,13 @@ pub struct Puncture {
     pub history: Vec<Iteration>,
 }
 
+impl Puncture {
+    /// Whether scales rub on each other.
+    pub fn rubs(&self) -> bool {
+        self.path.iter().any(|point| point.friction_work.is_some())
+    }
+}
+
 /// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt, on a
 /// `substrate` that is given by its [`Springs`](substrate::Springs) or by the stiffness of the whole row.
 ///
