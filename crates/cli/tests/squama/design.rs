@@ -38,6 +38,30 @@ fn prints_what_the_sweep_writes() {
 }
 
 #[test]
+fn takes_the_load_away_again() {
+    let place = Place::with(FEW);
+    let design = "design x.toml --gap 0.1 --length 1 --slant 45 --set puncture.unload=true --set flexure.unbend=true";
+    let values = |friction: &str| {
+        let text = place.prints(&format!("{design} --set contact.friction={friction}"));
+        ["loop_work", "remaining_displacement", "flexure_loop_work"].map(|name| -> f64 {
+            let line = text.lines().find(|line| line.split_whitespace().next() == Some(name));
+            let value = line.and_then(|line| line.split_whitespace().nth(1));
+            value.expect(name).parse().expect("a number")
+        })
+    };
+    let [work, displacement, bending] = values("0.3");
+    assert!(work > 1e-3 && displacement.abs() < 1.0 && bending >= 0.0, "{work} {displacement}");
+    let back = place.read("results/few/designs/0004/way_back.csv");
+    let forces = back.lines().skip(1).map(|line| line.split(',').nth(1).expect("a force"));
+    let forces: Vec<f64> = forces.map(|force| force.parse().expect("a number")).collect();
+    assert!(forces.first() > forces.last() && forces.last() < Some(&1e-9), "{forces:?}");
+    assert!(!back.lines().next().expect("a header").contains("unstable"), "{back}");
+    for value in values("0") {
+        assert!(value.abs() < 1e-9, "{value}");
+    }
+}
+
+#[test]
 fn writes_its_course() {
     let place = Place::with(FEW);
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);
