@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Seek as _};
 use std::path::Path;
 
-use crate::columns::parameter_of;
+use crate::columns::{parameter_of, tells_apart};
 use sweep::{Parameter, Sweep, nearest, number, reason};
 
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
@@ -131,13 +131,14 @@ impl Results {
             }
         }
         let parameters = header.iter().enumerate();
+        let parameters = parameters.filter(|(_, name)| tells_apart(name, &header));
         let parameters =
-            parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
+            parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
         Ok(Self {
             folder: folder.clone(),
             file,
             format,
-            parameters: parameters.collect(),
+            parameters,
             header,
             rows,
             in_table: length,

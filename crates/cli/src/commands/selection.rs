@@ -96,8 +96,10 @@ fn by_values(
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         let option = format!("{option} {text}");
-        // A range selects among the values as they are written, because the option takes the place of their axis.
-        let values = values(text, written.grid().axis(key)).context(option.clone())?;
+        // A range selects among the values as they are written, because the option takes the place of their axis, in its unit.
+        let axis = written.grid().axis_saying(key);
+        let key = axis.map_or(key, |axis| axis.parameter().key);
+        let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
     let sweep = Sweep::read(file, &settings)?;

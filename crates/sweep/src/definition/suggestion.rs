@@ -28,11 +28,20 @@ pub(crate) fn sections() -> Vec<&'static str> {
 
 /// A suggestion of what to write instead of `key` in `section` (empty: outside of the sections).
 pub(crate) fn for_key(section: &str, key: &str) -> String {
-    if let Some(parameter) = Parameter::named(key) {
-        return format!("did you mean {}?", parameter.path());
-    }
     let known = keys_of(section);
-    match nearest(key, &known) {
+    if let Some(parameter) = Parameter::named(key) {
+        // A thickness of the substrate is that of the tissue, before it is that of the scales.
+        let end = format!("_{key}");
+        let own = known.iter().find(|own| parameter.section != section && own.ends_with(&end));
+        let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
+        return format!("did you mean {path}?");
+    }
+    // A length without a unit is first of all one over the thickness; it is longer to type, which must not count.
+    let over_t = |near: &'static str| {
+        let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
+        of.map_or(near, |of| of.key)
+    };
+    match nearest(key, &known).map(over_t) {
         Some(near) if section.is_empty() => format!("did you mean {near}?"),
         Some(near) => format!("did you mean {section}.{near}?"),
         None => format!("expected one of {}", known.join(", ")),
@@ -80,6 +89,10 @@ mod tests {
         assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");
         assert_eq!(for_key("flexure", "gap"), "did you mean flexure.gaps?");
         assert_eq!(for_key("scale", "c2"), "did you mean contact.c2?");
+        let tissue = "did you mean substrate.tissue_thickness_mm?";
+        assert_eq!(for_key("substrate", "thickness_mm"), tissue);
+        assert_eq!(for_key("scale", "width"), "did you mean scale.width_over_t?");
+        assert_eq!(for_key("scale", "width_m"), "did you mean scale.width_mm?");
         assert_eq!(for_key("", "conatct"), "did you mean contact?");
         assert_eq!(for_key("", "mesures"), "did you mean measures?");
     }

@@ -283,3 +283,23 @@ fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
     );
     assert_eq!(error.lines().count(), 1);
 }
+
+/// Lengths in mm: without a thickness, beside the same over the thickness, all three of gap, length and pitch, and out of bounds.
+#[test]
+fn lengths_in_mm() {
+    insta::assert_snapshot!(all(&[
+        "designs.gap_mm = 0.4",
+        "scale.width_mm = 0",
+        "scale = { width_mm = 2, width_over_t = 1 }\nmaterial.thickness_mm = 2",
+        "designs = { gap_mm = [0.2, 0.4], gap_over_t = 0.1, thickness_mm = 2 }",
+        "designs = { gap_mm = 1, length_over_t = 1, pitch_mm = 3, thickness_mm = 2 }",
+        "variables = { gap_over_t = { from = 0.1, to = 1 }, gap_mm = { from = 0.1, to = 1 } }\nmaterial.thickness_mm = 2",
+        "variables = { pitch_mm = { from = 2, to = 3 } }\ndesigns = { gap_mm = 1, length_mm = 1, thickness_mm = 2 }",
+        "flexure = { gaps = 42, membrane_length_mm = 50 }\nmaterial.thickness_mm = 2",
+        "puncture = { load_position = 0.5, load_inset_mm = 0.5 }\nmaterial.thickness_mm = 2",
+        "designs = { gap_mm = 0.4, thickness_mm = [1, 1e3] }",
+        "designs = { pitch_mm = 3, length_mm = 2, thickness_mm = 2 }\nscale.base = '2L'",
+        "variables = { pitch_mm = { from = 1.5, to = 3 }, length_mm = { from = 1, to = 2 } }\nmaterial.thickness_mm = 2",
+        "tolerance.tissue_thickness_mm = { batch_sd = 0.1 }\nmaterial.thickness_mm = 2",
+    ]));
+}
