@@ -19,6 +19,7 @@ mod optimise;
 mod plot;
 mod rank;
 mod report;
+mod required;
 mod rerun;
 mod results_folder;
 mod run;

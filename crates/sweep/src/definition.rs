@@ -140,6 +140,11 @@ impl Sweep {
         Parameter::named(key).is_some_and(is_given)
     }
 
+    /// Whether lengths are given in mm, so that the thickness moves those over it.
+    pub fn gives_millimetres(&self) -> bool {
+        PARAMETERS.iter().any(|parameter| parameter.is_in_mm() && self.gives(parameter.key))
+    }
+
     /// Whether the parameter of that name is an axis, or has another value than that by default.
     pub fn sets(&self, key: &str) -> bool {
         let is_set = |parameter: &Parameter| parameter.get(self.grid.base()) != parameter.default();

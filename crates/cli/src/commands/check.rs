@@ -156,8 +156,7 @@ fn values(axis: &Axis) -> String {
 
 /// How many footprints the substrate is calibrated for: the combinations of what they depend on.
 fn calibrations(sweep: &Sweep) -> u64 {
-    let in_mm = Parameter::with(Role::MovesSprings).filter(|parameter| parameter.is_in_mm());
-    let has_mm = in_mm.into_iter().any(|parameter| sweep.gives(parameter.key));
+    let has_mm = sweep.gives_millimetres();
     let matters =
         |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();

@@ -46,9 +46,10 @@ impl DesignRow {
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
         // A length in mm, or a thickness, moves lengths over the thickness; measures have their derivatives by those.
-        let changes = match parameter.has(Role::Continuous) {
-            true => vec![MovedParameter { parameter, by }],
-            false => changes(&self.case, &to),
+        let changes = if parameter.has(Role::Continuous) {
+            vec![MovedParameter { parameter, by }]
+        } else {
+            changes(&self.case, &to)
         };
         Some(self.changed(&to, &changes, side))
     }
