@@ -50,8 +50,7 @@ export default ({ openFile, open, place, results, run }) => {
       for (let k = 0; k < STATES; k++) {
         const shares = Array.from({ length: 10 }, next);
         await after(page, () => page.evaluate((own) => {
-          // Scales do not rub here: with them, under a guided needle, round-off may decide whether a path comes to its end.
-          const pairs = squama.live.controls().filter(({ key, words }) => !words && key !== "friction").map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
+          const pairs = squama.live.controls().filter(({ words }) => !words).map(({ key, min, max }, j) => [key, min + own[j] * (max - min)]);
           squama.live.set(Object.fromEntries(pairs));
         }, shares));
         const there = solved(await page.locator("#live-command").textContent());

@@ -25,8 +25,8 @@ const share = (k, base) => (k === 0 ? 0 : ((k % base) + share(Math.floor(k / bas
 const definition = "name = 'x'\nmeasures = ['coverage', 'puncture', 'flexure']\ndesigns.gap_over_t = 0.5\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 30";
 // Every second needle is guided, as a hand holds it: it rubs, sticks and slides.
 const guided = (k) => (k % 2 ? { needle: "guided", needle_friction: 0.6 * share(k + 1, 7) } : {});
-// In every fourth row scales rub, under a free needle: under a guided one round-off may decide whether a path comes to its end.
-const rubbing = (k) => (k % 4 ? {} : { friction: 0.4 * share(k + 1, 11) });
+// Scales rub in every second row, too, under needles of both kinds.
+const rubbing = (k) => (k % 4 < 2 ? { friction: 0.4 * share(k + 1, 11) } : {});
 const requests = Array.from({ length: DESIGNS }, (_, k) => JSON.stringify({
   id: k, definition, drawn: [1, 0.5],
   set: { gap_over_t: 0.05 + 0.95 * share(k + 1, 2), length_over_t: 0.1 + 0.9 * share(k + 1, 3), slant_deg: 70 * share(k + 1, 5), ...guided(k), ...rubbing(k) },

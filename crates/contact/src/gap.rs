@@ -179,7 +179,7 @@ impl Edge {
 }
 
 /// A quarter turn counter-clockwise.
-pub(crate) fn quarter(v: Vec2) -> Vec2 {
+pub fn quarter(v: Vec2) -> Vec2 {
     Vec2::new(-v.y, v.x)
 }
 

@@ -52,8 +52,7 @@ impl Solved {
                     let points = puncture.path.iter().copied();
                     let points: Vec<_> = points.zip(puncture.instability.iter().copied()).collect();
                     let is_guided = !puncture.measures.passage.is_none();
-                    let rubs = puncture.path.iter().any(|point| point.friction_work.is_some());
-                    return table(&path_columns(is_guided, rubs), &points);
+                    return table(&path_columns(is_guided, puncture.rubs()), &points);
                 }
                 "events" => return table(EVENTS, &PunctureEvent::all(puncture)),
                 "scales" => return table(SCALES, &puncture.scales),
@@ -63,8 +62,7 @@ impl Solved {
         if let Some(flexure) = flexure {
             match name {
                 "flexure_path" => {
-                    let rubs = flexure.path.iter().any(|point| point.friction_work.is_some());
-                    return table(&flexure_path_columns(rubs), &flexure.path);
+                    return table(&flexure_path_columns(flexure.rubs()), &flexure.path);
                 }
                 "flexure_events" => return table(FLEXURE_EVENTS, &flexure.events),
                 "flexure_scales" => {

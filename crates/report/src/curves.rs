@@ -44,6 +44,17 @@ pub struct DesignCurves<'a> {
     pub flexure: Option<&'a Flexure>,
 }
 
+/// Measured curves, that are laid over those of designs.
+#[derive(Clone, Debug)]
+pub struct MeasuredCurves {
+    /// Whether they are of bending, moment over curvature; otherwise force over displacement of a puncture.
+    pub bending: bool,
+    /// For each design what its own units are worth in mm and N, or 1/mm and N mm; nothing, if the curves are in those units.
+    pub units: Vec<[f64; 2]>,
+    /// The curves, each with its name.
+    pub curves: Vec<(String, Vec<[f64; 2]>)>,
+}
+
 /// A line of a panel.
 struct Curve {
     name: String,
@@ -56,11 +67,19 @@ struct Curve {
     unstable: Vec<bool>,
 }
 
-/// Returns the curves of `designs` as figures: those for which there are paths.
-pub fn curves(name: &str, designs: &[DesignCurves]) -> Vec<Figure> {
+/// Returns the curves of `designs` as figures: those for which there are paths, with what was `measured` over those of its kind.
+pub fn curves(
+    name: &str,
+    designs: &[DesignCurves],
+    measured: Option<&MeasuredCurves>,
+) -> Vec<Figure> {
+    let over = |bending: bool| measured.filter(|measured| measured.bending == bending);
+    let is_physical = |bending| over(bending).is_some_and(|measured| !measured.units.is_empty());
+    let force = if is_physical(false) { &FORCE_IN_N } else { &FORCE };
+    let moment = if is_physical(true) { &MOMENT_IN_N_MM } else { &MOMENT };
     let candidates = [
-        ("force-displacement-curves", one_panel(name, &FORCE, designs, puncture)),
-        ("moment-curvature-curves", one_panel(name, &MOMENT, designs, flexure)),
+        ("force-displacement-curves", one_panel(name, force, designs, puncture, over(false))),
+        ("moment-curvature-curves", one_panel(name, moment, designs, flexure, over(true))),
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
     ];
@@ -88,6 +107,9 @@ const MOMENT: FigureText = FigureText {
     y: "moment $M^*$ = $M t$/($E_m I_m$), dimensionless",
     note: "× a contact closes, opens or passes a corner",
 };
+const FORCE_IN_N: FigureText = FigureText { x: "displacement $u$, mm", y: "force $F$, N", ..FORCE };
+const MOMENT_IN_N_MM: FigureText =
+    FigureText { x: "curvature $κ$, 1/mm", y: "moment $M$, N mm", ..MOMENT };
 const PUNCTURE_ENERGY: FigureText = FigureText {
     title: "energies of a puncture",
     x: "displacement $u^*$ = $u/t$, dimensionless",
@@ -163,17 +185,22 @@ fn one_panel(
     text: &FigureText,
     designs: &[DesignCurves],
     values: ValuesOf,
+    measured: Option<&MeasuredCurves>,
 ) -> Option<String> {
-    let curves = curves_of(designs, values);
+    let units = measured.map_or(&[][..], |measured| &measured.units);
+    let curves = curves_of(designs, values, units);
     if curves.is_empty() {
         return None;
     }
-    let points: Vec<_> = curves.iter().flat_map(|curve| curve.points.iter().copied()).collect();
-    let (x, y) = axes(text, &points);
+    let measured = measured.map_or(&[][..], |measured| &measured.curves);
+    let solved = curves.iter().flat_map(|curve| &curve.points);
+    let points = solved.chain(measured.iter().flat_map(|(_, points)| points)).copied();
+    let (x, y) = axes(text, &points.collect::<Vec<_>>());
     let y = logarithmic(text, &curves).unwrap_or(y);
+    let lines = curves.len() + measured.len();
     let area = Area {
         left: MARGINS[0],
-        top: LEGEND + 6.0 + 20.0 * curves.len() as f64,
+        top: LEGEND + 6.0 + 20.0 * lines as f64,
         width: WIDTH - MARGINS[0] - MARGINS[1],
         height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
     };
@@ -185,17 +212,43 @@ fn one_panel(
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
     }
+    for (k, (name, points)) in measured.iter().enumerate() {
+        let color = MEASURED[k % MEASURED.len()];
+        let y = LEGEND + 20.0 * (curves.len() + k) as f64;
+        inside.push(dots(&panel, points, color));
+        inside.push(dot([MARGINS[0] + 20.0, y], color));
+        // The name of a file is no formula, whatever stands in it.
+        let text = Element::new("text").at("x", MARGINS[0] + 50.0).at("y", y + 4.0);
+        inside.push(text.at("font-size", 12.0).with("fill", INK).text(name));
+    }
     let height = area.bottom() + MARGINS[2] - 8.0;
     Some(sheet(WIDTH, height, &format!("{name}: {}", text.title), inside))
 }
 
-/// Returns a curve for each design, darker and with other dashes where slants repeat.
-fn curves_of(designs: &[DesignCurves], values: ValuesOf) -> Vec<Curve> {
+/// Colours of measured points.
+const MEASURED: [&str; 3] = [RED, INK, "#1b7f4b"];
+
+/// Draws measured points.
+fn dots(panel: &ChartPanel, points: &[[f64; 2]], color: &str) -> Element {
+    let spots = points.iter().filter_map(|&[x, y]| panel.place(x, y));
+    Element::group("measured").containing(spots.map(|spot| dot(spot, color)))
+}
+
+fn dot(spot: Spot, color: &str) -> Element {
+    circle(spot, 2.6).with("fill", "none").with("stroke", color).at("stroke-width", 1.1)
+}
+
+/// Returns a curve for each design, darker and with other dashes where slants repeat; in other `units`, if there are some.
+fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> Vec<Curve> {
     let palette = palette(designs);
     let mut curves: Vec<Curve> = Vec::new();
     for (k, solved) in designs.iter().enumerate() {
         let Some(values) = values(solved) else { continue };
         let CurveValues { points, crosses, rings, unstable } = values;
+        let [x, y] = units.get(k).copied().unwrap_or([1.0; 2]);
+        let in_units = |points: Vec<[f64; 2]>| points.into_iter().map(|p| [p[0] * x, p[1] * y]);
+        let [points, crosses, rings] =
+            [points, crosses, rings].map(|points| in_units(points).collect());
         let slant = solved.design.slant_deg;
         let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);

@@ -6,7 +6,7 @@
 //! | Item | Role |
 //! |---|---|
 //! | [`drawings`] | a row of scales punctured, a strip bent: to scale, as SVG or as an animation |
-//! | [`curves()`] | paths of solved designs |
+//! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with what was measured over them |
 //! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
 //! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
 //! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
@@ -57,7 +57,7 @@ mod png;
 mod spreads;
 mod svg;
 
-pub use curves::{DesignCurves, curves};
+pub use curves::{DesignCurves, MeasuredCurves, curves};
 pub use designs::Designs;
 pub use explore::Explorer;
 #[cfg(feature = "xlsx")]

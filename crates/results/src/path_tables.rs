@@ -43,8 +43,7 @@ fn write_puncture(
 ) -> Result<[&'static str; 4], OutputError> {
     let [path, events, scales, steps] = RunFolder::PUNCTURE;
     let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    let rubs = puncture.path.iter().any(|point| point.friction_work.is_some());
-    let columns = path_columns(!puncture.measures.passage.is_none(), rubs);
+    let columns = path_columns(!puncture.measures.passage.is_none(), puncture.rubs());
     write_rows(folder, path, Plain, &columns, points.collect::<Vec<_>>())?;
     write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
     write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
@@ -56,8 +55,7 @@ fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str;
     let [path, events, scales, steps] = RunFolder::FLEXURE;
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
-    let rubs = flexure.path.iter().any(|point| point.friction_work.is_some());
-    write_rows(folder, path, Plain, &flexure_path_columns(rubs), &flexure.path)?;
+    write_rows(folder, path, Plain, &flexure_path_columns(flexure.rubs()), &flexure.path)?;
     write_rows(folder, events, Plain, FLEXURE_EVENTS, &flexure.events)?;
     write_rows(folder, scales, Plain, FLEXURE_SCALES, &shape)?;
     write_rows(folder, steps, Plain, FLEXURE_STEPS, &flexure.history)?;

@@ -13,7 +13,8 @@
 //! |---|---|
 //! | [`run()`] | solves the designs of a sweep and writes the tables |
 //! | [`Options`], [`Program`], [`Progress`], [`Finished`] | how, by which program, how far, with what result |
-//! | [`Evaluator`] | solves one design |
+//! | [`Evaluator`] | solves one design, or its curve at chosen places |
+//! | [`CurvePoints`] | such a curve, with its derivatives |
 //! | [`WorkMeter`] | how much of the work is done, within designs too |
 //! | [`Start`] | what a run does with results that are there, and what it trusts of them |
 //! | [`Archive`], [`JournalEntry`], [`Line`] | every finished design, a line each in a journal |
@@ -77,6 +78,7 @@ pub use options::Options;
 pub use progress::{Finished, Progress, RunError};
 pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
+pub use solve::curve::CurvePoints;
 pub use solve::evaluator::Evaluator;
 pub use solve::work::WorkMeter;
 pub use status::RunStatus;

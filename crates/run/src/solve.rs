@@ -1,5 +1,6 @@
 //! Solving designs: one by one, and many at a time.
 
+pub mod curve;
 pub mod evaluator;
 pub mod groups;
 mod samples;

@@ -29,7 +29,7 @@ pub use first_touch::contact_curvature;
 pub use measures::FlexureMeasures;
 pub use mesh::MembraneMesh;
 pub use point::FlexurePoint;
-pub use sensitivity::{FlexureInput, differentiate};
+pub use sensitivity::{FlexureInput, differentiate, moment_curve};
 pub use snapshot::{StripSnapshot, snapshots};
 
 /// The part of a strip that is solved for.
@@ -101,6 +101,11 @@ pub struct Flexure {
 }
 
 impl Flexure {
+    /// Whether scales rub on each other.
+    pub fn rubs(&self) -> bool {
+        self.path.iter().any(|point| point.friction_work.is_some())
+    }
+
     /// Range of `κ*` over which the gaps close: from the first contact in any of them to the first contact
     /// in the last of those that close. 0 in a perfect strip, `None` without contact.
     pub fn closing_range(&self) -> Option<f64> {

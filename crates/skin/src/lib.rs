@@ -66,6 +66,6 @@ pub use contacts::{Contact, ContactChange};
 pub use design::{Base, Design};
 pub use imperfection::{Imperfection, Sample};
 pub use record::{ContactEvent, Iteration};
-pub use sensitivity::Derivative;
+pub use sensitivity::{CurvePoint, Derivative};
 pub use solver::Neighbours;
 pub use status::Status;

@@ -44,7 +44,7 @@ pub use needle::{CriticalEvent, Needle, Passage};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
 pub use point::{PuncturePoint, ScaleState};
-pub use sensitivity::{PunctureInput, differentiate};
+pub use sensitivity::{PunctureInput, differentiate, force_curve};
 pub use snap::Snap;
 pub use snapshot::{At, RowSnapshot, Snapshots, snapshots};
 pub use stability::Instability;
@@ -130,6 +130,13 @@ pub struct Puncture {
     pub scales: Vec<ScaleState>,
     /// Every Newton iteration.
     pub history: Vec<Iteration>,
+}
+
+impl Puncture {
+    /// Whether scales rub on each other.
+    pub fn rubs(&self) -> bool {
+        self.path.iter().any(|point| point.friction_work.is_some())
+    }
 }
 
 /// Follows the puncture of the middle scale of a row of `design` from rest to the critical tilt, on a

@@ -104,13 +104,13 @@ impl<S: Skin> Record<S> {
     /// Records the `point` that the path has come to, `from` the one before.
     pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
-        let spans = path.spans(from, point);
-        let skin = path.system();
-        let (mut here, step) = (skin.path_point(point), self.path.len());
-        if skin.contacts().rub() {
-            self.friction_work += skin.contacts().friction_work(from, point, spans);
-            skin.note_friction(&mut here, self.friction_work);
+        let (mut here, step) = (path.system().path_point(point), self.path.len());
+        if path.system().contacts().rub() {
+            let spans = path.spans(from, point);
+            self.friction_work += path.system().contacts().friction_work(from, point, spans);
+            path.system().note_friction(&mut here, self.friction_work);
         }
+        let skin = path.system();
         let angle_deg = skin.angle_deg(&point.state);
         let iteration = |(iteration, residual)| Iteration { step, iteration, residual, angle_deg };
         self.history.extend(residuals.into_iter().enumerate().map(iteration));

@@ -5,6 +5,7 @@
 //! Where a contact changes, or another scale takes over, within the step of these differences, the measure has a kink: both sides
 //! are solved for, each with its active set.
 
+mod curve;
 mod places;
 
 use solver::{AnchoredPoint, Change, Linearisation, Moved, Neighbours, Settings};
@@ -13,6 +14,8 @@ use crate::ContactChange;
 use crate::contacts::SkinState;
 use crate::record::Skin;
 
+pub use curve::CurvePoint;
+pub(crate) use curve::{Curve, curve_point};
 pub(crate) use places::{end, first_contact, is_held, rest, summit, turn, vanished};
 
 /// The derivative of a measure with respect to a parameter.

@@ -13,6 +13,9 @@ const APART: f64 = 1e-10;
 /// Directions whose cosine differs from 1 by less are one way on.
 const SAME_WAY: f64 = 1e-6;
 
+/// More sets of changes than this are not tried where constraints have companions.
+const MOST_WITH_FRICTION: usize = 500;
+
 /// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
 /// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
 /// problem of the rates,
@@ -150,10 +153,11 @@ impl<S: System> Path<S> {
         }
         let mut waiting = vec![(at, last)];
         let mut tried = Vec::new();
-        let has_companions = self.system.companions(last.constraint).len() > 1;
+        let has_companions =
+            (0..self.guards.len()).any(|other| self.system.companions(other).len() > 1);
         while let Some((from, change)) = waiting.pop() {
-            if tried.len() >= self.most_changes() {
-                return Err(Stop::Cycling);
+            if tried.len() >= self.most_changes(has_companions) {
+                break;
             }
             let way = self.pivoted(&from, change).and_then(|mut at| {
                 let is_known = tried.iter().any(|(active, mode)| {
@@ -286,9 +290,11 @@ impl<S: System> Path<S> {
     }
 
     /// More pivots than this do not happen at one place.
-    fn most_changes(&self) -> usize {
-        // Each constraint may change and change back; the rest is for rows of a few scales.
-        2 * self.guards.len() + 8
+    fn most_changes(&self, has_companions: bool) -> usize {
+        // Each constraint may change and change back; the rest is for rows of a few scales. With friction sets of changes form a tree,
+        // whose ways on are found within some dozens if there are any.
+        let most = 2 * self.guards.len() + 8;
+        if has_companions { most.min(MOST_WITH_FRICTION) } else { most }
     }
 }
 

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
-use report::{DesignCurves, MapRequest, curves, figures, map};
+use fit::{MeasuredCurve, Test};
+use report::{DesignCurves, MapRequest, MeasuredCurves, curves, figures, map};
 use skin::Status;
 use skin::flexure::{self, Flexure};
 use skin::puncture::{self, Puncture};
@@ -93,7 +94,13 @@ pub struct MapArguments {
 Examples:
   squama plot curves sweeps/paper.toml --design 0417,0418
   squama plot curves sweeps/paper.toml --design 0067,0070,0072 --to 0.7 --png
-  squama plot curves results/paper --gap 0.1 --length 1")]
+  squama plot curves results/paper --gap 0.1 --length 1
+  squama plot curves palm.toml --design 1 --measured test.csv
+
+A measured file is a CSV table whose first line names its columns with their units, in any order and among others:
+displacement_mm (or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m).
+The curves are then in mm and N, which takes a [material] with a thickness and a modulus. displacement and force,
+or curvature and moment, without a unit are those of path.csv and flexure_path.csv.")]
 pub struct CurvesArguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -104,6 +111,14 @@ pub struct CurvesArguments {
     /// Follow punctures to this displacement u/t instead of the critical tilt
     #[arg(long, value_name = "U", allow_hyphen_values = true)]
     pub to: Option<f64>,
+
+    /// Lay a measured curve over the solved ones (may be repeated, for files of one test)
+    #[arg(long, value_name = "FILE.csv")]
+    pub measured: Vec<PathBuf>,
+
+    /// Names of the first columns of measured files, if their first lines do not name them
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', requires = "measured")]
+    pub measured_columns: Option<Vec<String>>,
 
     #[command(flatten)]
     pub output: FigureOutput,
@@ -168,6 +183,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();
+    let measured = measured(arguments, &cases)?;
     let solved = cases.iter().map(|case| solve(case, arguments.to));
     let solved = solved.collect::<anyhow::Result<Vec<_>>>()?;
     let shown = solved.iter().zip(&designs).zip(&cases);
@@ -184,7 +200,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let mut files = FigureFiles::new(&arguments.output, folder)?;
     let names: Vec<_> = designs.iter().map(SelectedDesign::label).collect();
     let names = joined(&names, "designs");
-    for figure in curves(sweep.name(), &shown) {
+    for figure in curves(sweep.name(), &shown, measured.as_ref()) {
         // Where a puncture ends is a part of what its curves show.
         let to = arguments.to.filter(|_| OF_PUNCTURES.contains(&figure.name.as_str()));
         let to = to.map_or_else(String::new, |to| format!("-to-u-{to}"));
@@ -196,6 +212,28 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
         .iter()
         .any(|(puncture, flexure)| [puncture.status, flexure.status] != [Status::Complete; 2]);
     Ok(if failed { INCOMPLETE } else { DONE })
+}
+
+/// The measured curves, with the units in which those of the designs stand beside them.
+fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
+    let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
+    let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    let Some(first) = read.first() else { return Ok(None) };
+    let is_alike = |c: &&MeasuredCurve| (c.test, c.is_physical) == (first.test, first.is_physical);
+    if let Some(other) = read.iter().find(|curve| !is_alike(curve)) {
+        bail!("{}: is of another test than {}, or in other units", other.file, first.file);
+    }
+    let units = |case: &Case| {
+        first.test.units(case).map_err(|missing| {
+            let definition = arguments.definition.path.display();
+            anyhow::anyhow!("{definition}: {} is in mm and N, which needs {missing}", first.file)
+        })
+    };
+    let physical = cases.iter().filter(|_| first.is_physical);
+    let units = physical.map(units).collect::<anyhow::Result<_>>()?;
+    let bending = first.test == Test::Bending;
+    let curves = read.into_iter().map(|curve| (curve.file, curve.points)).collect();
+    Ok(Some(MeasuredCurves { bending, units, curves }))
 }
 
 /// The puncture of a design, to the critical tilt or to a displacement, and its bending.

@@ -196,7 +196,7 @@ impl Evaluator {
         statistics
     }
 
-    fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
+    pub(super) fn slopes(&self, case: &Case) -> Result<Arc<StiffnessSlopes>, Outcome> {
         // A footprint that cannot be meshed is the fault of no path.
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.slopes(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
@@ -263,7 +263,7 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
 }
 
 /// The solution of a case. Validation lets no case without mechanical meaning come here.
-fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
+pub(super) fn solved<T>(f: impl FnOnce() -> Result<T, OutOfRange>) -> Result<T, Outcome> {
     guarded(f)?.map_err(|_| Outcome::Internal)
 }
 

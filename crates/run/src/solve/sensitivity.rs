@@ -128,27 +128,27 @@ pub(super) fn punctured(case: &Case, stiffness: RowStiffness) -> PunctureInput {
     PunctureInput { design, stiffness, common, parameters, odd: None }
 }
 
-fn bent(case: &Case) -> FlexureInput {
+pub(super) fn bent(case: &Case) -> FlexureInput {
     let Case { design, common, flexure: parameters, .. } = *case;
     FlexureInput { design, common, parameters }
 }
 
 /// A case whose parameter varies.
-struct Varied<'a> {
-    case: &'a Case,
-    parameter: &'static Parameter,
-    slopes: Option<&'a StiffnessSlopes>,
+pub(super) struct Varied<'a> {
+    pub(super) case: &'a Case,
+    pub(super) parameter: &'static Parameter,
+    pub(super) slopes: Option<&'a StiffnessSlopes>,
 }
 
 impl Varied<'_> {
     /// The variation of what a function makes of the case for a larger value of the parameter.
-    fn variation<P>(&self, of: fn(&Self, f64) -> Option<P>) -> Option<Neighbours<P>> {
+    pub(super) fn variation<P>(&self, of: fn(&Self, f64) -> Option<P>) -> Option<Neighbours<P>> {
         let step = STEP * self.parameter.size(self.case)?;
         let [below, above] = [-step, step].map(|by| of(self, by));
         Some(Neighbours { below: below?, above: above?, step })
     }
 
-    fn punctured(&self, by: f64) -> Option<PunctureInput> {
+    pub(super) fn punctured(&self, by: f64) -> Option<PunctureInput> {
         let stiffness = self.slopes?.stiffness.clone();
         let stiffness = match self.stiffness_rate() {
             Some(rate) => stiffness + rate * by,
@@ -157,7 +157,7 @@ impl Varied<'_> {
         Some(punctured(&self.parameter.moved(self.case, by)?, stiffness))
     }
 
-    fn bent(&self, by: f64) -> Option<FlexureInput> {
+    pub(super) fn bent(&self, by: f64) -> Option<FlexureInput> {
         Some(bent(&self.parameter.moved(self.case, by)?))
     }
 

@@ -1,6 +1,7 @@
 //! Derivatives of all measures against differences of whole solutions.
 
 mod branches;
+mod curves;
 mod designs;
 mod differences;
 mod kinks;

@@ -50,7 +50,7 @@ impl Contacts {
                             &corners,
                             &self.law,
                             forces,
-                            Self::held(&state.mode, contact),
+                            self.held(&state.mode, contact),
                         ),
                     );
                 }

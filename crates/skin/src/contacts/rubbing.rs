@@ -17,9 +17,9 @@
 //!
 //! Two contacts of a pair whose sides lie on each other slide along one line: only the sum of their friction counts, and one of them, the
 //! *host*, bears it for both. Corners that are together keep the ratio of `T` and `Λ` with which they came; it is that of sliding on, on
-//! the edge behind the corner.
+//! the edge behind the corner. So does a corner on whose place the tip of a needle stands: of one motion the needle then says how it rubs.
 
-use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose};
+use contact::{CornerContact, CornerEdge, FORCES, Force, Gap, Pose, quarter};
 use geometry::Vec2;
 use solver::{Residual, Tangent};
 
@@ -31,6 +31,9 @@ pub(super) const WAY: usize = FORCES + 1;
 
 /// A normal force smaller than this has just begun to act.
 pub(super) const NO_FORCE: f64 = 1e-12;
+
+/// A ratio this near to the coefficient of friction is that of sliding.
+const SLIDES: f64 = 1e-9;
 
 /// How a contact rubs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,7 +53,7 @@ pub(crate) enum Rub {
         /// `s` where it began to.
         from: f64,
     },
-    /// The corners are together, with this ratio of `T` and `Λ`.
+    /// The corners are together, or the tip of a needle is where the corner is, with this ratio of `T` and `Λ`.
     Held {
         /// `T/Λ`.
         ratio: f64,
@@ -58,9 +61,9 @@ pub(crate) enum Rub {
 }
 
 impl Rub {
-    /// Whether the contact bears friction on an edge.
+    /// Whether the contact bears friction of its own.
     pub(super) fn is_host(self) -> bool {
-        matches!(self, Self::Stick { .. } | Self::Slip { .. })
+        self != Self::None
     }
 
     /// Whether both stick, or slip the same way.
@@ -114,31 +117,72 @@ impl Contacts {
             && state.mode.rubs[self.contact_of(constraint).0].acting() == [false, true]
     }
 
-    /// The contacts that stick, each with its anchor.
-    pub(crate) fn anchors(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
+    /// What contacts keep of the way to a state: where they stick, or the ratio with which they are held.
+    pub(crate) fn kept(state: &SkinState) -> impl Iterator<Item = (usize, f64)> {
         let rubs = state.mode.rubs.iter().enumerate();
         rubs.filter_map(|(contact, rub)| match rub {
-            Rub::Stick { at } => Some((contact, *at)),
-            _ => None,
+            Rub::Stick { at: kept } | Rub::Held { ratio: kept } => Some((contact, *kept)),
+            Rub::None | Rub::Slip { .. } => None,
         })
     }
 
-    /// `s` of a contact, on the edge on which it is in the state `to`.
-    pub(crate) fn way_of(&self, state: &SkinState, contact: usize, to: &SkinState) -> Option<f64> {
-        Some(self.way(state, to.mode[contact].edge()?, contact))
+    /// What a contact will keep in the state `to`, seen from the state before.
+    pub(crate) fn keeps(&self, state: &SkinState, contact: usize, to: &SkinState) -> Option<f64> {
+        match to.mode.rubs[contact] {
+            Rub::Held { .. } => Some(self.ratio(state, contact)),
+            _ => Some(self.way(state, to.mode[contact].edge()?, contact)),
+        }
     }
 
-    /// Moves the anchor of a contact that sticks, to that of a neighbour of a row which has come to the same state on its own way.
-    pub(crate) fn move_anchor(&mut self, contact: usize, by: f64) {
+    /// Moves what a contact keeps to that of a neighbour of a row which has come to the same state on its own way.
+    pub(crate) fn move_kept(&mut self, contact: usize, by: f64) {
         self.moved.push((contact, by));
     }
 
-    /// The ratio with which the corners of a contact are held together.
-    pub(super) fn held(mode: &SkinMode, contact: usize) -> f64 {
+    /// What a contact keeps on the way to this row, if it does so with this value.
+    fn moved_from(&self, contact: usize, of_mode: f64) -> f64 {
+        let moved = self.moved.iter().find(|(moved, _)| *moved == contact);
+        of_mode + moved.map_or(0.0, |(_, by)| *by)
+    }
+
+    /// The ratio with which a contact is held; 0 if it is not.
+    pub(super) fn held(&self, mode: &SkinMode, contact: usize) -> f64 {
         match mode.rubs.get(contact) {
-            Some(Rub::Held { ratio }) => *ratio,
+            Some(Rub::Held { ratio }) => self.moved_from(contact, *ratio),
             _ => 0.0,
         }
+    }
+
+    /// Lets the friction of a contact on an edge keep its ratio, since the tip of a needle has come to the place of the corner.
+    pub(crate) fn hold(&self, state: &mut SkinState, contact: usize) {
+        if !self.rub() {
+            return;
+        }
+        let host = Self::host_of(&state.mode, contact);
+        let ratio = self.ratio(state, host);
+        state.mode.rubs[host] = Rub::Held { ratio };
+        self.set_friction(state, host, 0.0, true);
+    }
+
+    /// Gives the friction of a contact that was held on an edge back to it. Of a tip that slides the corner slides on, too.
+    pub(crate) fn let_go(&self, state: &mut SkinState, contact: usize, slides: bool) {
+        if !self.rub() {
+            return;
+        }
+        let host = Self::host_of(&state.mode, contact);
+        let (Rub::Held { ratio }, Some(edge)) =
+            (state.mode.rubs[host], Self::edge_of(&state.mode, host))
+        else {
+            return;
+        };
+        let at = self.way(state, edge, host);
+        let grip = (ratio + self.law.friction()) * self.pressure(state, host);
+        state.mode.rubs[host] = if slides && self.is_sliding(ratio) {
+            Rub::Slip { sign: -ratio.signum(), from: at }
+        } else {
+            Rub::Stick { at }
+        };
+        self.set_friction(state, host, grip, true);
     }
 
     /// Adds the friction of a pair to its balance, and the equations of grips and ways.
@@ -151,7 +195,7 @@ impl Contacts {
         matrix: &mut impl Tangent,
     ) {
         for contact in Self::contacts_of(left) {
-            let Some(sliding) = self.sliding(state, contact, poses) else { continue };
+            let Some(sliding) = self.friction_of(state, contact, poses) else { continue };
             let Sliding { rub, traction, by_pressure, slide } = sliding;
             let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
             let parts = self.parts(contact);
@@ -182,9 +226,7 @@ impl Contacts {
             };
             match rub {
                 Rub::Stick { at } => {
-                    let moved = self.moved.iter().find(|(moved, _)| *moved == contact);
-                    let at = at + moved.map_or(0.0, |(_, by)| *by);
-                    add_way(grip, 1.0, slide.value - at);
+                    add_way(grip, 1.0, slide.value - self.moved_from(contact, at));
                 }
                 Rub::Slip { sign, from } => {
                     add_way(way, -sign, slide.value - from);
@@ -228,7 +270,7 @@ impl Contacts {
             let slope = |part: super::Part| part.sign * sliding.slide.gradient[part.coordinate];
             parts.map(|part| slope(part) * direction[part.unknown]).sum()
         };
-        let along = || self.sliding(state, contact, &poses).map_or(0.0, along);
+        let along = || self.friction_of(state, contact, &poses).map_or(0.0, along);
         match (state.mode.rubs[contact], slot) {
             (Rub::Stick { .. }, GRIP) => along(),
             (Rub::Slip { sign, .. }, WAY) => direction[self.unknown(contact, WAY)] - sign * along(),
@@ -261,9 +303,8 @@ impl Contacts {
             let Some(edge) = from.state.mode[contact].edge() else { return 0.0 };
             let pressing = |z: &[f64]| -> f64 {
                 // A force may have been handed on at the second point.
-                let mode = &from.state.mode;
-                let contacts = [Some(contact), Self::guest_of(mode, contact)];
-                let both = contacts.into_iter().flatten().map(|contact| self.forces_of(z, contact));
+                let both = Self::borne_by(&from.state.mode, contact);
+                let both = both.map(|contact| self.forces_of(z, contact));
                 both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
             };
             let way = self.unknown(contact, WAY);
@@ -277,10 +318,22 @@ impl Contacts {
         slips.map(work).sum()
     }
 
-    /// The contact whose friction a contact bears besides its own.
-    fn guest_of(mode: &SkinMode, contact: usize) -> Option<usize> {
-        let other = Self::beside(contact);
-        (mode.rubs[other] == Rub::None && mode[other] != CornerContact::Open).then_some(other)
+    /// Whether the other contact of the pair bears the friction of this one.
+    pub(super) fn is_guest(mode: &SkinMode, contact: usize) -> bool {
+        mode.rubs[contact] == Rub::None
+            && mode[contact] != CornerContact::Open
+            && mode.rubs[Self::beside(contact)].is_host()
+    }
+
+    /// The contact that bears the friction of a contact.
+    fn host_of(mode: &SkinMode, contact: usize) -> usize {
+        if Self::is_guest(mode, contact) { Self::beside(contact) } else { contact }
+    }
+
+    /// A contact that bears friction, and the one whose friction it bears besides its own.
+    fn borne_by(mode: &SkinMode, host: usize) -> impl Iterator<Item = usize> {
+        let guest = Some(Self::beside(host)).filter(|&other| Self::is_guest(mode, other));
+        std::iter::once(host).chain(guest)
     }
 
     /// Friction on the left scale at a contact whose normal force has this direction.
@@ -291,24 +344,30 @@ impl Contacts {
         normal_force: Vec2,
     ) -> Vec2 {
         let poses = self.pair_poses(&state.z, contact);
-        let quarter = |v: Vec2| Vec2::new(-v.y, v.x);
-        match (self.sliding(state, contact, &poses), normal_force.norm()) {
+        match (self.friction_of(state, contact, &poses), normal_force.norm()) {
             (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
-            _ => Self::held(&state.mode, contact) * quarter(normal_force),
+            _ => self.held(&state.mode, contact) * quarter(normal_force),
         }
     }
 
-    fn sliding(&self, state: &SkinState, contact: usize, poses: &[Pose; 2]) -> Option<Sliding> {
+    fn friction_of(&self, state: &SkinState, contact: usize, poses: &[Pose; 2]) -> Option<Sliding> {
         let rub = *state.mode.rubs.get(contact)?;
+        let edge = Self::edge_of(&state.mode, contact)?;
         let by_pressure = match rub {
             Rub::Stick { .. } => -self.law.friction(),
             Rub::Slip { sign, .. } => -sign * self.law.friction(),
-            Rub::None | Rub::Held { .. } => return None,
+            Rub::Held { ratio } => self.moved_from(contact, ratio),
+            Rub::None => return None,
         };
-        let slide = self.slide(state.mode[contact].edge()?, contact, poses);
+        let slide = self.slide(edge, contact, poses);
         let pressing: f64 = self.pressing(&state.mode, contact).map(|force| state.z[force]).sum();
         let grip = state.z[self.unknown(contact, GRIP)];
         Some(Sliding { rub, traction: grip + by_pressure * pressing, by_pressure, slide })
+    }
+
+    /// The edge that a contact slides on; `None` where corners are together, whose force the law of the contact turns.
+    fn edge_of(mode: &SkinMode, contact: usize) -> Option<CornerEdge> {
+        mode[contact].edge().filter(|_| !matches!(mode[contact], CornerContact::Corner(_)))
     }
 
     fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
@@ -322,19 +381,12 @@ impl Contacts {
 
     /// Unknowns of the normal forces that bear on the edge of a contact: its own, and those of a contact whose friction it bears.
     fn pressing(&self, mode: &SkinMode, contact: usize) -> impl Iterator<Item = usize> {
-        let both = [Some(contact), Self::guest_of(mode, contact)];
-        let acting = both.map(|contact| contact.map(|contact| (contact, mode[contact].acting())));
-        acting
-            .into_iter()
-            .flatten()
-            .flat_map(move |(contact, acting)| {
-                let forces = [Force::Own, Force::Flush].map(|force| force as usize);
-                forces
-                    .into_iter()
-                    .filter(move |&force| acting[force])
-                    .map(move |force| (contact, force))
-            })
-            .map(|(contact, force)| self.unknown(contact, force))
+        Self::borne_by(mode, contact).flat_map(move |contact| {
+            let acting = mode[contact].acting();
+            let forces = [Force::Own, Force::Flush].map(|force| force as usize);
+            let forces = forces.into_iter().filter(move |&force| acting[force]);
+            forces.map(move |force| self.unknown(contact, force))
+        })
     }
 
     /// The other contact of a pair.
@@ -345,7 +397,6 @@ impl Contacts {
 
     /// `T/Λ` of a contact.
     pub(super) fn ratio(&self, state: &SkinState, contact: usize) -> f64 {
-        let other = Self::beside(contact);
         match state.mode.rubs[contact] {
             Rub::Held { ratio } => ratio,
             Rub::Slip { sign, .. } => -sign * self.law.friction(),
@@ -354,16 +405,16 @@ impl Contacts {
                 let grip = state.z[self.unknown(contact, GRIP)];
                 if pressing > NO_FORCE { grip / pressing - self.law.friction() } else { 0.0 }
             }
-            Rub::None if Self::is_guest(state, contact) => self.ratio(state, other),
+            Rub::None if Self::is_guest(&state.mode, contact) => {
+                self.ratio(state, Self::beside(contact))
+            }
             Rub::None => 0.0,
         }
     }
 
-    /// Whether the other contact of the pair bears the friction of this one.
-    pub(super) fn is_guest(state: &SkinState, contact: usize) -> bool {
-        state.mode.rubs[contact] == Rub::None
-            && state.mode[contact] != CornerContact::Open
-            && state.mode.rubs[Self::beside(contact)].is_host()
+    /// Whether a ratio is that of sliding.
+    pub(super) fn is_sliding(&self, ratio: f64) -> bool {
+        ratio.abs() >= self.law.friction() * (1.0 - SLIDES)
     }
 
     /// The normal forces on the edge of a contact that bears its friction.

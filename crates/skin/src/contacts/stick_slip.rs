@@ -5,9 +5,6 @@ use contact::{CornerContact, CornerEdge, Force};
 use super::rubbing::{GRIP, NO_FORCE, Rub, WAY};
 use super::{Contacts, SkinState};
 
-/// A ratio this near to the coefficient of friction is that of sliding.
-const SLIDES: f64 = 1e-9;
-
 impl Contacts {
     /// Takes friction along where a force of a contact has changed sides: `before` is the state in which it did. `is_back` tells of corners
     /// that part whether they do so the way they came.
@@ -28,8 +25,7 @@ impl Contacts {
             }
             (CornerContact::Corner(_), Some(edge)) => {
                 let here = self.way(state, edge, contact);
-                let slides = ratios[0].abs() >= self.law.friction() * (1.0 - SLIDES);
-                rubs[0] = if slides && !is_back {
+                rubs[0] = if self.is_sliding(ratios[0]) && !is_back {
                     Rub::Slip { sign: -ratios[0].signum(), from: here }
                 } else {
                     Rub::Stick { at: here }
@@ -53,7 +49,7 @@ impl Contacts {
                 let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
                 (ratios[k] + self.law.friction()) * normal
             };
-            let guest = if Self::is_guest(state, pair[1 - k]) { share(1 - k) } else { 0.0 };
+            let guest = if Self::is_guest(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
             let is_new = before.mode.rubs[contact] != rub;
             self.set_friction(state, contact, share(k) + guest, is_new);
         }
@@ -61,7 +57,7 @@ impl Contacts {
 
     /// How a contact rubs by itself, on the edge on which it is in the state `now`.
     fn own_rub(&self, before: &SkinState, contact: usize, now: &SkinState) -> Rub {
-        let is_guest = Self::is_guest(before, contact);
+        let is_guest = Self::is_guest(&before.mode, contact);
         let from = if is_guest { Self::beside(contact) } else { contact };
         let rub = before.mode.rubs[from];
         let Some(edge) = now.mode[contact].edge() else { return Rub::None };
@@ -89,7 +85,13 @@ impl Contacts {
     }
 
     /// Sets what acts of grip and way of a contact.
-    fn set_friction(&self, state: &mut SkinState, contact: usize, grip: f64, is_new: bool) {
+    pub(super) fn set_friction(
+        &self,
+        state: &mut SkinState,
+        contact: usize,
+        grip: f64,
+        is_new: bool,
+    ) {
         let [sticks, slips] = state.mode.rubs[contact].acting();
         let first = self.slots * contact;
         [state.active[first + GRIP], state.active[first + WAY]] = [sticks, slips];

@@ -8,11 +8,11 @@ use super::mesh::Resolution;
 use super::problem::{Bent, FlexureProblem};
 use super::strip::Strip;
 use super::{Flexure, FlexureParameters};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::{Contacts, SkinPoint, SkinState};
 use crate::record::{PathFunction, Record, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
-    missing, rest,
+    self, Curve, CurvePoint, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, curve_point,
+    derivatives, end, first_contact, missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -62,6 +62,58 @@ pub fn differentiate(
     Ok((problem.flexure(bent), derivatives))
 }
 
+/// The moment over the curvature.
+const MOMENT_OVER_CURVATURE: Curve<Strip> = [
+    |strip, state, _, _| strip.curvature(&state.z),
+    |strip, state, _, _| strip.normalised_moment(&state.z),
+];
+
+/// Bends a strip as far as `curvatures` ask for, and returns its moment at each of them, with the derivatives with respect to the
+/// parameter of each variation; `None` where the path does not come.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn moment_curve(
+    input: &FlexureInput,
+    variations: &[Neighbours<FlexureInput>],
+    curvatures: &[f64],
+) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    let problem = FlexureProblem::even(design, common, parameters)?;
+    let pitches = problem.gaps * problem.row.mean_pitch();
+    let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * pitches).collect();
+    let farthest =
+        rotations.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    // A little farther, so that round-off does not put the last place beyond the end.
+    let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
+    let as_far = |input: &FlexureInput| {
+        let parameters = FlexureParameters { max_end_rotation_deg: end, ..input.parameters };
+        FlexureInput { parameters, ..input.clone() }
+    };
+    let input = as_far(input);
+    let problem = FlexureProblem::even(design, common, &input.parameters)?;
+    let (bent, resolution) = problem.resolved(&[], &rotations)?;
+    let strip = |input: &FlexureInput| strip(&as_far(input), resolution);
+    let strips: Result<Vec<_>, _> = variations.iter().map(|v| v.map(strip)).collect();
+    let (strips, system) = (strips?, bent.path.system());
+    let point = |found: Option<SkinPoint>| {
+        let point = found?;
+        // How an anchor of a contact that sticks moves with a parameter is not known in bending.
+        let known = if Contacts::rubbing(&point.state)[0] > 0 { &[][..] } else { &strips };
+        let mut on_curve =
+            curve_point(system, &point, known, &common.solver, MOMENT_OVER_CURVATURE);
+        on_curve.rates.resize(strips.len(), None);
+        Some(on_curve)
+    };
+    Ok(bent.places.into_iter().map(point).collect())
+}
+
+/// The strip of a design, with this resolution.
+fn strip(input: &FlexureInput, resolution: Resolution) -> Result<Strip, OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?.strip(resolution)
+}
+
 impl FlexureProblem<'_> {
     fn derivatives(
         &self,
@@ -70,11 +122,7 @@ impl FlexureProblem<'_> {
         variations: &[Neighbours<FlexureInput>],
     ) -> Result<Vec<Derivative>, OutOfRange> {
         let spots = self.spots(&bent.record, &mut bent.path);
-        let strip = |input: &FlexureInput| {
-            let FlexureInput { design, common, parameters } = input;
-            let row = design.leaning_row()?;
-            FlexureProblem::of_row(row, design, common, parameters)?.strip(resolution)
-        };
+        let strip = |input: &FlexureInput| strip(input, resolution);
         let strips: Result<Vec<_>, _> =
             variations.iter().map(|variation| variation.map(strip)).collect();
         let strip = bent.path.system();

@@ -202,8 +202,12 @@ impl Chain {
     /// Whether the top right corner of a scale lies on the left face of its right neighbour, so that the tip is stopped there by that
     /// face, and does not pass over the corner.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
-        let upper = self.scale_numbered(scale).map(|left| Contacts::contacts_of(left).start);
-        let contact = upper.and_then(|contact| state.mode.get(contact));
+        let contact = self.corner_of_notch(scale).and_then(|contact| state.mode.get(contact));
         contact == Some(&CornerContact::Edge(CornerEdge::TopRightOnLeftEdge))
+    }
+
+    /// The contact of the top right corner of a scale.
+    fn corner_of_notch(&self, scale: i64) -> Option<usize> {
+        self.scale_numbered(scale).map(|left| Contacts::contacts_of(left).start)
     }
 }

@@ -6,14 +6,15 @@ use substrate::RowStiffness;
 
 use super::fold::{Fold, FoldWatch};
 use super::needle::{Kept, anchors, event_before, history, with};
+use super::snapshot::STEEPEST_DEG;
 use super::system::{Chain, DEPTH_MARK, DEPTH_RATE, LOAD_RATE, Layout};
 use super::watch::PathWatch;
-use super::{Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
+use super::{At, Followed, OddScale, Problem, Puncture, PunctureParameters, Rows};
 use crate::contacts::{SkinMode, SkinPoint, SkinState};
 use crate::record::{PathFunction, Skin};
 use crate::sensitivity::{
-    self, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives, end, first_contact,
-    missing, rest,
+    self, Curve, CurvePoint, Derivative, Extreme, MeasuredPoint, MeasuredQuantity, curve_point,
+    derivatives, end, first_contact, missing, rest,
 };
 use crate::{Common, Design, Status};
 
@@ -57,7 +58,73 @@ pub fn differentiate(
     Ok((followed.puncture(), derivatives))
 }
 
+/// The force over the depth of the needle.
+const FORCE_OVER_DEPTH: Curve<Chain> =
+    [|chain, state, _, _| chain.depth(&state.z), |chain, state, _, _| chain.force(state)];
+
+/// Follows a puncture, beyond the critical tilt if need be, and returns its force at each of the `displacements` where the needle
+/// first comes there, with the derivatives with respect to the parameter of each variation; `None` where the path does not come.
+///
+/// # Errors
+/// As [`solve`](super::solve).
+pub fn force_curve(
+    input: &PunctureInput,
+    variations: &[Neighbours<PunctureInput>],
+    displacements: &[f64],
+) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
+    let at: Vec<_> = displacements.iter().copied().map(At::Displacement).collect();
+    let mut tilt = input.parameters.critical_tilt_deg;
+    loop {
+        let PunctureInput { design, stiffness, common, parameters, .. } = input;
+        let parameters = PunctureParameters { critical_tilt_deg: tilt, ..*parameters };
+        let rows = Rows::Even(design.row()?);
+        let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
+        let (start, longest) = problem.start()?;
+        let mut followed = problem.follow(start, longest, &[], &at)?;
+        let is_short = followed.watch.places.found.iter().any(Option::is_none);
+        if followed.status == Status::Complete && is_short && tilt < STEEPEST_DEG {
+            tilt = (2.0 * tilt).min(STEEPEST_DEG);
+            continue;
+        }
+        let as_far = |input: &PunctureInput| {
+            let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
+            Ok(PunctureInput { parameters, ..input.clone() })
+        };
+        let variations: Result<Vec<_>, OutOfRange> =
+            variations.iter().map(|variation| variation.map(as_far)).collect();
+        return problem.curve(&mut followed, &variations?);
+    }
+}
+
 impl Problem<'_> {
+    /// The points of the curve at the places that were looked for.
+    fn curve(
+        &self,
+        followed: &mut Followed,
+        variations: &[Neighbours<PunctureInput>],
+    ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
+        let Followed { watch, path, .. } = followed;
+        let layout = path.system().layout;
+        let chain = |input: &PunctureInput| input.chain(layout);
+        let variations: Result<Vec<_>, _> =
+            variations.iter().map(|variation| variation.map(chain)).collect();
+        let variations = variations?;
+        let anchors = anchors(path, &watch.history.segments, &variations);
+        let system = path.system();
+        let point = |found: &Option<SkinPoint>| {
+            let point = found.as_ref()?;
+            let kept = history(&point.state);
+            // With something kept of the way, neighbours come to these places on ways of their own.
+            let own = || with(&anchors, &point.state, &variations);
+            let varied = if kept.is_empty() { Some(variations.clone()) } else { own() };
+            let known = varied.as_deref().unwrap_or_default();
+            let mut on_curve = curve_point(system, point, known, &self.settings, FORCE_OVER_DEPTH);
+            on_curve.rates.resize(variations.len(), None);
+            Some(on_curve)
+        };
+        Ok(watch.places.found.iter().map(point).collect())
+    }
+
     fn derivatives(
         &self,
         followed: &mut Followed,

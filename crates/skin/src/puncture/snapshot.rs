@@ -13,7 +13,7 @@ use crate::record::Skin;
 use crate::{Common, Design};
 
 /// Tilt beyond which a path is not followed for the sake of a snapshot, degrees.
-const STEEPEST_DEG: f64 = 80.0;
+pub(super) const STEEPEST_DEG: f64 = 80.0;
 
 /// A place of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::GuidedNeedle;
-use super::mode::{Place, Rub, Touch};
+use super::mode::{Rub, Touch};
 use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -23,7 +23,7 @@ use crate::sensitivity::vanished;
 pub(in crate::puncture) enum Kept {
     /// Where a touch of the needle, by its slot, sticks, or how it is held.
     Touch(usize, Touch),
-    /// Where a contact, by its number, sticks.
+    /// Where a contact, by its number, sticks, or how it is held.
     Contact(usize, f64),
 }
 
@@ -124,7 +124,7 @@ pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
     let touches = touches.filter_map(|(slot, touch)| Some(Kept::Touch(slot, touch?)));
     let touches =
         touches.filter(|kept| matches!(kept, Kept::Touch(_, touch) if touch.has_history()));
-    let contacts = Contacts::anchors(state).map(|(contact, at)| Kept::Contact(contact, at));
+    let contacts = Contacts::kept(state).map(|(contact, kept)| Kept::Contact(contact, kept));
     touches.chain(contacts).collect()
 }
 
@@ -166,14 +166,15 @@ impl Chain {
     /// What will be kept, in the state `to`, of a state in which it is not yet: a place, or a ratio of forces.
     fn keeps(&self, state: &SkinState, kept: Kept, to: &SkinState) -> Option<f64> {
         let (slot, touch) = match kept {
-            Kept::Contact(contact, _) => return self.contacts.way_of(state, contact, to),
+            Kept::Contact(contact, _) => return self.contacts.keeps(state, contact, to),
             Kept::Touch(slot, touch) => (slot, touch),
         };
         let Rub::Held { .. } = touch.rub else {
             return Some(self.tip(&state.z, touch.scale, touch.place)?.way);
         };
         let before = state.mode.needle.touches[slot];
-        if before.is_none_or(|before| (before.scale, before.place) != (touch.scale, Place::Top)) {
+        let is_there = |before: Touch| (before.scale, before.place) == (touch.scale, touch.place);
+        if !before.is_some_and(is_there) {
             // The corner has come to the tip: it is held without a tangential force.
             return Some(0.0);
         }
@@ -186,7 +187,7 @@ impl Chain {
         match (kept, &mut self.needle) {
             (Kept::Touch(slot, touch), Some(needle)) => needle.moved[slot] = Some((touch, by)),
             (Kept::Touch(..), None) => {}
-            (Kept::Contact(contact, _), _) => self.contacts.move_anchor(contact, by),
+            (Kept::Contact(contact, _), _) => self.contacts.move_kept(contact, by),
         }
     }
 }

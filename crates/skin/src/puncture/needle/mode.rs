@@ -50,6 +50,10 @@ pub(crate) struct Touch {
 }
 
 impl Touch {
+    pub(crate) fn is_held(&self) -> bool {
+        matches!(self.rub, Rub::Held { .. })
+    }
+
     /// Whether the equations keep something of the way to the state: where the tip sticks, or with what force it is held.
     pub(crate) fn has_history(&self) -> bool {
         matches!(self.rub, Rub::Stick { .. } | Rub::Held { .. })

@@ -54,11 +54,12 @@ impl Chain {
 
     /// Opens a notch where the corner that made it no longer lies on the neighbour's face: the tip stays at the corner.
     pub(in crate::puncture) fn release_notch(&self, needle: &GuidedNeedle, state: &mut SkinState) {
-        for slot in 0..2 {
-            let Some(touch) = state.mode.needle.touches[slot] else { continue };
-            if matches!(touch.rub, Rub::Held { .. }) && !self.is_notched(state, touch.scale) {
-                self.move_to(needle, state, slot, Place::TopRight, Rub::Passing { forward: true });
-            }
+        let Some([face, _]) = self.notch(state) else { return };
+        let top = state.mode.needle.touches[1 - face];
+        if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
+            self.free_corner(state);
+            self.move_to(needle, state, 1 - face, Place::TopRight, Rub::Passing { forward: true });
+            self.come_to_rest(needle, state, face);
         }
     }
 
@@ -90,20 +91,48 @@ impl Chain {
             needle.end_sliding(state, 1 - slot);
             state.mode.needle.touches[1 - slot] = Some(Touch { rub: Rub::Held { ratio }, ..other });
         }
+        if let Some([_, corner]) = self.notch(state).filter(|_| needle.friction > 0.0) {
+            // At one place of the face the tip says whether both stick: with an equation each they would hold to it twice.
+            self.contacts.hold(state, corner);
+        }
         Some(PUSH)
+    }
+
+    /// The touch of the face of a notch, and the contact of the corner that lies on it.
+    fn notch(&self, state: &SkinState) -> Option<[usize; 2]> {
+        let touches = state.mode.needle.touches;
+        let is_top = |touch: &Touch| touch.place == Place::Top && touch.is_held();
+        let top = touches.iter().position(|touch| touch.as_ref().is_some_and(is_top))?;
+        Some([1 - top, self.corner_of_notch(touches[top]?.scale)?])
     }
 
     /// A touch lets go, and the other is left alone.
     fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
-        let other = state.mode.needle.touches[1 - slot]?;
+        state.mode.needle.touches[1 - slot]?;
+        self.free_corner(state);
         needle.end_sliding(state, slot);
         state.z[needle.push(slot) + 1] = 0.0;
         state.mode.needle.touches[slot] = None;
-        if let Rub::Held { .. } = other.rub {
-            let at = self.way(state, 1 - slot)?;
-            rub(state, 1 - slot, needle.resting(at))?;
-        }
+        self.come_to_rest(needle, state, 1 - slot);
         Some(PUSH)
+    }
+
+    /// Lets the corner of a notch rub by itself again, as the tip leaves its place.
+    fn free_corner(&self, state: &mut SkinState) {
+        let Some([face, corner]) = self.notch(state) else { return };
+        let touch = state.mode.needle.touches[face];
+        let slides = touch.is_some_and(|touch| matches!(touch.rub, Rub::Slip { .. }));
+        self.contacts.let_go(state, corner, slides);
+    }
+
+    /// Lets a touch that was held in a notch stick by itself.
+    fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
+        let at = self.way(state, slot);
+        if let (Some(touch), Some(at)) = (&mut state.mode.needle.touches[slot], at)
+            && touch.is_held()
+        {
+            touch.rub = needle.resting(at);
+        }
     }
 
     /// The tip comes to an end of its face, or the force has turned to one of the ends of a corner.

@@ -401,21 +401,23 @@ fn derivatives_with_a_way_behind_them() {
         ),
     ];
     let mut ends = HashSet::new();
-    for (gap, length, slant, friction, inside) in [
-        (0.5, 1.0, 0.0, 0.1, 0.05),
-        (0.5, 1.0, 0.0, 2.0, 0.1),
-        (0.1, 0.2, 0.0, 0.3, 0.05),
-        (0.3, 0.7, 60.0, 0.3, 0.05),
-        (0.3, 0.3, 75.0, 0.3, 0.05),
-        (0.1, 1.0, 60.0, 0.176, 0.02),
-        (0.1, 1.0, 75.0, 0.3, 0.05),
-        (0.1, 1.0, 45.0, 0.05, 0.02),
+    for (gap, length, slant, friction, inside, of_scales) in [
+        (0.5, 1.0, 0.0, 0.1, 0.05, 0.0),
+        (0.5, 1.0, 0.0, 2.0, 0.1, 0.0),
+        (0.1, 0.2, 0.0, 0.3, 0.05, 0.0),
+        (0.3, 0.7, 60.0, 0.3, 0.05, 0.0),
+        (0.3, 0.3, 75.0, 0.3, 0.05, 0.0),
+        (0.1, 1.0, 60.0, 0.176, 0.02, 0.0),
+        (0.1, 1.0, 75.0, 0.3, 0.05, 0.0),
+        (0.1, 1.0, 45.0, 0.05, 0.02, 0.0),
+        (0.2, 1.0, 60.0, 0.3, 0.0125, 0.1),
+        (0.3, 0.8, 75.0, 0.3, 0.0125, 0.1),
     ] {
         let design = design(gap, length, slant);
         let input = puncture::PunctureInput {
             design,
             stiffness: (&springs(&design)).into(),
-            common: Common::default(),
+            common: Common { friction: of_scales, ..Common::default() },
             parameters: PunctureParameters {
                 depth: Some(0.15),
                 ..parameters(&design, friction, inside)

@@ -1,0 +1,52 @@
+//! Curves of testing machines: laid over solved ones, and fitted.
+
+use std::fs;
+
+use crate::Place;
+
+/// A skin of printed scales on foam, in mm.
+const SKIN: &str = "name = 'palm'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 0.8\nslant_deg = 60\n[puncture]\nneedle = 'guided'\n\
+                    needle_friction = 0.3\nload_inset_over_t = 0.05\n[material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.5\n\
+                    membrane_modulus_MPa = 4.5\n";
+
+#[test]
+fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
+    let place = Place::with(SKIN);
+    fs::write(place.path("a_1.csv"), "displacement_mm,force_N\n0,0\n0.2,0.4\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured a_1.csv --out o");
+    let name = "o/force-displacement-curves-of-0001.svg";
+    let figure = place.read(name);
+    assert!(figure.contains("mm</tspan>") && figure.contains(">a_1.csv</text>"), "{figure}");
+    assert!(!figure.contains("dimensionless"), "{figure}");
+    assert_eq!(
+        figure.split("class=\"measured\"").nth(1).expect("points").matches("<circle").count(),
+        3
+    );
+    // What was not measured stays as it is.
+    assert!(place.read("o/moment-curvature-curves-of-0001.svg").contains("dimensionless"));
+
+    fs::write(place.path("b.csv"), "Kappa;M\n2,5;0,1\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured b.csv --measured-columns curvature_per_m,moment_N_mm --out o");
+    assert!(place.read("o/moment-curvature-curves-of-0001.svg").contains("b.csv"));
+}
+
+#[test]
+fn what_cannot_be_laid_over_is_refused() {
+    let place = Place::with(
+        "name = 'bare'\n[designs]\ngap_over_t = 0.2\nlength_over_t = 1\nslant_deg = 0\n",
+    );
+    for (file, text) in [
+        ("a.csv", "displacement_mm,force_N\n0,0\n"),
+        ("b.csv", "curvature,moment\n0,0\n"),
+        ("c.csv", "displacement_mm,force\n0,0\n"),
+    ] {
+        fs::write(place.path(file), text).expect("writable");
+    }
+    let plot =
+        |files: &str| place.refused(&format!("plot curves x.toml --design 1 {files} --out o"));
+    insta::assert_snapshot!(plot("--measured a.csv"), @"error: x.toml: a.csv is in mm and N, which needs material.thickness_mm and material.substrate_modulus_MPa");
+    insta::assert_snapshot!(plot("--measured a.csv --measured b.csv"), @"error: b.csv: is of another test than a.csv, or in other units");
+    insta::assert_snapshot!(plot("--measured c.csv"), @"error: c.csv: its columns are displacement_mm force, expected two of one test: displacement_mm displacement_um displacement_m displacement force_N force_mN force_kN force curvature_per_mm curvature_per_m curvature moment_N_mm moment_mN_m moment_N_m moment");
+    insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
+    assert!(!place.path("o").exists());
+}

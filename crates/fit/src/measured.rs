@@ -1,0 +1,232 @@
+//! Measured curves: two columns of a CSV file, whose names say what they are and in which unit.
+
+use std::fs;
+use std::path::Path;
+
+use results::Quantity;
+use sweep::{Case, reason};
+
+/// The test that a curve was measured in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Test {
+    /// Force over displacement of a needle.
+    Puncture,
+    /// Moment over curvature of a strip.
+    Bending,
+}
+
+/// A column that is understood: its name, its test, whether it is the first or the second axis, and what one of it is worth in mm, N,
+/// 1/mm or N mm; nothing, if it is in the units of the model (`u*`, `F*`, `κ*`, `M*`), as in the tables of `squama design`.
+type Column = (&'static str, Test, usize, Option<f64>);
+
+const COLUMNS: [Column; 15] = [
+    ("displacement_mm", Test::Puncture, 0, Some(1.0)),
+    ("displacement_um", Test::Puncture, 0, Some(1e-3)),
+    ("displacement_m", Test::Puncture, 0, Some(1e3)),
+    ("displacement", Test::Puncture, 0, None),
+    ("force_N", Test::Puncture, 1, Some(1.0)),
+    ("force_mN", Test::Puncture, 1, Some(1e-3)),
+    ("force_kN", Test::Puncture, 1, Some(1e3)),
+    ("force", Test::Puncture, 1, None),
+    ("curvature_per_mm", Test::Bending, 0, Some(1.0)),
+    ("curvature_per_m", Test::Bending, 0, Some(1e-3)),
+    ("curvature", Test::Bending, 0, None),
+    ("moment_N_mm", Test::Bending, 1, Some(1.0)),
+    ("moment_mN_m", Test::Bending, 1, Some(1.0)),
+    ("moment_N_m", Test::Bending, 1, Some(1e3)),
+    ("moment", Test::Bending, 1, None),
+];
+
+impl Test {
+    /// The name in a definition.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Puncture => "puncture",
+            Self::Bending => "bending",
+        }
+    }
+
+    /// What its two axes are, with their units.
+    pub fn axes(self) -> [(&'static str, &'static str); 2] {
+        match self {
+            Self::Puncture => [("displacement", "mm"), ("force", "N")],
+            Self::Bending => [("curvature", "1/mm"), ("moment", "N mm")],
+        }
+    }
+
+    /// What the units of the model are worth in mm, N, 1/mm and N mm.
+    ///
+    /// # Errors
+    /// The keys of the material that this takes, if one is missing.
+    pub fn units(self, case: &Case) -> Result<[f64; 2], String> {
+        let [x, y] = match self {
+            Self::Puncture => [Quantity::Length, Quantity::Force],
+            Self::Bending => [Quantity::Radius, Quantity::Moment],
+        };
+        let worth = x.physical(1.0, case).zip(y.physical(1.0, case));
+        let keys = || y.needs().iter().map(|key| format!("material.{key}")).collect::<Vec<_>>();
+        let (x, y) = worth.ok_or_else(|| keys().join(" and "))?;
+        Ok([if self == Self::Bending { x.recip() } else { x }, y])
+    }
+}
+
+/// A measured curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredCurve {
+    /// The name of its file.
+    pub file: String,
+    /// The test.
+    pub test: Test,
+    /// Whether it is in mm, N, 1/mm and N mm, and not in the units of the model.
+    pub is_physical: bool,
+    /// Its points, in the order of the file.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A file of measurements that cannot be understood.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}{}: {problem}", line.map(|line| format!(":{line}")).unwrap_or_default())]
+pub struct InvalidMeasured {
+    file: String,
+    line: Option<u64>,
+    problem: String,
+}
+
+impl MeasuredCurve {
+    /// The curve in the file at `path`. `columns` name its first columns, where its first line does not.
+    ///
+    /// # Errors
+    /// If the file cannot be read, has no two columns of one test, or not a number in each line of them.
+    pub fn read(path: &Path, columns: Option<&[String]>) -> Result<Self, InvalidMeasured> {
+        let file = path.display().to_string();
+        match fs::read_to_string(path) {
+            Ok(text) => Self::parse(&text, &file, columns),
+            Err(error) => {
+                let problem = format!("cannot be read ({}), expected a CSV file", reason(&error));
+                Err(InvalidMeasured { file, line: None, problem })
+            }
+        }
+    }
+
+    /// The curve that the `text` of a `file` holds, as [`Self::read`].
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn parse(
+        text: &str,
+        file: &str,
+        columns: Option<&[String]>,
+    ) -> Result<Self, InvalidMeasured> {
+        let wrong =
+            |line, problem: String| InvalidMeasured { file: file.to_owned(), line, problem };
+        let (rows, separator) = rows(text);
+        let rows = rows.map_err(|error| wrong(None, error.to_string()))?;
+        let header = rows.first().filter(|row| row.iter().all(|c| number(c, separator).is_none()));
+        let named: Vec<String> = header.into_iter().flatten().map(str::to_owned).collect();
+        let names = columns.unwrap_or(&named);
+        let [(x, of_x), (y, of_y)] = pair(names).ok_or_else(|| {
+            let known = COLUMNS.map(|(name, ..)| name).join(" ");
+            let found = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
+            wrong(None, format!("its columns are {found}, expected two of one test: {known}"))
+        })?;
+        let mut points = Vec::new();
+        for row in rows.iter().skip(usize::from(header.is_some())) {
+            let cell = |column: usize, worth: Option<f64>| {
+                let text = row.get(column).unwrap_or_default();
+                let read = number(text, separator).map(|number| number * worth.unwrap_or(1.0));
+                let line = row.position().map(csv::Position::line);
+                let expected = "is not accepted, expected a number";
+                read.ok_or_else(|| wrong(line, format!("{}: {text:?} {expected}", names[column])))
+            };
+            points.push([cell(x, of_x.3)?, cell(y, of_y.3)?]);
+        }
+        if points.is_empty() {
+            return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
+        }
+        let (test, is_physical) = (of_x.1, of_x.3.is_some());
+        Ok(Self { file: file.to_owned(), test, is_physical, points })
+    }
+}
+
+/// The rows of a CSV text, and the character between its cells.
+fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
+    let text = text.trim_start_matches('\u{feff}');
+    let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+    // Where the decimal sign is a comma, as on machines in much of Europe, a semicolon stands between cells.
+    let separator = [';', '\t'].into_iter().find(|c| first.contains(*c)).unwrap_or(',');
+    let reader = csv::ReaderBuilder::new()
+        .delimiter(separator as u8)
+        .comment(Some(b'#'))
+        .has_headers(false)
+        .flexible(true)
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    (reader.into_records().collect(), separator)
+}
+
+/// The number that a cell holds.
+fn number(cell: &str, separator: char) -> Option<f64> {
+    let is_comma = separator != ',' && !cell.contains('.');
+    let cell = if is_comma { cell.replace(',', ".") } else { cell.to_owned() };
+    cell.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// The places of the two columns of one test, in one system of units, and what is known of them.
+fn pair(names: &[String]) -> Option<[(usize, &'static Column); 2]> {
+    let known = |axis: usize| {
+        let of = move |name: &String| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis);
+        names.iter().enumerate().filter_map(move |(k, name)| Some((k, of(name)?)))
+    };
+    let mut pairs = known(0).flat_map(|x| known(1).map(move |y| [x, y]));
+    pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> MeasuredCurve {
+        MeasuredCurve::parse(text, "a.csv", None).expect("a curve")
+    }
+
+    fn refused(text: &str) -> String {
+        MeasuredCurve::parse(text, "a.csv", None).expect_err("no curve").to_string()
+    }
+
+    #[test]
+    fn columns_are_found_by_name_and_come_in_mm_and_newtons() {
+        let curve = parsed("time_s,force_mN,displacement_um\n0,0,0\n1,20,500\n");
+        assert_eq!((curve.test, curve.is_physical), (Test::Puncture, true));
+        assert_eq!(curve.points, [[0.0, 0.0], [0.5, 0.02]]);
+        let curve = parsed("curvature_per_m;moment_N_mm\n# by hand\n12,5;0,25\n");
+        assert_eq!((curve.test, &*curve.points), (Test::Bending, &[[0.0125, 0.25]][..]));
+        assert!(!parsed("displacement,force,tilt_deg\n0.1,2,3\n").is_physical);
+    }
+
+    #[test]
+    fn columns_may_be_named_from_outside() {
+        let names = ["displacement_mm", "force_N"].map(str::to_owned);
+        for text in ["Weg,Kraft\n0.5,2\n", "0.5,2\n"] {
+            let curve = MeasuredCurve::parse(text, "a.csv", Some(&names)).expect("a curve");
+            assert_eq!(curve.points, [[0.5, 2.0]]);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_read_is_named() {
+        let missing = refused("displacement_mm,moment_N_mm\n1,2\n");
+        assert!(missing.starts_with("a.csv: its columns are displacement_mm moment_N_mm, expected two of one test: displacement_mm"), "{missing}");
+        assert!(refused("displacement,force_N\n1,2\n").contains("expected two of one test"));
+        assert!(refused("").contains("its columns are none"));
+        assert_eq!(
+            refused("displacement_mm,force_N\n"),
+            "a.csv: holds no points, expected a line for each"
+        );
+        assert_eq!(
+            refused("displacement_mm,force_N\n0,0\n1,x\n"),
+            "a.csv:3: force_N: \"x\" is not accepted, expected a number"
+        );
+        assert!(refused("displacement_mm,force_N\n1\n").contains("force_N: \"\" is not accepted"));
+        assert!(refused("displacement_mm,force_N\n1,nan\n").contains("expected a number"));
+    }
+}

@@ -1,0 +1,68 @@
+//! Curves at chosen places, with what parameters change of them.
+
+use skin::{CurvePoint, Neighbours, flexure, puncture};
+use sweep::{Case, Parameter};
+
+use super::evaluator::{Evaluator, solved};
+use super::sensitivity::{Varied, bent, punctured};
+use results::Outcome;
+
+/// The points of a curve; `None` where its path does not come.
+pub type CurvePoints = Vec<Option<CurvePoint>>;
+
+impl Evaluator {
+    /// The force `F*` of a puncture at each of the displacements `u*`, with its derivatives with respect to `parameters`.
+    ///
+    /// # Errors
+    /// If the springs are not found, or the case has no mechanical meaning.
+    pub fn force_curve(
+        &self,
+        case: &Case,
+        parameters: &[&'static Parameter],
+        displacements: &[f64],
+    ) -> Result<CurvePoints, Outcome> {
+        let slopes = self.slopes(case)?;
+        let varied = |parameter| Varied { case, parameter, slopes: Some(&slopes) };
+        let variation =
+            |&parameter: &&'static Parameter| varied(parameter).variation(Varied::punctured);
+        let (found, known) = known(parameters.iter().map(variation));
+        let input = punctured(case, slopes.stiffness.clone());
+        let curve = solved(|| puncture::force_curve(&input, &known, displacements))?;
+        Ok(in_place(curve, &found))
+    }
+
+    /// The moment `M*` of bending at each of the curvatures `κ*`, with its derivatives with respect to `parameters`.
+    ///
+    /// # Errors
+    /// If the case has no mechanical meaning.
+    pub fn moment_curve(
+        &self,
+        case: &Case,
+        parameters: &[&'static Parameter],
+        curvatures: &[f64],
+    ) -> Result<CurvePoints, Outcome> {
+        let varied = |parameter| Varied { case, parameter, slopes: None };
+        let variation = |&parameter: &&'static Parameter| varied(parameter).variation(Varied::bent);
+        let (found, known) = known(parameters.iter().map(variation));
+        let curve = solved(|| flexure::moment_curve(&bent(case), &known, curvatures))?;
+        Ok(in_place(curve, &found))
+    }
+}
+
+/// The variations that there are, and which of all they are.
+fn known<P>(
+    variations: impl Iterator<Item = Option<Neighbours<P>>>,
+) -> (Vec<bool>, Vec<Neighbours<P>>) {
+    let all: Vec<_> = variations.collect();
+    (all.iter().map(Option::is_some).collect(), all.into_iter().flatten().collect())
+}
+
+/// The points with a rate for each parameter: none for those that have no variation.
+fn in_place(mut curve: CurvePoints, found: &[bool]) -> CurvePoints {
+    for point in curve.iter_mut().flatten() {
+        let mut rates = std::mem::take(&mut point.rates).into_iter();
+        point.rates =
+            found.iter().map(|&is| if is { rates.next().flatten() } else { None }).collect();
+    }
+    curve
+}

@@ -1,0 +1,126 @@
+//! Derivatives of curves at chosen places against differences of whole solutions.
+
+use rayon::prelude::*;
+use run::{CurvePoints, Evaluator};
+use sweep::{Case, Measure, Parameter, Sweep};
+
+use super::designs::{number, random_case};
+
+/// Error of a rate, as a part of the value for a change of the parameter by its whole size.
+const TOLERANCE: f64 = 1e-6;
+
+type CurveOf = fn(&Evaluator, &Case, &[&'static Parameter], &[f64]) -> CurvePoints;
+
+fn forces(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) -> CurvePoints {
+    e.force_curve(case, by, at).expect("a curve")
+}
+
+fn moments(e: &Evaluator, case: &Case, by: &[&'static Parameter], at: &[f64]) -> CurvePoints {
+    e.moment_curve(case, by, at).expect("a curve")
+}
+
+/// Compares the rates of a curve with differences, where these say the same with a step and with its half, and returns how many.
+fn compare(case: &Case, keys: &[&str], places: &[f64], curve: CurveOf) -> usize {
+    let evaluator = Evaluator::new(&[]);
+    let named = |key: &&str| Parameter::named(key).expect("a parameter");
+    let parameters: Vec<_> = keys.iter().map(named).collect();
+    let points = curve(&evaluator, case, &parameters, places);
+    let mut compared = 0;
+    for (j, parameter) in parameters.iter().enumerate() {
+        let Some(size) = parameter.size(case) else { continue };
+        let at = |by: f64| {
+            let moved = parameter.moved(case, by * size).expect("a number");
+            curve(&evaluator, &moved, &[], places)
+        };
+        let around = [-2e-4, -1e-4, 1e-4, 2e-4].map(at);
+        for (k, point) in points.iter().enumerate() {
+            let Some((point, rate)) = point.as_ref().and_then(|p| Some((p, p.rates[j]?))) else {
+                continue;
+            };
+            let [Some(a), Some(b), Some(c), Some(d)] =
+                around.each_ref().map(|curve| Some(curve[k].as_ref()?.value))
+            else {
+                continue;
+            };
+            let [near, far] = [(c - b) / 2e-4, (d - a) / 4e-4];
+            if (near - far).abs() > 1e-6 * point.value.abs() {
+                continue;
+            }
+            let off = (rate * size - (4.0 * near - far) / 3.0).abs() / point.value.abs();
+            assert!(off <= TOLERANCE, "{} at {}: {off:e}, {case:?}", parameter.key, places[k]);
+            compared += 1;
+        }
+    }
+    compared
+}
+
+const OF_PUNCTURE: [&str; 8] = [
+    "gap_over_t",
+    "slant_deg",
+    "length_over_t",
+    "width_over_t",
+    "poisson_ratio",
+    "friction",
+    "contact_modulus_over_substrate",
+    "needle_friction",
+];
+
+/// Random rows that rub, free and guided, up to their critical displacement and beyond.
+#[test]
+fn rates_of_force_curves_are_those_of_whole_solutions() {
+    let compared = (0..12_u64).into_par_iter().map(|k| {
+        let mut case = random_case(2000 + k);
+        case.common.friction = [0.0, 0.2][k as usize % 2];
+        if k % 3 == 0 {
+            let guided = Parameter::named("needle").expect("a parameter");
+            let text = "name = 'x'\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3";
+            let of = Sweep::parse(text, "x.toml", &[]).expect("a sweep").grid().case(0);
+            case = guided.put(&case, guided.get(&of));
+            let friction = Parameter::named("needle_friction").expect("a parameter");
+            case = friction.put(&case, friction.get(&of));
+        }
+        let solved = Evaluator::new(&[Measure::Puncture]).solve(number(), &case);
+        let end = solved.puncture.and_then(|p| Some(p.path.last()?.displacement));
+        let Some(end) = end.filter(|end| *end > 0.0) else { return 0 };
+        let places: Vec<_> = [0.1, 0.37, 0.62, 0.93, 1.2].iter().map(|part| part * end).collect();
+        compare(&case, &OF_PUNCTURE, &places, forces)
+    });
+    let compared: Vec<_> = compared.collect();
+    assert!(compared.iter().sum::<usize>() > 200, "{compared:?}");
+}
+
+/// Random strips, with contact and without.
+#[test]
+fn rates_of_moment_curves_are_those_of_whole_solutions() {
+    let keys = [
+        "gap_over_t",
+        "slant_deg",
+        "length_over_t",
+        "width_over_t",
+        "membrane_thickness_over_t",
+        "contact_modulus_over_membrane",
+    ];
+    let compared = (0..12_u64).into_par_iter().map(|k| {
+        let case = random_case(3000 + k);
+        let solved = Evaluator::new(&[Measure::Flexure]).solve(number(), &case);
+        let end = solved.flexure.and_then(|f| Some(f.path.last()?.curvature));
+        let Some(end) = end.filter(|end| *end > 0.0) else { return 0 };
+        let places: Vec<_> = [0.1, 0.4, 0.8].iter().map(|part| part * end).collect();
+        compare(&case, &keys, &places, moments)
+    });
+    let compared: Vec<_> = compared.collect();
+    assert!(compared.iter().sum::<usize>() > 100, "{compared:?}");
+}
+
+/// What has no derivative has no rate, and keeps its place among the others.
+#[test]
+fn a_parameter_without_derivatives_has_no_rate() {
+    let case = random_case(1);
+    let case = Case { tissue_thickness: None, ..case };
+    let keys = ["gap_over_t", "tissue_thickness_over_t", "slant_deg"];
+    let parameters: Vec<_> = keys.iter().filter_map(|key| Parameter::named(key)).collect();
+    let points = forces(&Evaluator::new(&[]), &case, &parameters, &[0.01, 1e3]);
+    let rates = &points[0].as_ref().expect("a point").rates;
+    assert_eq!([0, 1, 2].map(|k| rates[k].is_some()), [true, false, true]);
+    assert!(points[1].is_none(), "no path comes so far");
+}

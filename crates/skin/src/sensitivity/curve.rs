@@ -1,0 +1,62 @@
+//! Points of a curve, such as force over displacement, and how a parameter moves the curve there.
+
+use solver::{AnchoredPoint, Neighbours, PathAnchor, Point, Settings};
+
+use super::{Derivative, Extreme, MeasuredPoint, MeasuredQuantity, derivatives};
+use crate::contacts::{SkinPoint, SkinState};
+use crate::record::Skin;
+
+/// A point of a curve `y(x)` at a chosen `x`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// `y`.
+    pub value: f64,
+    /// `dy/dx` along the curve.
+    pub slope: f64,
+    /// `∂y/∂q` at held `x` for the parameter of each variation, at a kink the mean of both sides; `None` where it is not known.
+    pub rates: Vec<Option<f64>>,
+}
+
+/// What a curve shows: `x` and `y` by system and state.
+pub(crate) type Curve<S> = [fn(&S, &SkinState, &[f64], usize) -> f64; 2];
+
+/// Part of the way over which the slope of a curve is differenced.
+const ALONG: f64 = 1e-5;
+
+/// The point of a curve at an equilibrium, and its rates as far as `variations` are given.
+pub(crate) fn curve_point<S: Skin>(
+    system: &S,
+    point: &SkinPoint,
+    variations: &[Neighbours<S>],
+    settings: &Settings,
+    curve: Curve<S>,
+) -> CurvePoint {
+    let Point { state, arriving, .. } = point;
+    let at = |f: fn(&S, &SkinState, &[f64], usize) -> f64, by: f64| {
+        f(system, &state.moved(by, arriving), arriving, 0)
+    };
+    let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
+    let slope = rise_y / rise_x;
+    let quantity =
+        |measure, value| MeasuredQuantity { measure, value, extreme: Extreme::Alone, turns: false };
+    // Held in its section of the path the place moves little, wherever the curve turns; to the same `x` it goes back along the curve.
+    let place = AnchoredPoint {
+        state: state.clone(),
+        direction: arriving.clone(),
+        anchor: PathAnchor::Still,
+    };
+    let quantities = vec![quantity("x", curve[0]), quantity("y", curve[1])];
+    let spot = MeasuredPoint { place: Some(place), quantities };
+    let found = derivatives(system, vec![spot], variations, settings);
+    let of = |measure: &str| found.iter().filter(|d| d.measure == measure).collect::<Vec<_>>();
+    let side = |x: Option<f64>, y: Option<f64>| Some(y? - slope * x?).filter(|r| r.is_finite());
+    let rate =
+        |(x, y): (&Derivative, &Derivative)| match (side(x.left, y.left), side(x.right, y.right)) {
+            (Some(left), Some(right)) => Some(0.5 * (left + right)),
+            (left, right) => left.or(right),
+        };
+    let rates: Vec<_> = of("x").into_iter().zip(of("y")).map(rate).collect();
+    let unknown = vec![None; variations.len()];
+    let value = (curve[1])(system, state, arriving, 0);
+    CurvePoint { value, slope, rates: if rates.is_empty() { unknown } else { rates } }
+}
