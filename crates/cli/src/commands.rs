@@ -11,6 +11,7 @@ mod draw;
 mod explore;
 mod export;
 mod figure_file;
+mod fit;
 mod init;
 mod make;
 mod man;
@@ -102,6 +103,8 @@ pub enum Command {
     /// Search between the grid points for the optimum of a goal, or its Pareto front
     #[command(visible_alias = "optimize")]
     Optimise(optimise::Arguments),
+    /// Find moduli, friction and lengths of a skin behind the curves of a testing machine
+    Fit(fit::Arguments),
     /// Show where two runs differ, and by how much
     Compare(compare::Arguments),
     /// Draw designs to scale: at rest, punctured, bent
@@ -143,6 +146,7 @@ impl Command {
             Self::Sensitivity(arguments) => sensitivity::sensitivity(&arguments, interrupt),
             Self::Rank(arguments) => rank::rank(&arguments),
             Self::Optimise(arguments) => optimise::optimise(&arguments, interrupt),
+            Self::Fit(arguments) => fit::fit(&arguments, interrupt),
             Self::Compare(arguments) => compare::compare(&arguments),
             Self::Draw(arguments) => draw::draw(&arguments),
             Self::Make(arguments) => make::make(&arguments, interrupt),

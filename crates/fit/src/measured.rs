@@ -79,6 +79,8 @@ pub struct MeasuredCurve {
     pub test: Test,
     /// Whether it is in mm, N, 1/mm and N mm, and not in the units of the model.
     pub is_physical: bool,
+    /// What one of the unit of the file is worth on the first axis.
+    pub(crate) x_unit: f64,
     /// Its points, in the order of the file.
     pub points: Vec<[f64; 2]>,
 }
@@ -144,7 +146,8 @@ impl MeasuredCurve {
             return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
         }
         let (test, is_physical) = (of_x.1, of_x.3.is_some());
-        Ok(Self { file: file.to_owned(), test, is_physical, points })
+        let x_unit = of_x.3.unwrap_or(1.0);
+        Ok(Self { file: file.to_owned(), test, is_physical, x_unit, points })
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`curves()`], [`MeasuredCurves`] | paths of solved designs, with what was measured over them |
 //! | [`figures()`], [`Figure`] | figures of a sweep, from its table |
 //! | [`Histogram`], [`share_bars`], [`Shares`] | samples of a measure with its bounds, and where its spread comes from |
+//! | [`fit_figure`], [`FitPanel`] | measured curves beside fitted ones, and what is left between them |
 //! | [`SearchFigure`], [`SearchedDesign`] | how a search went, and the front that it found |
 //! | [`map()`], [`MapRequest`] | any column over any two parameters, with contours |
 //! | [`Designs`] | the table of a sweep, column by column |
@@ -49,6 +50,7 @@ mod explore;
 mod export;
 mod facts;
 mod figures;
+mod fits;
 mod label;
 mod page;
 mod palette;
@@ -64,6 +66,7 @@ pub use explore::Explorer;
 pub use export::{ExportError, Exported, export};
 pub use facts::facts;
 pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
+pub use fits::{FitPanel, fit_figure};
 pub use page::{Fact, GapFactors, Page, PageDesign, PageFront};
 pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]

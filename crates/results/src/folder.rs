@@ -31,6 +31,8 @@ pub enum Maker {
     Tolerance,
     /// `squama sensitivity`.
     Sensitivity,
+    /// `squama fit`.
+    Fit,
 }
 
 impl Maker {
@@ -49,6 +51,7 @@ impl Maker {
             Self::Search => ("search", "squama optimise"),
             Self::Tolerance => ("tolerance", "squama tolerance"),
             Self::Sensitivity => ("sensitivity", "squama sensitivity"),
+            Self::Fit => ("fit", "squama fit"),
         }
     }
 }
@@ -90,7 +93,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 40] = [
+pub static FILES: [FileEntry; 44] = [
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -120,6 +123,10 @@ pub static FILES: [FileEntry; 40] = [
     plain("tolerance_sources.csv", Maker::Tolerance, Role::Record),
     plain("yield.csv", Maker::Tolerance, Role::Record),
     plain("sobol.csv", Maker::Sensitivity, Role::Record),
+    plain("fit.csv", Maker::Fit, Role::Record),
+    plain("residuals.csv", Maker::Fit, Role::Record),
+    plain("residuals.svg", Maker::Fit, Role::Record),
+    plain("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),
     plain(RunFolder::MEASURES, Maker::Design, Role::Record),
     plain(RunFolder::SENSITIVITY, Maker::Design, Role::Record),

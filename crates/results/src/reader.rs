@@ -212,7 +212,13 @@ impl Results {
     fn no_column(&self, name: &str) -> InvalidResults {
         let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
         let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
-        let expected = near.unwrap_or_else(|| "expected one".to_owned());
+        let has_word = |column: &&str| column.split('_').any(|word| word == name);
+        let alike: Vec<_> = known.iter().copied().filter(has_word).collect();
+        // No one of several forces is the one that was meant.
+        let expected = near.unwrap_or_else(|| match alike[..] {
+            [] => "expected a name of its first line".to_owned(),
+            _ => format!("expected one of {}", alike.join(", ")),
+        });
         InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 

@@ -50,3 +50,49 @@ fn what_cannot_be_laid_over_is_refused() {
     insta::assert_snapshot!(plot("--measured d.csv"), @"error: d.csv: cannot be read (No such file or directory), expected a CSV file");
     assert!(!place.path("o").exists());
 }
+
+/// The folder of the example.
+fn example() -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../sweeps/fit/palm.toml")
+}
+
+#[test]
+fn the_example_is_fitted_and_its_answer_is_a_definition() {
+    let place = Place::new();
+    let text = place.prints(&format!("fit {} --out f", example().display()));
+    for word in ["palm-test: 4 unknowns from 120 points of 3 curves", "95 % interval", "noise"] {
+        assert!(text.contains(word), "{text}");
+    }
+    assert_eq!(place.list("f"), "derived fit.csv fitted.toml residuals.csv residuals.svg");
+    let table = place.read("f/fit.csv");
+    let truth = [0.5, 4.5, 0.3, 0.05];
+    for (row, truth) in table.lines().skip(1).zip(truth) {
+        let numbers: Vec<f64> = row.split(',').filter_map(|cell| cell.parse().ok()).collect();
+        let [value, low, high] = [numbers[0], numbers[1], numbers[2]];
+        // These curves are one throw of the dice: the truth is close, if not within each interval.
+        assert!((value - truth).abs() < 1.5 * (high - low), "{row}");
+    }
+    assert_eq!(place.read("f/residuals.csv").lines().count(), 121);
+    place.prints("design f/fitted.toml --design 1 --out d");
+    // The same command does it again; a file that somebody else has written is left alone.
+    place.prints(&format!("fit {} --out f --json", example().display()));
+    fs::create_dir(place.path("g")).expect("a folder");
+    fs::write(place.path("g/fit.csv"), "mine").expect("writable");
+    let refused = place.refused(&format!("fit {} --out g", example().display()));
+    assert!(refused.contains("g/fit.csv") && refused.contains("has not written"), "{refused}");
+    assert_eq!(place.read("g/fit.csv"), "mine");
+}
+
+#[test]
+fn what_the_curves_do_not_tell_gives_exit_code_1() {
+    let place = Place::with(&SKIN.replace("membrane_modulus_MPa = 4.5\n", "[variables]\nmembrane_modulus_MPa = { from = 1, to = 9 }\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n"));
+    fs::write(place.path("a.csv"), "displacement_mm,force_N\n0.1,0.01\n0.2,0.03\n0.3,0.05\n")
+        .expect("writable");
+    let assert = place.squama("fit x.toml").assert().code(1);
+    let text = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    assert!(
+        text.contains("not told") && text.contains("say next to nothing of membrane_modulus_MPa"),
+        "{text}"
+    );
+    assert!(place.path("results/palm/fit/fit.csv").exists());
+}

@@ -72,6 +72,7 @@ fn help_shows_examples() {
         "draw ",
         "plot ",
         "plot curves ",
+        "fit ",
     ];
     for command in commands {
         let text = place.prints(&format!("{command}--help"));

@@ -14,6 +14,14 @@ pub(crate) const TOLERANCE: &str = "tolerance";
 /// Keys outside of the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
+/// Endings of names that are units.
+const UNITS: [&str; 7] = ["_over_t", "_mm", "_deg", "_MPa", "_kg_m2", "_kg_m3", "_N"];
+
+/// The quantity that a name stands for, without its unit.
+fn quantity(name: &str) -> &str {
+    UNITS.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name)
+}
+
 /// Whether a definition has a section of that name.
 pub(crate) fn is_section(key: &str) -> bool {
     sections().contains(&key)
@@ -65,14 +73,25 @@ pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
     if let Some(whole) = candidates.iter().find(|candidate| !key.is_empty() && goes_on(candidate)) {
         return Some(whole);
     }
+    // A word of several names, as `force` is, is no slip of the pen for one of them.
+    if candidates.iter().filter(|c| c.split('_').any(|word| word == key)).count() > 1 {
+        return None;
+    }
+    // A name with a unit stands for something that has one: `gap_mm` is neither `gaps` nor `gap_cv`.
+    let (has_unit, all) = (quantity(key) != key, candidates);
+    let kept: Vec<&'c str> =
+        all.iter().copied().filter(|c| !has_unit || quantity(c) != *c).collect();
+    if has_unit && let Some(same) = kept.iter().find(|c| quantity(c) == quantity(key)) {
+        return Some(same);
+    }
     let typos = |candidate: &str| strsim::damerau_levenshtein(key, candidate);
-    let typed = candidates.iter().min_by_key(|candidate| typos(candidate))?;
+    let typed = kept.iter().min_by_key(|candidate| typos(candidate))?;
     if typos(typed) <= key.chars().count() / 3 {
         return Some(typed);
     }
     // A part of a key, say `slant`, is far from it in typos.
     let similarity = |candidate: &str| strsim::jaro_winkler(key, candidate);
-    let alike = candidates.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
+    let alike = kept.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
     (similarity(alike) > 0.8).then_some(alike)
 }
 
@@ -93,6 +112,8 @@ mod tests {
         assert_eq!(for_key("substrate", "thickness_mm"), tissue);
         assert_eq!(for_key("scale", "width"), "did you mean scale.width_over_t?");
         assert_eq!(for_key("scale", "width_m"), "did you mean scale.width_mm?");
+        assert_eq!(nearest("gap_mm", &["gaps", "gap_cv", "bend_radius_mm"]), None);
+        assert_eq!(nearest("force", &["fold_force_N", "critical_force"]), None);
         assert_eq!(for_key("", "conatct"), "did you mean contact?");
         assert_eq!(for_key("", "mesures"), "did you mean measures?");
     }

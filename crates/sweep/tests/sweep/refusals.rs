@@ -1,6 +1,6 @@
 //! Refusals: one line with file, key, value and what would be right.
 
-use sweep::{Setting, Sweep};
+use sweep::{PARAMETERS, Parameter, Setting, Sweep};
 
 /// The message, a line for each error.
 fn errors(text: &str, settings: &[&str]) -> String {
@@ -33,6 +33,31 @@ fn keys() {
         "definition.name = 'y'",
     ]));
     insta::assert_snapshot!(refused("", &[]));
+}
+
+/// Lengths and moduli of 1e-30 and 1e30 used to end in internal errors.
+#[test]
+fn lengths_and_moduli_beyond_all_measure_are_refused() {
+    let spans = |parameter: &&Parameter| {
+        parameter.unit == "t"
+            || parameter.unit.contains("mm")
+            || parameter.key.contains("modulus")
+            || ["c1", "c2"].contains(&parameter.key)
+    };
+    let mut count = 0;
+    for parameter in PARAMETERS.iter().filter(spans) {
+        for value in ["1e-30", "1e30"] {
+            let text = format!("name = 'x'\n{} = {value}", parameter.path());
+            let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
+            // A place or an offset may be next to nothing; in mm it is refused for want of a thickness.
+            let places = ["load_inset", "membrane_axis_offset"];
+            let is_place = places.iter().any(|place| parameter.key.starts_with(place));
+            let is_refused = message.is_some_and(|message| message.contains("out of range"));
+            assert!(is_refused || (value == "1e-30" && is_place), "{text}");
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
 }
 
 #[test]

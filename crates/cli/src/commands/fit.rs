@@ -1,0 +1,233 @@
+//! `squama fit`.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use ::fit::{Estimate, FitDefinition, Fitted, FittedCurve, NoFit};
+use anyhow::Context as _;
+use clap::Args;
+use report::{FitPanel, fit_figure};
+use results::{Claim, Column, CsvFormat, Maker, RunFolder, write_rows};
+use serde_json::{Value, json};
+
+use super::source::{folder_of, settings};
+use super::work::Threads;
+use super::{DONE, INCOMPLETE};
+use crate::interrupt::Interrupt;
+use crate::json;
+use crate::print::{aligned, counted, digits, note, print};
+
+/// Arguments of `squama fit`.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  squama fit test.toml
+  squama fit test.toml --set 'variables.friction={ from = 0, to = 0.5 }' --json
+
+TEST.toml is a definition of the skin that was tested, with [variables] for what is sought between two bounds, such
+as substrate_modulus_MPa = { from = 0.1, to = 2 }, and a table for each measured curve:
+  [[curve]]
+  file = \"puncture.csv\"          # columns displacement_mm and force_N (see squama plot curves --help)
+  kind = \"puncture\"              # or \"bending\": curvature_per_m and moment_N_mm
+  offsets = [\"displacement\"]     # also seek where the zero of an axis is
+  to = 2.5                       # leave out points beyond (from: before), in the unit of the first column
+  gap_over_t = 0.3               # what this specimen has alone
+All curves are fitted together by least squares, each over its own noise, along exact derivatives of the curves.
+Shows the values with 95 % confidence intervals, strong correlations, and which of them the curves cannot tell apart.
+Writes fit.csv, residuals.csv, residuals.svg, and fitted.toml, a definition that squama run and squama design take.
+Exit code: 0 done, 1 the curves do not tell all that is sought, 2 bad input or a disk error.")]
+pub struct Arguments {
+    /// Definition of the test in TOML
+    #[arg(value_name = "TEST.toml")]
+    pub path: PathBuf,
+
+    /// Set a key of the definition, e.g. scale.base=2L (may be repeated)
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub settings: Vec<String>,
+
+    /// Folder for the files [default: results/NAME/fit]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub threads: Threads,
+
+    /// Print JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Files that it writes.
+const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
+
+/// Correlations of at least this are told.
+const STRONG: f64 = 0.9;
+
+/// Finds the skin behind measured curves, and writes it down.
+pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
+    let path = arguments.path.display();
+    let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
+    let default = || folder_of(definition.sweep(), None).join("fit");
+    let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
+    Claim::check(&folder, Maker::Fit)?;
+    interrupt.ask_first();
+    let fitted = match arguments.threads.pool()?.install(|| definition.fit(interrupt.stop())) {
+        Err(stopped @ NoFit::Stopped) => {
+            note(&format!("{path}: {stopped}"));
+            return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
+        }
+        fitted => fitted.with_context(|| path.to_string())?,
+    };
+    write(&folder, &fitted)?;
+    if arguments.json {
+        json::print(&record(&fitted))?;
+    } else {
+        let files = FILES.join(" ");
+        print(&format!("{}\n{}: {files}\n", text(&fitted), folder.path().display()))?;
+    }
+    let is_told = fitted.estimates.iter().all(|estimate| estimate.interval.is_some());
+    Ok(if is_told { DONE } else { INCOMPLETE })
+}
+
+fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
+    let claim = Claim::take(folder, Maker::Fit)?;
+    let [table, residuals, figure, definition] = FILES;
+    write_rows(folder, table, CsvFormat::Plain, ESTIMATES, &fitted.estimates)?;
+    let rows = fitted.curves.iter().flat_map(|curve| curve.points.iter().map(move |p| (curve, *p)));
+    let rows: Vec<Point> = rows.map(|(curve, point)| (curve.file.clone(), point)).collect();
+    write_rows(folder, residuals, CsvFormat::Plain, POINTS, rows)?;
+    let panels = fitted.curves.iter().map(|curve| {
+        let FittedCurve { file, axes, points, noise, .. } = curve;
+        FitPanel { file, axes, points, noise: *noise }
+    });
+    let panels: Vec<_> = panels.collect();
+    folder.write_text(figure, &fit_figure(fitted.sweep.name(), &panels))?;
+    folder.write_text(definition, &fitted.sweep.to_toml())?;
+    claim.state()?;
+    Ok(())
+}
+
+const AS_SOUGHT: &str = "as unit says";
+
+/// The columns of `fit.csv`.
+static ESTIMATES: &[Column<Estimate>] = &[
+    Column::new("sought", "-", "key of a parameter, or offset of a curve", |e| {
+        e.unknown.name.clone().into()
+    }),
+    Column::new("unit", "-", "its unit", |e| e.unknown.unit.into()),
+    Column::new("value", AS_SOUGHT, "value with the least squares", |e| e.value.into()),
+    Column::new("low", AS_SOUGHT, "lower end of the 95 % confidence interval", |e| {
+        e.interval.map(|i| i[0]).into()
+    }),
+    Column::new("high", AS_SOUGHT, "upper end of it", |e| e.interval.map(|i| i[1]).into()),
+    Column::new("from", AS_SOUGHT, "least value that was tried", |e| e.unknown.from.into()),
+    Column::new("to", AS_SOUGHT, "largest value that was tried", |e| e.unknown.to.into()),
+];
+
+/// A row of `residuals.csv`: the file, and place, measured and fitted value.
+type Point = (String, [f64; 3]);
+
+const AS_CURVE: &str = "mm and N, 1/mm and N mm, or none, as the curve";
+
+/// The columns of `residuals.csv`.
+static POINTS: &[Column<Point>] = &[
+    Column::new("curve", "-", "file of the measured curve", |(file, _)| file.clone().into()),
+    Column::new("x", AS_CURVE, "displacement or curvature", |(_, point)| point[0].into()),
+    Column::new("measured", AS_CURVE, "measured force or moment", |(_, point)| point[1].into()),
+    Column::new("fitted", AS_CURVE, "that of the fitted skin", |(_, point)| point[2].into()),
+];
+
+/// What was found, for people.
+fn text(fitted: &Fitted) -> String {
+    let points: usize = fitted.curves.iter().map(|curve| curve.points.len()).sum();
+    let Fitted { estimates, curves, solutions, .. } = fitted;
+    let name = |j: &usize| estimates[*j].unknown.name.as_str();
+    let mut text = format!(
+        "{}: {} from {points} points of {}, {solutions} solutions\n\n",
+        fitted.sweep.name(),
+        counted(estimates.len() as u64, "unknown"),
+        counted(curves.len() as u64, "curve")
+    );
+    let header = ["", "value", "", "95 % interval"].map(str::to_owned);
+    let rows = estimates.iter().map(|estimate| {
+        let Estimate { unknown, value, interval, at_end } = estimate;
+        let interval = interval.map_or("not told".to_owned(), |[low, high]| {
+            format!("{} to {}", digits(low), digits(high))
+        });
+        let end = if *at_end { "  (!) at the end of its range: widen it" } else { "" };
+        let unit = if unknown.unit == "-" { "" } else { unknown.unit };
+        [unknown.name.clone(), digits(*value), unit.to_owned(), format!("{interval}{end}")]
+    });
+    text.push_str(&aligned(&std::iter::once(header).chain(rows).collect::<Vec<_>>()));
+    // Writing to a string cannot fail.
+    for group in &fitted.untold {
+        let _ = match group.as_slice() {
+            [one] => writeln!(
+                text,
+                "  (!) The curves say next to nothing of {}: its range is narrower than what they tell",
+                name(one)
+            ),
+            several => {
+                let names: Vec<_> = several.iter().map(name).collect();
+                writeln!(
+                    text,
+                    "  (!) The curves cannot tell {} apart: fix one of them, or add a curve of another kind or specimen",
+                    names.join(" and ")
+                )
+            }
+        };
+    }
+    for (i, row) in fitted.correlations.iter().enumerate() {
+        for (j, correlation) in
+            row.iter().enumerate().skip(i + 1).filter(|(_, c)| c.abs() >= STRONG)
+        {
+            let _ =
+                writeln!(text, "  {} and {} are correlated: {correlation:.3}", name(&i), name(&j));
+        }
+    }
+    text.push('\n');
+    let rows = curves.iter().map(|curve| {
+        let unit = curve.axes[1].split_once(", ").map_or("", |(_, unit)| unit);
+        let largest = curve.points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
+        let share = 100.0 * curve.noise / largest;
+        let points = counted(curve.points.len() as u64, "point");
+        [
+            curve.file.clone(),
+            points,
+            format!("noise {} {unit}, {share:.1} % of the largest", digits(curve.noise)),
+        ]
+    });
+    text.push_str(&aligned(&rows.collect::<Vec<_>>()));
+    for curve in curves.iter().filter(|curve| curve.beyond > 0) {
+        let (file, beyond) = (&curve.file, counted(curve.beyond as u64, "point"));
+        let _ = writeln!(
+            text,
+            "  (!) {file}: {beyond} beyond the end of the fitted curve, where the scale has given way; leave them out with to = …"
+        );
+    }
+    let differenced: usize = curves.iter().map(|curve| curve.differenced).sum();
+    if differenced > 0 {
+        let _ = writeln!(
+            text,
+            "  {differenced} derivatives are differences of whole solutions, since something sticks there"
+        );
+    }
+    text
+}
+
+fn record(fitted: &Fitted) -> Value {
+    let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end });
+    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "noise": c.noise, "beyond": c.beyond, "differenced": c.differenced });
+    let names = |group: &Vec<usize>| {
+        group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
+    };
+    json!({
+        "name": fitted.sweep.name(),
+        "estimates": fitted.estimates.iter().map(estimate).collect::<Vec<_>>(),
+        "correlations": fitted.correlations,
+        "not_told_apart": fitted.untold.iter().map(names).collect::<Vec<_>>(),
+        "curves": fitted.curves.iter().map(curve).collect::<Vec<_>>(),
+        "solutions": fitted.solutions,
+        "files": FILES,
+    })
+}

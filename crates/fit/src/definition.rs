@@ -1,0 +1,309 @@
+//! What is fitted to which curves, as it is written: a definition with `[variables]` and one `[[curve]]` for each file.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
+use sweep::{
+    Case, InvalidDefinition, InvalidSetting, Parameter, Problem, Role, Setting, Sweep, Variable,
+    VariableValues, WrongValue, read_entries,
+};
+
+use crate::measured::{InvalidMeasured, MeasuredCurve, Test};
+
+/// Curves, and what is sought behind them.
+#[derive(Debug)]
+pub struct FitDefinition {
+    pub(crate) sweep: Sweep,
+    pub(crate) unknowns: Vec<Unknown>,
+    pub(crate) curves: Vec<TestCurve>,
+}
+
+/// A number that is sought between two bounds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// Its name: the key of a parameter, or the offset of a curve.
+    pub name: String,
+    /// Its unit, `-` if it has none.
+    pub unit: &'static str,
+    /// The least value that is tried.
+    pub from: f64,
+    /// The largest.
+    pub to: f64,
+    pub(crate) source: Source,
+}
+
+/// What an unknown changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Source {
+    Parameter(&'static Parameter),
+    /// The zero of an axis, 0 or 1, of the curve of that number.
+    Offset(usize, usize),
+}
+
+/// A measured curve with the skin that it is of.
+#[derive(Debug)]
+pub(crate) struct TestCurve {
+    pub(crate) measured: MeasuredCurve,
+    pub(crate) case: Case,
+    /// What this specimen has values of its own for.
+    pub(crate) own: Vec<&'static Parameter>,
+}
+
+/// A definition that cannot be fitted.
+#[derive(Debug, thiserror::Error)]
+pub enum InvalidFit {
+    /// A key or a value is not right.
+    #[error(transparent)]
+    Definition(#[from] InvalidDefinition),
+    /// The value of a specimen is not right.
+    #[error(transparent)]
+    Setting(#[from] InvalidSetting),
+    /// A file of measurements is not right.
+    #[error(transparent)]
+    Measured(#[from] InvalidMeasured),
+}
+
+/// Keys of a curve besides those of parameters.
+const KEYS: [&str; 6] = ["file", "kind", "columns", "from", "to", "offsets"];
+
+/// Offsets reach to this part of the largest value of their axis.
+const FARTHEST_OFFSET: f64 = 0.25;
+
+/// Points of a curve, at most; of more the means of neighbours are taken.
+const MOST_POINTS: usize = 200;
+
+impl FitDefinition {
+    /// The definition in the file at `path` once `settings` are put in its place; files of curves are found from its folder.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or a key or a value is not right.
+    pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidFit> {
+        let name = path.display().to_string();
+        let entries = read_entries(path, settings)?;
+        let sweep = one_design(&entries, &name)?;
+        let mut unknowns = parameters(&entries, &sweep)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let mut curves = Vec::new();
+        for table in tables(&entries, &name)? {
+            let measured = table.measured(folder)?;
+            let own = table.own_values()?;
+            // Read again with its own values, a specimen is checked like any other definition.
+            let specimen = own.iter().map(|(_, setting)| setting);
+            let specimen: Vec<_> = settings.iter().chain(specimen).cloned().collect();
+            let case = one_design(&read_entries(path, &specimen)?, &name)?.grid().case(0);
+            let missing = measured.test.units(&case).err().filter(|_| measured.is_physical);
+            if let Some(missing) = missing {
+                let expected = format!("{missing} beside a file in mm and N");
+                let place = &table.0[0].place;
+                return Err(not_accepted(place, "curve.file", &measured.file, &expected));
+            }
+            unknowns.extend(table.offsets(&measured, curves.len())?);
+            let own = own.into_iter().map(|(parameter, _)| parameter).collect();
+            curves.push(TestCurve { measured, case, own });
+        }
+        Ok(Self { sweep, unknowns, curves })
+    }
+
+    /// The skin and what is sought of it, as a sweep with variables.
+    pub fn sweep(&self) -> &Sweep {
+        &self.sweep
+    }
+}
+
+fn refused(place: &Place, key: &str, problem: Problem) -> InvalidFit {
+    let (place, key, problem) = (place.clone(), key.to_owned(), Box::new(problem));
+    InvalidDefinition::Refused { place, key, problem }.into()
+}
+
+fn not_accepted(place: &Place, key: &str, found: impl Display, expected: &str) -> InvalidFit {
+    let (found, expected) = (found.to_string(), expected.to_owned());
+    refused(place, key, WrongValue::NotAccepted { found, expected }.into())
+}
+
+/// The sweep of a definition without its curves, which has one design but for its variables.
+fn one_design(entries: &KeyValues, name: &str) -> Result<Sweep, InvalidFit> {
+    let entries = entries.iter().filter(|entry| entry.key != "curve").cloned().collect();
+    let sweep = Sweep::of_entries(&entries, name)?;
+    match sweep.grid().axes().iter().find(|axis| axis.len() > 1) {
+        Some(axis) => {
+            let key = axis.parameter().key;
+            let file = Place::File { name: name.into(), line: None };
+            let expected = format!("one value, or {key} among [variables]");
+            Err(not_accepted(&file, &format!("designs.{key}"), axis.to_toml(), &expected))
+        }
+        None => Ok(sweep),
+    }
+}
+
+/// The parameters that are sought.
+fn parameters(entries: &KeyValues, sweep: &Sweep) -> Result<Vec<Unknown>, InvalidFit> {
+    let written = entries.iter().filter(|entry| entry.key == "variables");
+    let written: Vec<_> = written.filter_map(|entry| table(&entry.value)).flatten().collect();
+    let unknown = |variable: &Variable| {
+        let parameter = variable.parameter();
+        let is_number = parameter.has(Role::Continuous) || parameter.has(Role::Made);
+        if let VariableValues::Between(from, to) = *variable.values()
+            && is_number
+        {
+            let (name, source) = (parameter.key.to_owned(), Source::Parameter(parameter));
+            return Ok(Unknown { name, unit: parameter.unit, from, to, source });
+        }
+        let entry = written.iter().find(|entry| entry.key == parameter.key);
+        let place = entry.map_or(Place::Argument("[variables]".into()), |e| e.place.clone());
+        let expected = "bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }";
+        let key = format!("variables.{}", parameter.key);
+        Err(not_accepted(&place, &key, variable.to_toml(), expected))
+    };
+    sweep.variables().iter().map(unknown).collect()
+}
+
+fn table(value: &Value) -> Option<&[KeyValue]> {
+    match value {
+        Value::Table(entries) => Some(entries),
+        _ => None,
+    }
+}
+
+/// The tables `[[curve]]`, at least one.
+fn tables<'e>(entries: &'e KeyValues, name: &str) -> Result<Vec<CurveTable<'e>>, InvalidFit> {
+    let file = Place::File { name: name.into(), line: None };
+    let entry = entries.iter().find(|entry| entry.key == "curve");
+    let place = entry.map_or(&file, |entry| &entry.place);
+    let items = match entry.map(|entry| &entry.value) {
+        Some(Value::List(items)) => items.as_slice(),
+        _ => &[],
+    };
+    let keys = items.iter().map(|item| table(item).filter(|keys| !keys.is_empty()));
+    let keys = keys.collect::<Option<Vec<_>>>().filter(|keys| !keys.is_empty());
+    let keys = keys.ok_or_else(|| {
+        let expected = "at least one [[curve]] with a file and its kind";
+        refused(place, "curve", Problem::Missing { expected })
+    })?;
+    Ok(keys.into_iter().map(CurveTable).collect())
+}
+
+/// A table `[[curve]]`, which has at least one key.
+#[derive(Clone, Copy)]
+struct CurveTable<'e>(&'e [KeyValue]);
+
+impl CurveTable<'_> {
+    fn entry(&self, key: &str) -> Option<&KeyValue> {
+        self.0.iter().find(|entry| entry.key == key)
+    }
+
+    /// The error of a key whose value is not accepted, or that is missing.
+    fn wrong(&self, key: &str, expected: &'static str) -> InvalidFit {
+        let name = format!("curve.{key}");
+        match self.entry(key) {
+            Some(entry) => not_accepted(&entry.place, &name, &entry.value, expected),
+            None => refused(&self.0[0].place, &name, Problem::Missing { expected }),
+        }
+    }
+
+    fn text(&self, key: &str, expected: &'static str) -> Result<&str, InvalidFit> {
+        match self.entry(key).map(|entry| &entry.value) {
+            Some(Value::Text(text)) => Ok(text),
+            _ => Err(self.wrong(key, expected)),
+        }
+    }
+
+    /// The number of a key that may be left out.
+    fn number(&self, key: &str) -> Result<Option<f64>, InvalidFit> {
+        let read = |entry: &KeyValue| match &entry.value {
+            Value::Number(text) => text.parse().ok(),
+            _ => None,
+        };
+        let wrong = || self.wrong(key, "a number, in the unit of the first column");
+        self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
+    }
+
+    /// The texts of a key that may be left out.
+    fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InvalidFit> {
+        let text = |item: &Value| match item {
+            Value::Text(text) => Some(text.clone()),
+            _ => None,
+        };
+        let read = |entry: &KeyValue| match &entry.value {
+            Value::List(items) => items.iter().map(text).collect::<Option<_>>(),
+            _ => None,
+        };
+        let wrong = || self.wrong(key, "a list of names in quotes");
+        self.entry(key).map(|entry| read(entry).ok_or_else(wrong)).transpose()
+    }
+
+    /// The measured curve, without what lies outside of its range.
+    fn measured(&self, folder: &Path) -> Result<MeasuredCurve, InvalidFit> {
+        let file = self.text("file", "the name of a CSV file")?;
+        let kind = self.text("kind", "\"puncture\" or \"bending\"")?;
+        let columns = self.texts("columns")?;
+        let mut curve = MeasuredCurve::read(&folder.join(file), columns.as_deref())?;
+        file.clone_into(&mut curve.file);
+        if kind != curve.test.name() {
+            let expected = match curve.test {
+                Test::Puncture => "\"puncture\", as the columns of the file say",
+                Test::Bending => "\"bending\", as the columns of the file say",
+            };
+            return Err(self.wrong("kind", expected));
+        }
+        let from = self.number("from")?.unwrap_or(f64::NEG_INFINITY) * curve.x_unit;
+        let to = self.number("to")?.unwrap_or(f64::INFINITY) * curve.x_unit;
+        curve.points.retain(|point| (from..=to).contains(&point[0]));
+        if curve.points.is_empty() {
+            let key = if self.entry("from").is_some() { "from" } else { "to" };
+            return Err(self.wrong(key, "a range with points of the file in it"));
+        }
+        // A machine writes thousands, and its noise is no longer chance from one to the next.
+        let part = curve.points.len().div_ceil(MOST_POINTS);
+        let mean = |points: &[[f64; 2]]| {
+            [0, 1].map(|axis| points.iter().map(|p| p[axis]).sum::<f64>() / points.len() as f64)
+        };
+        curve.points = curve.points.chunks(part).map(mean).collect();
+        Ok(curve)
+    }
+
+    /// The values that this specimen alone has.
+    fn own_values(&self) -> Result<Vec<(&'static Parameter, Setting)>, InvalidFit> {
+        let own = |entry: &KeyValue| {
+            let name = format!("curve.{}", entry.key);
+            let parameter = Parameter::named(&entry.key).ok_or_else(|| {
+                let keys = KEYS.join(", ");
+                let hint =
+                    format!("expected {keys} or what this specimen has alone, e.g. gap_over_t");
+                let value = entry.value.to_string();
+                refused(&entry.place, &name, Problem::Unknown { value, hint })
+            })?;
+            let text = format!("designs.{}={}", entry.key, entry.value);
+            Ok((parameter, Setting::from_option(&format!("{}: {name}", entry.place), &text)?))
+        };
+        self.0.iter().filter(|entry| !KEYS.contains(&entry.key.as_str())).map(own).collect()
+    }
+
+    /// The offsets of the curve of that number that are sought.
+    fn offsets(&self, measured: &MeasuredCurve, curve: usize) -> Result<Vec<Unknown>, InvalidFit> {
+        let axes = measured.test.axes();
+        let offset = |name: String| {
+            let expected = match measured.test {
+                Test::Puncture => "\"displacement\", \"force\" or both",
+                Test::Bending => "\"curvature\", \"moment\" or both",
+            };
+            let axis = axes.iter().position(|(axis, _)| *axis == name);
+            let axis = axis.ok_or_else(|| self.wrong("offsets", expected))?;
+            let sizes = measured.points.iter().map(|point| point[axis].abs());
+            let to = FARTHEST_OFFSET * sizes.fold(f64::MIN_POSITIVE, f64::max);
+            let unit = if measured.is_physical { axes[axis].1 } else { "-" };
+            let name = format!("{name} offset of {}", measured.file);
+            Ok(Unknown { name, unit, from: -to, to, source: Source::Offset(curve, axis) })
+        };
+        self.texts("offsets")?.unwrap_or_default().into_iter().map(offset).collect()
+    }
+}
+
+impl TestCurve {
+    /// What one unit of the model is worth in those of the curve.
+    pub(crate) fn units(&self, case: &Case) -> [f64; 2] {
+        let MeasuredCurve { test, is_physical, .. } = self.measured;
+        // The units were asked for when the curve was read.
+        if is_physical { test.units(case).unwrap_or([f64::NAN; 2]) } else { [1.0; 2] }
+    }
+}

@@ -1,0 +1,48 @@
+//! What is wrong with a definition is said with its place, its key and what would be right.
+
+use crate::made::Place;
+
+const SKIN: &str =
+    "name = 'x'\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 1\ndesigns.slant_deg = 0\n";
+
+fn refused(text: &str) -> String {
+    let place = Place::new();
+    place.write("a.csv", "displacement_mm,force_N\n0.1,1\n0.2,2\n");
+    place.write("b.csv", "displacement_mm,force_N\n0.1,one\n");
+    place.refused(&format!("{SKIN}{text}"))
+}
+
+#[test]
+fn keys_of_curves_are_checked() {
+    let curve = "material.thickness_mm = 1\nmaterial.substrate_modulus_MPa = 1\n[[curve]]\n";
+    let wrong = |keys: &str| refused(&format!("{curve}{keys}"));
+    insta::assert_snapshot!(refused(""), @"test.toml: curve: missing, expected at least one [[curve]] with a file and its kind");
+    insta::assert_snapshot!(refused("curve = 3\n"), @"test.toml:5: curve: missing, expected at least one [[curve]] with a file and its kind");
+    insta::assert_snapshot!(wrong("kind = 'puncture'\n"), @"test.toml:8: curve.file: missing, expected the name of a CSV file");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\n"), @r#"test.toml:8: curve.kind: missing, expected "puncture" or "bending""#);
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'bending'\n"), @r#"test.toml:9: curve.kind: "bending" is not accepted, expected "puncture", as the columns of the file say"#);
+    insta::assert_snapshot!(wrong("file = 'b.csv'\nkind = 'puncture'\n"), @r#"b.csv:2: force_N: "one" is not accepted, expected a number"#);
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nto = 'end'\n"), @r#"test.toml:10: curve.to: "end" is not accepted, expected a number, in the unit of the first column"#);
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\nto = 0.01\n"), @"test.toml:10: curve.to: 0.01 is not accepted, expected a range with points of the file in it");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\noffsets = ['moment']\n"), @r#"test.toml:10: curve.offsets: ["moment"] is not accepted, expected "displacement", "force" or both"#);
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap = 1\n"), @"test.toml:10: curve.gap: unknown key (its value is 1), expected file, kind, columns, from, to, offsets or what this specimen has alone, e.g. gap_over_t");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = -1\n"), @"test.toml:10: curve.gap_over_t: designs.gap_over_t: -1 is out of range, expected a length of at least 0.001 and at most 1000");
+    insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = [0.1, 0.2]\n"), @"test.toml: designs.gap_over_t: [0.1, 0.2] is not accepted, expected one value, or gap_over_t among [variables]");
+}
+
+#[test]
+fn what_is_sought_is_checked() {
+    let curve = "[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
+    let wrong = |keys: &str| refused(&format!("{keys}{curve}"));
+    insta::assert_snapshot!(wrong("[variables]\nthickness_mm = { from = 1, to = 2 }\n"), @"test.toml:8: curve.file: a.csv is not accepted, expected material.thickness_mm and material.substrate_modulus_MPa beside a file in mm and N");
+    insta::assert_snapshot!(wrong("[variables]\nwidth_over_t = [1, 2]\n"), @"test.toml:6: variables.width_over_t: [1, 2] is not accepted, expected bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }");
+    insta::assert_snapshot!(wrong("[variables]\nfirst_step = { from = 0.1, to = 0.2 }\n"), @"test.toml:6: variables.first_step: { from = 0.1, to = 0.2 } is not accepted, expected bounds of a number that the curve follows, e.g. { from = 0.1, to = 1 }");
+    insta::assert_snapshot!(wrong("designs.width_over_t = [1, 2]\n"), @"test.toml: designs.width_over_t: [1, 2] is not accepted, expected one value, or width_over_t among [variables]");
+    let place = Place::new();
+    place.write("a.csv", "displacement,force\n0.1,1\n");
+    let none = place.fit(&format!("{SKIN}{curve}")).expect_err("nothing sought").to_string();
+    insta::assert_snapshot!(none, @"nothing is sought; add [variables] or offsets to a [[curve]]");
+    let sought = "[variables]\nfriction = { from = 0, to = 1 }\n";
+    let few = place.fit(&format!("{SKIN}{sought}{curve}")).expect_err("one point").to_string();
+    insta::assert_snapshot!(few, @"too few points: 1, for 1 unknowns; expected more points than unknowns");
+}
