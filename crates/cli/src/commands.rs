@@ -20,6 +20,7 @@ mod optimise;
 mod plot;
 mod rank;
 mod report;
+mod required;
 mod rerun;
 mod results_folder;
 mod run;

@@ -28,6 +28,11 @@ const ENDING: &str =
 trait Watched: Send + Sync + 'static {
     /// The part of the work that is done, and a few words about it after `elapsed`.
     fn look(&self, elapsed: Duration) -> (f64, String);
+
+    /// What is to be told in lines of its own.
+    fn news(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// Shows how far work is. A thread looks at it, because a single design may take a minute.
@@ -143,6 +148,9 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ended: &Receiver<()>) {
             is_ending = true;
             bar.suspend(|| eprintln!("{ENDING}"));
         }
+        for line in watched.news() {
+            bar.suspend(|| eprintln!("{line}"));
+        }
         let (share, text) = watched.look(begun.elapsed());
         bar.set_position((share * PARTS as f64) as u64);
         bar.set_message(text);
@@ -154,6 +162,10 @@ impl Watched for Counts {
     fn look(&self, elapsed: Duration) -> (f64, String) {
         let share = self.work.share();
         (share, self.text(share, elapsed))
+    }
+
+    fn news(&self) -> Vec<String> {
+        self.work.take_slow()
     }
 }
 

@@ -78,5 +78,5 @@ pub(crate) fn put(case: &Case, key: &str, value: &Setting) -> Result<Case, Strin
         Setting::Word(word) => Value::Text(word.clone()),
     };
     let value = parameter.read(&written).map_err(|error| format!("{key}: {error}"))?;
-    Ok(parameter.put(case, value))
+    Ok(parameter.replace(case, value))
 }

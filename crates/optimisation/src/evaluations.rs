@@ -10,13 +10,13 @@ use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError};
 use run::{Evaluator, Program};
 use store::Journal;
-use sweep::{Case, DesignNumber, Measure};
+use sweep::{Case, DesignNumber, Measure, Parameter, key};
 use tolerance::Sampler;
 
 use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
 use crate::sample::{SampleJudge, Samples};
-use crate::space::{DesignSpace, SpacePoint};
+use crate::space::{DesignSpace, Interval, SpacePoint};
 use journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
 
 /// Samples that no search sees: those of `squama tolerance` have numbers from 1 on, and are a test of what a search has chosen.
@@ -72,7 +72,12 @@ impl<'a> Evaluations<'a> {
         let measures = self.space.sweep().measures();
         let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
         let intervals = self.space.intervals().iter().enumerate();
-        let scaling = intervals.filter(|(_, interval)| !is_measured(interval.parameter.section));
+        // A thickness does more where lengths are given in mm: it moves those over it.
+        let moves = self.space.sweep().gives_millimetres();
+        let is_moving = |of: &Parameter| moves && of.key == key::THICKNESS;
+        let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
+            !(is_measured(parameter.section) || is_moving(parameter))
+        });
         scaling.map(|(j, _)| j).collect()
     }
 
@@ -142,10 +147,11 @@ impl<'a> Evaluations<'a> {
         }
         self.go_on()?;
         let mut result = evaluator.solve(self.number(0), case).row.result;
-        // Where material varies, a sample with another thickness or modulus moves in other parameters, too.
+        // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        let moves_more = sample.is_some() && has_material;
+        let in_mm = self.space.sweep().gives_millimetres();
+        let moves_more = in_mm || (sample.is_some() && has_material);
         result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();

@@ -7,7 +7,7 @@ mod refusal;
 mod section;
 mod statistics;
 
-use ranking::{Criterion, FitnessGoal, Requirement, Worth};
+use ranking::{Criterion, FitnessGoal, Requirement, Standard, Worth};
 
 use crate::space::DesignSpace;
 use crate::statistic::Statistic;
@@ -24,6 +24,8 @@ pub struct DesignGoal {
     pub objectives: Vec<Criterion>,
     /// The bounds that columns must keep.
     pub requirements: Vec<Requirement>,
+    /// The standards of which requirements are levels.
+    pub standards: Vec<&'static Standard>,
     /// The criteria of the fitness, if the goal names it.
     pub fitness: Option<FitnessGoal>,
     /// Whether only designs count whose surface has not folded.

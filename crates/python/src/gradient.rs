@@ -9,7 +9,7 @@ use results::{Column, DesignRow, SlopeSide};
 use sweep::{Measure, Parameter, Role};
 
 use crate::error;
-use crate::skin::{Skin, evaluator, named, unknown};
+use crate::skin::{Skin, evaluator, unknown};
 use crate::solved::reason;
 
 /// Step of the differences along rows that are extrapolated on straight lines: they have the rounding of a formula alone.
@@ -42,15 +42,15 @@ pub fn gradients(
 }
 
 /// The parameter of a key, which has to be continuous.
-fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<(&'static Parameter, f64)> {
+fn parameter(skin: &Bound<'_, Skin>, key: &str) -> PyResult<&'static Parameter> {
     let (py, case) = (skin.py(), skin.get().case());
-    let (parameter, in_mm) = named(key).ok_or_else(|| unknown(py, key))?;
+    let parameter = Parameter::named(key).ok_or_else(|| unknown(py, key))?;
     let is_smooth = parameter.has(Role::Continuous) || parameter.has(Role::Made);
-    let unit = if in_mm { case.material.thickness_mm } else { Some(1.0) };
-    let unit = unit.filter(|_| is_smooth && parameter.size(&case).is_some());
-    let expected = "a parameter that is given as a number and changes continuously";
-    let unit = unit.ok_or_else(|| error::invalid_parameter(py, key, None, expected))?;
-    Ok((parameter, unit))
+    if !is_smooth || parameter.size(&case).is_none() {
+        let expected = "a parameter that is given as a number and changes continuously";
+        return Err(error::invalid_parameter(py, key, None, expected));
+    }
+    Ok(parameter)
 }
 
 /// The value of a column, and its derivatives.
@@ -58,7 +58,7 @@ fn gradient(
     py: Python<'_>,
     column: &Column<DesignRow>,
     row: &DesignRow,
-    by: &[(&'static Parameter, f64)],
+    by: &[&'static Parameter],
 ) -> PyResult<(f64, Vec<Slopes>)> {
     let Some(value) = column.cell(row).number() else {
         let reason = reason(row, &column.name).unwrap_or("the skin has no such value");
@@ -70,20 +70,18 @@ fn gradient(
         let expected = "a measure that has derivatives";
         return Err(error::invalid_parameter(py, &column.name, None, expected));
     }
-    let slopes = |(parameter, unit): &(&'static Parameter, f64)| {
-        let (left, right, kink) = slopes(column, row, parameter);
-        (left.map(|slope| slope / unit), right.map(|slope| slope / unit), kink)
-    };
-    Ok((value, by.iter().map(slopes).collect()))
+    Ok((value, by.iter().map(|parameter| slopes(column, row, parameter)).collect()))
 }
 
 /// The derivatives of a column by a parameter.
 fn slopes(column: &Column<DesignRow>, row: &DesignRow, parameter: &Parameter) -> Slopes {
     let source = measure_name(&column.name);
     let mut known = row.result.sensitivity.iter();
-    let known = known.find(|d| d.measure == source && d.parameter == parameter.key);
+    // Measures have their derivatives by lengths over the thickness.
+    let of = parameter.over_t().unwrap_or(parameter);
+    let known = known.find(|d| d.measure == source && d.parameter == of.key);
     let kink = known.and_then(|derivative| derivative.kink.clone());
-    if column.name == source && measure_of(source).is_some() {
+    if column.name == source && measure_of(source).is_some() && !parameter.is_in_mm() {
         // Of what a measure does not depend on it has no derivative.
         return known.map_or((Some(0.0), Some(0.0), None), |d| (d.left, d.right, kink));
     }

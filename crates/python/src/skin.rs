@@ -33,13 +33,6 @@ pub struct Skin {
     pub(crate) sweep: Sweep,
 }
 
-/// The parameter of `key`, and whether that is the key of the same length in mm.
-pub fn named(key: &str) -> Option<(&'static Parameter, bool)> {
-    let stem = || key.strip_suffix("_mm");
-    let in_mm = || Some((Parameter::named(&format!("{}_over_t", stem()?))?, true));
-    Parameter::named(key).map(|parameter| (parameter, false)).or_else(in_mm)
-}
-
 /// The exception for a key that no parameter has.
 pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
     let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
@@ -56,9 +49,9 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let mut keys = Vec::new();
     for (name, of) in given.iter().filter(|(_, of)| !of.is_none()) {
         let name = text(&name)?;
-        let (parameter, in_mm) = named(&name).ok_or_else(|| unknown(py, &name))?;
-        let of = if in_mm { over_t(given, &name, &of)? } else { of };
-        keys.push(parameter.key);
+        let parameter = Parameter::named(&name).ok_or_else(|| unknown(py, &name))?;
+        // A pitch says the gap or the length, whichever is not given.
+        keys.extend([parameter.key, parameter.over_t().map_or("", |of| of.key)]);
         let of = entry(parameter.key, value(&of)?);
         // Geometry stands among the axes of a definition, each with one value.
         match sections.iter_mut().find(|section| section.key == parameter.section) {
@@ -66,7 +59,12 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
             _ => sections.push(entry(parameter.section, Value::Table(vec![of]))),
         }
     }
-    if let Some(missing) = Parameter::with(Role::Geometry).find(|p| !keys.contains(&p.key)) {
+    let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
+    let is_missing = |p: &&Parameter| {
+        !keys.contains(&p.key)
+            && !(p.key == key::LENGTH && says_length && keys.contains(&key::PITCH))
+    };
+    if let Some(missing) = Parameter::with(Role::Geometry).find(is_missing) {
         return Err(error::invalid_parameter(py, missing.key, None, &missing.expected()));
     }
     let sweep = Sweep::of_entries(&sections, "squama.Skin");
@@ -75,21 +73,6 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let Some(several) = several.map(Axis::parameter) else { return Ok(sweep) };
     let expected = format!("one value, {}", several.expected());
     Err(error::invalid_parameter(py, several.key, None, &expected))
-}
-
-/// A length in mm over the thickness, which has to be given.
-fn over_t<'py>(
-    given: &Bound<'py, PyDict>,
-    name: &str,
-    length: &Bound<'py, PyAny>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let py = given.py();
-    let thickness = given.get_item(key::THICKNESS)?.and_then(|of| of.extract::<f64>().ok());
-    let (Ok(length), Some(thickness)) = (length.extract::<f64>(), thickness) else {
-        let expected = format!("a number, together with {}", key::THICKNESS);
-        return Err(error::invalid_parameter(py, name, Some(length.clone()), &expected));
-    };
-    Ok((length / thickness).into_pyobject(py)?.into_any())
 }
 
 /// A value as Python has it.
@@ -215,18 +198,15 @@ impl Skin {
 
     fn __getattr__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let no_such = || PyAttributeError::new_err(format!("a Skin has no {name}"));
-        let (parameter, in_mm) = named(name).ok_or_else(no_such)?;
+        let parameter = Parameter::named(name).ok_or_else(no_such)?;
         let case = self.case();
+        if parameter.is_in_mm() {
+            return Ok(parameter.millimetres(&case).into_pyobject(py)?.into_any());
+        }
         if !parameter.is_given(&case) {
             return Ok(py.None().into_bound(py));
         }
-        match parameter.get(&case) {
-            Scalar::Number(number) if in_mm => {
-                let unit = case.material.thickness_mm.ok_or_else(no_such)?;
-                Ok((number * unit).into_pyobject(py)?.into_any())
-            }
-            scalar => python(py, scalar),
-        }
+        python(py, parameter.get(&case))
     }
 
     /// Solves the skin.

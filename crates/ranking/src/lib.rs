@@ -18,6 +18,7 @@
 //! | [`Unmet`] | the nearest design where none meets the requirements, and what stands in the way |
 //! | [`check_comparable`], [`comparable_groups`] | whether criteria can be compared between designs, and between which |
 //! | [`TetrahedralGrid`] | all ways to share a weight among the criteria |
+//! | [`Standard`] | levels of protection that requirements may name, such as `needle 2` |
 //! | [`Worth`], [`tightest`] | objectives of a design, and its margins to all requirements |
 //! | [`FitnessGoal`], [`CriterionEnds`], [`RescaledCriterion`] | the fitness between ends that do not move |
 //! | [`dominates`], [`pareto_front`] | designs that no other beats |
@@ -49,6 +50,7 @@ mod preferences;
 mod ranking;
 mod requirement;
 mod scale;
+mod standard;
 mod tetrahedral_grid;
 mod unmet;
 mod weights;
@@ -70,6 +72,7 @@ pub use ranking::{
 pub use requirement::{InvalidRequirement, Relation, Requirement};
 pub use results::columns::Goal;
 pub use scale::{Scale, UnknownScale};
+pub use standard::{STANDARDS, Standard, TILTING_ONLY};
 pub use tetrahedral_grid::{InvalidResolution, Steps, TetrahedralGrid};
 pub use unmet::{Unmet, UnmetRequirement};
 pub use weights::{InvalidWeights, MOST_CRITERIA, Weights};

@@ -6,6 +6,8 @@ use std::str::FromStr;
 use results::round_off::{ROUND_OFF, same};
 use sweep::number;
 
+use crate::standard::Standard;
+
 /// How a value is to stand to the limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
@@ -69,7 +71,8 @@ pub struct Requirement {
 /// A text that is no requirement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6"
+    "{found} is not accepted, expected COLUMN OP NUMBER, OP being >=, <=, >, < or ==, e.g. coverage >= 0.6, or a level of a standard: {}",
+    Standard::levels()
 )]
 pub struct InvalidRequirement {
     /// The text.
@@ -142,7 +145,8 @@ impl FromStr for Requirement {
             let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
             is_name.then_some(Self { column, relation, limit })
         };
-        read().ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
+        let level = Standard::requirement(text).map(|(_, requirement)| requirement);
+        level.or_else(read).ok_or_else(|| InvalidRequirement { found: text.trim().to_owned() })
     }
 }
 

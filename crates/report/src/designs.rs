@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use results::Results;
-use results::columns::{FOLD_FORCE, parameter_of};
+use results::columns::{FOLD_FORCE, tells_apart};
 
 use crate::palette::SlantPalette;
 
@@ -73,7 +73,7 @@ impl Designs {
     /// Returns the varied parameters, as their columns.
     pub(crate) fn varied(&self) -> Vec<&str> {
         let headers = self.headers.iter().map(String::as_str);
-        let parameters = headers.filter(|name| parameter_of(name).is_some());
+        let parameters = headers.filter(|name| tells_apart(name, &self.headers));
         parameters.filter(|name| self.texts(name).len() > 1).collect()
     }
 

@@ -14,7 +14,7 @@ pub(crate) mod values;
 
 use std::borrow::Borrow;
 
-use sweep::{Axis, Measure, Parameter, Role, Sweep};
+use sweep::{Axis, Measure, Parameter, Role, Sweep, key};
 
 use crate::design::row::{DesignRow, FailureRow};
 use crate::folder::{MEASURE_TABLES, RunFolder};
@@ -24,7 +24,7 @@ use tilts::{explain_tilt_value, tilt_columns};
 use values::VALUES;
 
 pub use cell::Cell;
-pub use column::{Column, number, parameter_of};
+pub use column::{Column, number, parameter_of, tells_apart};
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{
@@ -37,6 +37,9 @@ pub use values::{
     AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MAX, GAP_STRETCH_MIN, MAX_STIFFNESS, SECANT_STIFFNESS,
     SOUND_FORCE,
 };
+
+/// The lengths that every skin of a thickness has in mm.
+const LENGTHS_IN_MM: [&str; 4] = ["gap_mm", "length_mm", "width_mm", key::PITCH];
 
 /// The measured value of that name.
 pub fn measured_value(name: &str) -> Option<&'static MeasuredValue> {
@@ -131,6 +134,9 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns.extend(axis_columns(sweep));
     columns.extend(made(others));
     columns.extend(tilt_columns(sweep, table));
+    if table.is_none() && sweep.gives(key::THICKNESS) {
+        columns.extend(length_columns(sweep));
+    }
     columns.extend(made(physical));
     columns
 }
@@ -154,6 +160,18 @@ fn geometry_columns<R: Borrow<DesignRow>>() -> Vec<Column<R>> {
 fn axis_columns<R: Borrow<DesignRow>>(sweep: &Sweep) -> impl Iterator<Item = Column<R>> {
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
     axes.filter(|parameter| !parameter.has(Role::Geometry)).map(parameter_column)
+}
+
+/// The columns of the lengths of a skin in mm, which axes may have too; and of the width, which these are told apart by.
+fn length_columns(sweep: &Sweep) -> impl Iterator<Item = Column<DesignRow>> {
+    let is_axis = |parameter: &&Parameter| sweep.grid().axis(parameter.key).is_some();
+    let width = Parameter::named(key::WIDTH).filter(|width| !is_axis(width)).map(parameter_column);
+    let lengths = LENGTHS_IN_MM.into_iter().filter_map(Parameter::named);
+    let in_mm = lengths.filter(move |parameter| !is_axis(parameter)).map(|parameter| {
+        let length = |row: &DesignRow| parameter.millimetres(&row.case).into();
+        Column::parameter(parameter, length)
+    });
+    width.into_iter().chain(in_mm)
 }
 
 fn parameter_column<R: Borrow<DesignRow>>(parameter: &'static Parameter) -> Column<R> {

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Seek as _};
 use std::path::Path;
 
-use crate::columns::parameter_of;
+use crate::columns::{parameter_of, tells_apart};
 use sweep::{Parameter, Sweep, nearest, number, reason};
 
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
@@ -131,13 +131,14 @@ impl Results {
             }
         }
         let parameters = header.iter().enumerate();
+        let parameters = parameters.filter(|(_, name)| tells_apart(name, &header));
         let parameters =
-            parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column)));
+            parameters.filter_map(|(column, name)| Some((parameter_of(name)?, column))).collect();
         Ok(Self {
             folder: folder.clone(),
             file,
             format,
-            parameters: parameters.collect(),
+            parameters,
             header,
             rows,
             in_table: length,
@@ -211,7 +212,13 @@ impl Results {
     fn no_column(&self, name: &str) -> InvalidResults {
         let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
         let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
-        let expected = near.unwrap_or_else(|| "expected one".to_owned());
+        let has_word = |column: &&str| column.split('_').any(|word| word == name);
+        let alike: Vec<_> = known.iter().copied().filter(has_word).collect();
+        // No one of several forces is the one that was meant.
+        let expected = near.unwrap_or_else(|| match alike[..] {
+            [] => "expected a name of its first line".to_owned(),
+            _ => format!("expected one of {}", alike.join(", ")),
+        });
         InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }
     }
 

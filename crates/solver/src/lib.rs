@@ -81,6 +81,7 @@ mod stop;
 mod system;
 mod tangent;
 mod tangent_solver;
+mod watch;
 
 pub use block_elimination::{BlockElimination, LARGEST_BLOCK, UnsafeBlock};
 pub use block_matrix::{BlockMatrix, Blocks, LINK};
@@ -97,3 +98,4 @@ pub use step::Settings;
 pub use stop::Stop;
 pub use system::{Control, Residual, State, System};
 pub use tangent::{NoTangent, Tangent};
+pub use watch::{FarAlong, watched};

@@ -7,6 +7,7 @@ use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::step::Settings;
 use crate::stop::Stop;
 use crate::system::{Control, State, System};
+use crate::watch;
 
 /// The control parameter prescribes the next point while it makes up at least this part of the
 /// direction of the path; where it makes up less, because it is about to turn, the arc length does: a step of the control
@@ -411,6 +412,7 @@ impl<S: System> Path<S> {
     /// The next point of the path, or why there is none.
     fn advance(&mut self) -> Result<Point<S::Mode>, Stop> {
         loop {
+            watch::look(self.points, self.progress(&self.point.state.z));
             let distance = self.distance();
             let before = self.newton.history.len();
             let attempt = self.attempt(distance);

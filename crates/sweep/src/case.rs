@@ -24,8 +24,6 @@ pub struct Case {
     pub needle_friction: Option<Scalar>,
     /// How far inside the top right corner the load stands, unless its place is given as a part of the top.
     pub load_inset: Option<f64>,
-    /// The depth at which the force is measured besides, in mm, unless it is given over the thickness.
-    pub depth_mm: Option<f64>,
     /// The other parameters of bending.
     pub flexure: flexure::FlexureParameters,
     /// The thickness of the substrate, over that of the scales; `None` of a half-space.
@@ -38,6 +36,35 @@ pub struct Case {
     pub samples: Samples,
     /// The material of the skin, in physical units, as far as that is given.
     pub material: Material,
+    /// The lengths that are given in mm: those over the thickness follow from them.
+    pub in_mm: Millimetres,
+}
+
+/// The lengths that are given in mm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Millimetres {
+    /// The gap between neighbouring bases.
+    pub gap: Option<f64>,
+    /// The length of a scale.
+    pub length: Option<f64>,
+    /// Base and gap together.
+    pub pitch: Option<f64>,
+    /// Whether the pitch says how long a scale is, rather than how wide its gap.
+    pub pitch_says_length: bool,
+    /// The width of the scales.
+    pub width: Option<f64>,
+    /// The thickness of the substrate.
+    pub tissue_thickness: Option<f64>,
+    /// The distance of the load from the right corner of the top.
+    pub load_inset: Option<f64>,
+    /// The depth at which the force is measured besides.
+    pub depth: Option<f64>,
+    /// The length of the membrane.
+    pub membrane_length: Option<f64>,
+    /// The thickness of the membrane.
+    pub membrane_thickness: Option<f64>,
+    /// The depth of the axis of the membrane below the bases.
+    pub membrane_axis_offset: Option<f64>,
 }
 
 /// The imperfect rows that are solved.
@@ -52,11 +79,9 @@ pub struct Samples {
 impl Case {
     /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it.
     pub fn punctured(&self) -> puncture::PunctureParameters {
-        let depth = self.depth_mm.zip(self.material.thickness_mm).map(|(depth, t)| depth / t);
         let top = 2.0 * self.design.half_base();
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
         puncture::PunctureParameters {
-            depth: self.puncture.depth.or(depth),
             load_position: self.load_inset.map_or(self.puncture.load_position, inside),
             ..self.puncture
         }
@@ -87,13 +112,13 @@ impl Default for Case {
             ),
             needle_friction: None,
             load_inset: None,
-            depth_mm: None,
             flexure: flexure::FlexureParameters::default(),
             tissue_thickness: None,
             coupling: Coupling::Nearest,
             imperfection: Imperfection::default(),
             samples: Samples { count: 100, seed: 1 },
             material: Material::default(),
+            in_mm: Millimetres::default(),
         }
     }
 }

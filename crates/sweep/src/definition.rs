@@ -3,6 +3,7 @@
 mod axes;
 mod deviations;
 pub(crate) mod invalid;
+mod lengths;
 pub(crate) mod measure;
 mod reader;
 pub(crate) mod setting;
@@ -130,8 +131,18 @@ impl Sweep {
 
     /// Whether the designs have a value for the parameter of that name.
     pub fn gives(&self, key: &str) -> bool {
-        let is_given = |parameter: &Parameter| parameter.is_given(self.grid.base());
-        self.grid.axis(key).is_some() || Parameter::named(key).is_some_and(is_given)
+        let is_given = |parameter: &Parameter| {
+            let is_said = |key| self.grid.axis(key).is_some();
+            let in_mm =
+                || parameter.in_mm().any(|p| is_said(p.key) || p.is_given(self.grid.base()));
+            is_said(parameter.key) || parameter.is_given(self.grid.base()) || in_mm()
+        };
+        Parameter::named(key).is_some_and(is_given)
+    }
+
+    /// Whether lengths are given in mm, so that the thickness moves those over it.
+    pub fn gives_millimetres(&self) -> bool {
+        PARAMETERS.iter().any(|parameter| parameter.is_in_mm() && self.gives(parameter.key))
     }
 
     /// Whether the parameter of that name is an axis, or has another value than that by default.
@@ -146,9 +157,8 @@ impl Sweep {
         let shared = |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
                 && parameter.is_given(self.grid.base())
-                && !parameter
-                    .alternative_in(self.grid.base())
-                    .is_some_and(|other| self.gives_alone(other))
+                && !parameter.follows(self.grid.base())
+                && !parameter.others_in(self.grid.base()).any(|other| self.gives_alone(other))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
     }
@@ -158,7 +168,8 @@ impl Sweep {
     /// Whether the definition gives this parameter, so that it leaves nothing to the other way to say the same.
     fn gives_alone(&self, parameter: &Parameter) -> bool {
         let value = parameter.get(self.grid.base());
-        let is_number = !matches!(value, Scalar::Word(_));
+        let follows = parameter.follows(self.grid.base());
+        let is_number = !matches!(value, Scalar::Word(_)) && !follows;
         self.grid.axis(parameter.key).is_some() || (parameter.is_optional() && is_number)
     }
 }

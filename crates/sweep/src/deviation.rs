@@ -2,14 +2,12 @@
 
 use crate::case::Case;
 use crate::number;
-use crate::parameter::{Parameter, Role, key};
+use crate::parameter::{Parameter, Role, key, length};
 
 /// How a parameter differs from its value in the definition: in common for all scales of a batch, and from scale to scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deviation {
     pub(crate) parameter: &'static Parameter,
-    /// Whether the deviations are in mm, of a parameter that is a length over `t`.
-    pub(crate) in_mm: bool,
     pub(crate) batch: Option<BatchDeviation>,
     pub(crate) scale_sd: Option<f64>,
 }
@@ -33,35 +31,21 @@ impl BatchDeviation {
     }
 }
 
-/// The end of the key of a length over the thickness, and of the same length in mm.
-const OVER_T: &str = "_over_t";
-const IN_MM: &str = "_mm";
-
 impl Deviation {
-    /// The parameter of `key`, and whether the key asks for mm.
-    pub(crate) fn parameter_of(key: &str) -> Option<(&'static Parameter, bool)> {
-        let of = |key: &str| Parameter::named(key).filter(|p| p.has(Role::Made));
-        let in_mm = || of(&format!("{}{OVER_T}", key.strip_suffix(IN_MM)?));
-        of(key).map(|parameter| (parameter, false)).or_else(|| Some((in_mm()?, true)))
-    }
-
-    /// The parameter.
+    /// The parameter; that over the thickness if the deviation is in mm.
     pub fn parameter(&self) -> &'static Parameter {
-        self.parameter
+        self.parameter.over_t().unwrap_or(self.parameter)
     }
 
     /// The key in the definition: that of the parameter, or of the same length in mm.
     pub fn key(&self) -> String {
-        match self.parameter.key.strip_suffix(OVER_T) {
-            Some(stem) if self.in_mm => format!("{stem}{IN_MM}"),
-            _ => self.parameter.key.to_owned(),
-        }
+        self.parameter.key.to_owned()
     }
 
     /// The keys without which the deviation has no meaning: its own, unless it has a value by default, and the thickness.
     pub(crate) fn needs(&self) -> impl Iterator<Item = &'static str> {
-        let own = (!self.parameter.is_given(&Case::default())).then_some(self.parameter.key);
-        own.into_iter().chain(self.in_mm.then_some(key::THICKNESS))
+        let own = (!self.parameter().is_given(&Case::default())).then_some(self.parameter().key);
+        own.into_iter().chain(self.parameter.is_in_mm().then_some(key::THICKNESS))
     }
 
     /// The deviation that all scales of a batch share.
@@ -80,12 +64,7 @@ impl Deviation {
     /// scales stays.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         match self.parameter.key {
-            key::THICKNESS => {
-                let thickness = case.material.thickness_mm?;
-                let mut moved = with_lengths_times(case, thickness / (thickness + by))?;
-                moved.material.thickness_mm = Some(thickness + by);
-                Some(moved)
-            }
+            key::THICKNESS => length::with_thickness(case, case.material.thickness_mm? + by),
             key::SUBSTRATE_MODULUS => {
                 let (mut moved, modulus) = (*case, case.material.substrate_modulus_mpa?);
                 moved.material.substrate_modulus_mpa = Some(modulus + by);
@@ -103,7 +82,7 @@ impl Deviation {
                 moved.material.scale_density_kg_m3 = Some(density + by);
                 Some(moved)
             }
-            _ => self.parameter.moved(case, by / self.unit(case)?),
+            _ => self.parameter.moved(case, by),
         }
     }
 
@@ -117,7 +96,7 @@ impl Deviation {
 
     /// One unit of the parameter in the unit of the deviation.
     fn unit(&self, case: &Case) -> Option<f64> {
-        if self.in_mm { case.material.thickness_mm } else { Some(1.0) }
+        if self.parameter.is_in_mm() { case.material.thickness_mm } else { Some(1.0) }
     }
 
     /// The deviations as a definition writes them.
@@ -130,14 +109,4 @@ impl Deviation {
         let both: Vec<_> = batch.into_iter().chain(scale).collect();
         format!("{{ {} }}", both.join(", "))
     }
-}
-
-/// The case with every length over `t` so many times as long.
-fn with_lengths_times(case: &Case, factor: f64) -> Option<Case> {
-    let is_length = |p: &&Parameter| p.key.ends_with(OVER_T) && p.is_given(case);
-    let mut lengths = Parameter::with(Role::Continuous).filter(is_length);
-    lengths.try_fold(*case, |case, parameter| {
-        let length = parameter.get(&case).number()?;
-        parameter.moved(&case, (factor - 1.0) * length)
-    })
 }

@@ -108,6 +108,11 @@ impl Grid {
         self.axes.iter().find(|axis| axis.parameter.key == key)
     }
 
+    /// The axis that says the parameter of `key`, itself or in mm.
+    pub fn axis_saying(&self, key: &str) -> Option<&Axis> {
+        self.axes.iter().find(|axis| axis.parameter.is_or_says(key))
+    }
+
     /// The case that all designs share. Its values on the axes mean nothing.
     pub fn base(&self) -> &Case {
         &self.base

@@ -2,6 +2,7 @@
 
 mod continuous;
 pub mod key;
+pub(crate) mod length;
 mod list;
 mod role;
 mod scalar;
@@ -181,8 +182,14 @@ impl Parameter {
         self.get(&Case::default())
     }
 
-    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave.
+    /// Sets this parameter in `case` to a value that [`Self::read`] or [`Self::scalar`] gave, and what follows from it.
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
+        self.assign(case, value);
+        length::settle(case);
+    }
+
+    /// Sets this parameter alone.
+    fn assign(&self, case: &mut Case, value: Scalar) {
         match (&self.kind, value) {
             (
                 ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. },
@@ -262,6 +269,19 @@ impl Parameter {
         let mut changed = *case;
         self.set(&mut changed, value);
         changed
+    }
+
+    /// The case in which this parameter alone has another value: lengths in mm say the same.
+    pub fn replace(&self, case: &Case, value: Scalar) -> Case {
+        let mut changed = *case;
+        self.assign(&mut changed, value);
+        length::keep_in_step(&mut changed, self);
+        changed
+    }
+
+    /// Whether it is a length in mm that another parameter gives over the thickness.
+    pub fn is_in_mm(&self) -> bool {
+        self.over_t().is_some()
     }
 
     /// Whether it takes numbers, so that a range of it makes sense.

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use ranking::Requirement;
 use results::DesignRow;
-use results::columns::{AREAL_MASS, measure_name};
+use results::columns::{AREAL_MASS, measure_name, parameter_of};
 use run::{Evaluator, JournalHeader, Program};
 use skin::Imperfection;
 use sweep::{Case, Measure, Subset, Sweep};
@@ -188,7 +188,9 @@ impl<'a> Analysis<'a> {
                 continue;
             }
             let value = column.cell(&nominal.row).number();
-            let is_predicted = has_derivatives && value.is_some();
+            // A parameter, in its own unit or another, follows from the deviations without being solved for.
+            let is_known = has_derivatives || parameter_of(&column.name).is_some();
+            let is_predicted = is_known && value.is_some();
             let values = self.values(place, samples);
             let known: Vec<f64> = values.iter().copied().flatten().collect();
             measures.push(MeasureTolerance {

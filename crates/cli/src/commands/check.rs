@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::Args;
 use run::Estimate;
 use serde_json::{Map, Value, json};
-use sweep::{Axis, Measure, Sweep};
+use sweep::{Axis, Measure, Parameter, Role, Sweep, key};
 
 use super::DONE;
 use super::source::{Definition, folder_of, read};
@@ -156,10 +156,11 @@ fn values(axis: &Axis) -> String {
 
 /// How many footprints the substrate is calibrated for: the combinations of what they depend on.
 fn calibrations(sweep: &Sweep) -> u64 {
+    let has_mm = sweep.gives_millimetres();
     let matters =
-        ["gap_over_t", "length_over_t", "base", "width_over_t", "poisson_ratio", "coupling"];
+        |of: &Parameter| of.has(Role::MovesSprings) || (has_mm && of.key == key::THICKNESS);
     let axes = sweep.grid().axes().iter();
-    axes.filter(|axis| matters.contains(&axis.parameter().key)).map(Axis::len).product()
+    axes.filter(|axis| matters(axis.parameter())).map(Axis::len).product()
 }
 
 fn changes(sweep: &Sweep) -> String {

@@ -115,7 +115,9 @@ impl SolvedChoice {
     fn new(design: SelectedDesign) -> Self {
         let evaluator = Evaluator::new(design.sweep.measures());
         let number = design.number.unwrap_or(design.sweep.grid().number(0));
-        let solved = evaluator.solve(number, &design.case());
+        let tell = |text| eprintln!("{text}");
+        let solve = || evaluator.solve(number, &design.case());
+        let solved = run::told(&number.to_string(), tell, solve);
         let columns = design_columns(&design.sweep);
         Self { design, solved, columns }
     }

@@ -13,6 +13,7 @@ use results::shell_word;
 use sweep::{Sweep, key, read_entries};
 
 use super::figure_file::write;
+use super::required::Required;
 use super::source::{Definition, definition_file, require_folder_of, settings};
 use super::{DONE, PROGRAM};
 use crate::print::{note, print};
@@ -32,9 +33,8 @@ pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
 
-    /// Requirement that the page watches, e.g. 'coverage >= 0.6' (may be repeated)
-    #[arg(long, value_name = "REQUIREMENT")]
-    pub require: Vec<Requirement>,
+    #[command(flatten)]
+    pub required: Required,
 
     /// Page to write
     #[arg(long, value_name = "FILE", default_value = "explore.html")]
@@ -54,7 +54,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         "{}: a page solves skins on a half-space alone, `squama run` those on a layer",
         key::TISSUE
     );
-    requirements.extend(arguments.require.iter().cloned());
+    requirements.extend(arguments.required.read()?);
     require_folder_of("--out", &arguments.out)?;
     let page = Explorer {
         sweep,

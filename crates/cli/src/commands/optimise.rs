@@ -11,8 +11,10 @@ use std::time::Instant;
 use ::report::Figure;
 use clap::Args;
 use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
+use ranking::TILTING_ONLY;
 use results::RunFolder;
 
+use super::required::Required;
 use super::source::{folder_of, settings};
 use super::work::{Earlier, Format, Threads};
 use super::{DONE, INCOMPLETE, PROGRAM};
@@ -30,12 +32,14 @@ use report::SearchReport;
 Examples:
   squama optimise sweeps/goals/strong-and-covered.toml
   squama optimise glove.toml --set 'goal.require=[\"coverage >= 0.6\"]' --out results/glove-60
+  squama optimise sweeps/goals/pin.toml --require 'critical_force_N >= 5' --require 'gap_mm >= 0.4'
   squama optimise glove.toml --set goal.seed=1 --fresh
   squama optimise glove.toml --resume
 
 A goal is a definition with two more sections. [variables] lists the parameters to search over: ranges, such
 as gap_over_t = { from = 0.1, to = 1 }, or lists of values. [goal] has maximize or minimize (one column gives
-the optimum, two to four give a Pareto front) and require, a list of constraints on columns. Every other
+the optimum, two to four give a Pareto front) and require, a list of constraints on columns, to which --require adds; protects =
+\"needle 2\" is a level of a standard among them. Every other
 parameter has one value. The search leaves out designs that fail, and designs whose surface folds unless
 sound = false, and counts both.
 One objective may be fitness (Eq. 7 of the paper). weights = { coverage = 1, compliance = 2 } names its criteria
@@ -62,6 +66,9 @@ pub struct Arguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
 
+    #[command(flatten)]
+    pub required: Required,
+
     /// Results folder [default: results/NAME]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -86,7 +93,11 @@ pub struct Arguments {
 
 /// Finds the best designs of a goal and writes them down.
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
-    let goal = DesignGoal::read(&arguments.path, &settings(&arguments.settings)?)?;
+    let (settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
+    let goal = DesignGoal::read_with(&arguments.path, &settings, &required)?;
+    for standard in &goal.standards {
+        note(&format!("goal.protects: {}; {TILTING_ONLY}", standard.source));
+    }
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
     interrupt.ask_first();
     let begun = Instant::now();

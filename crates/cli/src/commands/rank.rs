@@ -7,12 +7,13 @@ mod report;
 use anyhow::Context as _;
 use clap::Args;
 use ranking::{
-    CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Requirement, Scale,
-    TetrahedralGrid, Unmet, Weights, check_comparable,
+    CRITERIA, Criterion, Goal, InvalidRanking, Preferences, Ranking, Scale, TetrahedralGrid, Unmet,
+    Weights, check_comparable,
 };
 use results::columns::SOUND_FORCE;
 use results::{Results, RunFolder};
 
+use super::required::Required;
 use super::source::{Partial, verified_folder};
 use super::work::whole;
 use super::{DONE, INCOMPLETE, derived};
@@ -51,9 +52,8 @@ pub struct Arguments {
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
-    /// Requirement: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
-    #[arg(long, value_name = "COLUMN OP NUMBER")]
-    pub require: Vec<String>,
+    #[command(flatten)]
+    pub required: Required,
 
     /// Column to maximize (several give the Pareto front and its knee)
     #[arg(long, value_name = "COLUMN", conflicts_with = "criteria")]
@@ -156,8 +156,7 @@ fn none_meets(
 
 /// The preferences that the ranking goes by.
 fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
-    let require = |text: &String| option::<Requirement>("--require", text);
-    let requirements = arguments.require.iter().map(require).collect::<anyhow::Result<_>>()?;
+    let requirements = arguments.required.read()?;
     let scale: Scale = option("--scale", &arguments.scale)?;
     let given = arguments.weights.as_ref();
     let weights: Option<Weights> = given.map(|text| option("--weights", text)).transpose()?;

@@ -11,17 +11,17 @@ use super::source::{Definition, definition_file, settings};
 
 /// Numbers of designs, or their values.
 #[derive(Debug, Args)]
-#[group(required = true, multiple = true)]
+#[group(multiple = true)]
 pub struct Selection {
-    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417
+    /// Numbers of designs in the grid, e.g. 0417 or 1-12,0417 [default: the only one]
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',', conflicts_with_all = ["gap", "length", "slant"])]
     pub numbers: Vec<String>,
 
-    /// Gap d/t: one value, several (0.1,0.2), or all values of the sweep in a range (0.1..0.3)
+    /// Gap d/t, or in mm if the definition has `gap_mm`: one value, several (0.1,0.2), or all values of the sweep in a range (0.1..0.3)
     #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
     pub gap: Option<String>,
 
-    /// Length L/t, in the same forms as --gap
+    /// Length L/t, or in mm if the definition has `length_mm`, in the same forms as --gap
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub length: Option<String>,
 
@@ -49,6 +49,15 @@ pub fn select(
 ) -> anyhow::Result<Vec<SelectedDesign>> {
     let file = definition_file(&definition.path)?;
     let settings = settings(&definition.settings)?;
+    if selection.numbers.is_empty() && options(selection).iter().all(|(.., text)| text.is_none()) {
+        let designs = Sweep::read(&file, &settings)?.grid().len();
+        ensure!(
+            designs == 1,
+            "{}: has {designs} designs; choose with --design, or with --gap, --length and --slant",
+            definition.path.display()
+        );
+        return by_numbers(&file, &settings, &["1".to_owned()]);
+    }
     if selection.numbers.is_empty() {
         by_values(&file, settings, selection)
     } else {
@@ -96,8 +105,10 @@ fn by_values(
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         let option = format!("{option} {text}");
-        // A range selects among the values as they are written, because the option takes the place of their axis.
-        let values = values(text, written.grid().axis(key)).context(option.clone())?;
+        // A range selects among the values as they are written, because the option takes the place of their axis, in its unit.
+        let axis = written.grid().axis_saying(key);
+        let key = axis.map_or(key, |axis| axis.parameter().key);
+        let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
     let sweep = Sweep::read(file, &settings)?;

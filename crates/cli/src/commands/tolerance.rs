@@ -7,9 +7,8 @@ mod report;
 use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
-use anyhow::{Context as _, ensure};
+use anyhow::ensure;
 use clap::Args;
-use ranking::Requirement;
 use rayon::prelude::*;
 use results::{CsvFormat, Maker, RunFolder, write_rows};
 use sweep::Sweep;
@@ -18,6 +17,7 @@ use tolerance::{
     YIELD_COLUMNS,
 };
 
+use super::required::Required;
 use super::sampled::{Sampled, SampledFolder};
 use super::selection::ranges;
 use super::source::{Definition, read};
@@ -54,9 +54,8 @@ pub struct Arguments {
     #[arg(long = "design", value_name = "NUMBERS", value_delimiter = ',')]
     pub numbers: Vec<String>,
 
-    /// Requirement on samples: >=, <=, >, < or == in any column of numbers (may be repeated: all must hold)
-    #[arg(long, value_name = "COLUMN OP NUMBER")]
-    pub require: Vec<String>,
+    #[command(flatten)]
+    pub required: Required,
 
     /// Number of samples of each design; 0 gives the linear prediction alone
     #[arg(long, value_name = "N", default_value_t = 1000, allow_hyphen_values = true, value_parser = whole::<0, 1_000_000>)]
@@ -73,7 +72,7 @@ const MOST: u64 = 100_000;
 pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let sweep = read(&arguments.definition)?;
     check(arguments, &sweep)?;
-    let requirements = requirements(arguments)?;
+    let requirements = arguments.required.read()?;
     let designs = designs(arguments, &sweep)?;
     let command = ("tolerance", Maker::Tolerance);
     let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
@@ -116,11 +115,6 @@ fn check(arguments: &Arguments, sweep: &Sweep) -> anyhow::Result<()> {
         "--samples 1: one sample has no spread, expected 0 or at least 2"
     );
     Ok(())
-}
-
-fn requirements(arguments: &Arguments) -> anyhow::Result<Vec<Requirement>> {
-    let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
-    arguments.require.iter().map(read).collect()
 }
 
 /// The indices of the designs that are asked for.

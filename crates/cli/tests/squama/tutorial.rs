@@ -31,12 +31,14 @@ fn words(line: &str) -> Vec<String> {
 }
 
 fn copy_sweeps(place: &Place) {
-    fs::create_dir(place.path("sweeps")).expect("a folder");
-    for entry in fs::read_dir(Path::new(ROOT).join("sweeps")).expect("sweeps") {
-        let entry = entry.expect("an entry");
-        if entry.path().is_file() {
-            let copy = place.path(Path::new("sweeps").join(entry.file_name()));
-            fs::copy(entry.path(), copy).expect("a copy");
+    for folder in ["sweeps", "sweeps/goals"] {
+        fs::create_dir_all(place.path(folder)).expect("a folder");
+        for entry in fs::read_dir(Path::new(ROOT).join(folder)).expect("sweeps") {
+            let entry = entry.expect("an entry");
+            if entry.path().is_file() {
+                let copy = place.path(Path::new(folder).join(entry.file_name()));
+                fs::copy(entry.path(), copy).expect("a copy");
+            }
         }
     }
 }
@@ -58,7 +60,7 @@ fn every_command_does_what_it_says() {
         place.squama_with(&words(arguments)).assert().code(code);
         count += 1;
     }
-    assert!(count > 32, "{count}");
+    assert!(count > 35, "{count}");
     for file in [
         "results/steep/contents.toml",
         "steep.xlsx",
@@ -68,6 +70,9 @@ fn every_command_does_what_it_says() {
         "results/palm/optimum.csv",
         "results/palm-front/front.svg",
         "results/palm-fitness/optimum.csv",
+        "results/pin/tolerance/yield.csv",
+        "pin.3mf",
+        "pin.parts.txt",
         "palm.3mf",
         "palm.step",
         "palm-cut.parts.txt",

@@ -11,12 +11,12 @@ const OPTIONS: [(&str, &str); 3] =
 /// The options with which `squama design` solves `case`, where the definition alone has `base`.
 pub(crate) fn settings(sweep: &Sweep, base: &Case, case: &Case) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
-    for (key, option) in OPTIONS {
-        let value = Parameter::named(key).map(|parameter| parameter.get(case));
-        words.extend(value.map(|value| format!("{option} {value}")));
+    let by_option = OPTIONS.map(|(key, _)| sweep.grid().axis_saying(key).map(Axis::parameter));
+    for ((_, option), parameter) in OPTIONS.iter().zip(&by_option) {
+        words.extend(parameter.map(|parameter| format!("{option} {}", parameter.get(case))));
     }
     let axes = sweep.grid().axes().iter().map(Axis::parameter);
-    let axes = axes.filter(|one| OPTIONS.iter().all(|(key, _)| one.key != *key));
+    let axes = axes.filter(|one| !by_option.contains(&Some(one)));
     words.extend(axes.map(|axis| format!("--set designs.{}={}", axis.key, axis.get(case))));
     words.extend(others(sweep, base, case).map(|setting| format!("--set {setting}")));
     words
@@ -42,7 +42,7 @@ fn others(sweep: &Sweep, base: &Case, case: &Case) -> impl Iterator<Item = Strin
     let differs = |one: &&Parameter| {
         let is_axis =
             sweep.grid().axis(one.key).is_some() || OPTIONS.iter().any(|(key, _)| one.key == *key);
-        !is_axis && one.get(case) != one.get(base)
+        !is_axis && !one.follows(case) && one.get(case) != one.get(base)
     };
     PARAMETERS.iter().filter(differs).map(|one| format!("{}={}", one.path(), one.get(case)))
 }

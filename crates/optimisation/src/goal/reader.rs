@@ -29,6 +29,22 @@ impl DesignGoal {
         Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
     }
 
+    /// As [`Self::read`], with further requirements.
+    ///
+    /// # Errors
+    /// As [`Self::read`].
+    pub fn read_with(
+        path: &Path,
+        settings: &[Setting],
+        required: &[Requirement],
+    ) -> Result<Self, InvalidDefinition> {
+        let mut entries = read_entries(path, settings)?;
+        for requirement in required {
+            require(&mut entries, requirement);
+        }
+        Self::of_entries(&entries, &path.display().to_string())
+    }
+
     /// The goal that `text`, from the file `name`, holds once `settings` are put in its place.
     ///
     /// # Errors
@@ -66,12 +82,22 @@ impl DesignGoal {
         if !refused.is_empty() {
             return Err(several(refused));
         }
-        let GoalSection { objectives, requirements, sound, samples, points, skins, seed, .. } =
-            section;
+        let GoalSection {
+            objectives,
+            requirements,
+            standards,
+            sound,
+            samples,
+            points,
+            skins,
+            seed,
+            ..
+        } = section;
         Ok(Self {
             space,
             objectives: objectives.into_iter().map(|(objective, _)| objective).collect(),
             requirements: requirements.into_iter().map(|(requirement, _)| requirement).collect(),
+            standards,
             fitness,
             sound,
             samples,
@@ -80,6 +106,21 @@ impl DesignGoal {
             seed,
             text: to_toml(entries),
         })
+    }
+}
+
+/// Adds a requirement to those that a goal has.
+fn require(entries: &mut KeyValues, requirement: &Requirement) {
+    let (name, text) = ("require", requirement.to_string());
+    let place = Place::Argument(format!("--require {text}").into());
+    let goal = entries.iter_mut().find(|entry| entry.key == "goal");
+    // A definition without a goal is refused later, by what it lacks.
+    let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };
+    let own = goal.iter_mut().find(|entry| entry.key == name).map(|entry| &mut entry.value);
+    match own {
+        Some(Value::List(all)) => all.push(Value::Text(text)),
+        Some(one) => *one = Value::List(vec![one.clone(), Value::Text(text)]),
+        None => goal.push(KeyValue { key: name.into(), value: Value::Text(text), place }),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use ranking::{Criterion, Goal, Relation, Requirement};
+use ranking::{Criterion, Goal, Relation, Requirement, Standard};
 use sweep::toml_source::{KeyValue, Place, Value};
 use sweep::{InvalidDefinition, Problem, nearest};
 
@@ -13,9 +13,9 @@ use super::refusal::{not_accepted, refuse};
 const MOST_OBJECTIVES: usize = 4;
 
 /// Keys of the section.
-const KEYS: [&str; 10] = [
-    "maximize", "minimize", "require", "weights", "rescale", "sound", "samples", "points", "skins",
-    "seed",
+const KEYS: [&str; 11] = [
+    "maximize", "minimize", "require", "protects", "weights", "rescale", "sound", "samples",
+    "points", "skins", "seed",
 ];
 
 /// A column, and the key and the place where it is written.
@@ -29,6 +29,7 @@ pub(super) struct Written<'a> {
 pub(super) struct GoalSection {
     pub objectives: Vec<(Criterion, Place)>,
     pub requirements: Vec<(Requirement, Place)>,
+    pub standards: Vec<&'static Standard>,
     pub fitness: FitnessSection,
     pub sound: bool,
     pub samples: usize,
@@ -43,6 +44,7 @@ impl Default for GoalSection {
         Self {
             objectives: Vec::new(),
             requirements: Vec::new(),
+            standards: Vec::new(),
             fitness: FitnessSection::default(),
             sound: true,
             samples: 128,
@@ -61,6 +63,7 @@ impl GoalSection {
             "maximize" => self.objectives(entry, Goal::Maximize)?,
             "minimize" => self.objectives(entry, Goal::Minimize)?,
             "require" => self.requirements(entry)?,
+            "protects" => self.levels(entry)?,
             "weights" => self.fitness.weights(entry)?,
             "rescale" => self.fitness.rescale(entry)?,
             "sound" => self.sound = switch(entry)?,
@@ -110,6 +113,18 @@ impl GoalSection {
             let expected = format!("at most {MOST_OBJECTIVES} objectives");
             let found = format!("{} objectives", self.objectives.len());
             return Err(not_accepted(&entry.place, "goal.maximize", found, expected));
+        }
+        Ok(())
+    }
+
+    /// Levels of standards, which are requirements by name.
+    fn levels(&mut self, entry: &KeyValue) -> Result<(), InvalidDefinition> {
+        let expected = format!("a level of a standard: {}", Standard::levels());
+        for text in texts(entry, &expected)? {
+            let level = Standard::requirement(text);
+            let (standard, level) = level.ok_or_else(|| wrong(entry, text, expected.as_str()))?;
+            self.requirements.push((level, entry.place.clone()));
+            self.standards.push(standard);
         }
         Ok(())
     }

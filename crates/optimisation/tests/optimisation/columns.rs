@@ -21,19 +21,33 @@ fn value(column: &Column<DesignRow>, row: &DesignRow) -> Option<f64> {
 
 #[test]
 fn whatever_a_column_makes_of_measures_and_parameters() {
-    let sweep = Sweep::parse(TEXT, "x.toml", &[]).expect("a sweep");
+    let keys = ["gap_over_t", "length_over_t", "slant_deg", "poisson_ratio", "thickness_mm"];
+    columns_have_the_derivatives_of_solved_designs(TEXT, &keys);
+}
+
+/// By the chain rule: a thickness moves all lengths that are given in mm, and a pitch what it says.
+#[test]
+fn lengths_in_mm_too() {
+    let text = "name = 'x'\ndesigns = { gap_mm = 0.48, pitch_mm = 1.53, slant_deg = 41 }\n\
+        scale.width_mm = 1.5\nflexure.membrane_thickness_mm = 0.2\n\
+        [material]\nthickness_mm = 1.3\nsubstrate_modulus_MPa = 0.4\nmembrane_modulus_MPa = 2\nscale_density_kg_m3 = 1100\n";
+    let keys = ["gap_mm", "pitch_mm", "width_mm", "membrane_thickness_mm", "thickness_mm"];
+    columns_have_the_derivatives_of_solved_designs(text, &keys);
+}
+
+fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
+    let sweep = Sweep::parse(text, "x.toml", &[]).expect("a sweep");
     let case = sweep.grid().case(0);
     let all = Evaluator::new(&Measure::ALL);
     let plain = Evaluator::new(&Measure::USUAL);
     let row = solved(&all, &sweep, &case);
     let mut compared = 0;
-    for key in ["gap_over_t", "length_over_t", "slant_deg", "poisson_ratio", "thickness_mm"] {
+    for key in keys {
         let parameter = Parameter::named(key).expect("a parameter");
         let step = 1e-4 * parameter.size(&case).expect("a size");
         let near = |by: f64| solved(&plain, &sweep, &parameter.moved(&case, by).expect("a case"));
         let [below, above] = [-step, step].map(near);
-        let moved =
-            |by| row.extrapolated(&parameter.moved(&case, by).expect("a case"), SlopeSide::Right);
+        let moved = |by| row.extrapolated_by(parameter, by, SlopeSide::Right).expect("a number");
         let [low, high] = [-step, step].map(moved);
         for column in design_columns(&sweep) {
             let name = column.name.as_ref();

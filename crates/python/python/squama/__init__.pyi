@@ -130,12 +130,17 @@ class Skin:
         self,
         *,
         gap_over_t: float | None = None,
+        gap_mm: float | None = None,
         length_over_t: float | None = None,
+        length_mm: float | None = None,
+        pitch_mm: float | None = None,
         slant_deg: float,
         base: str | None = None,
         width_over_t: float | None = None,
+        width_mm: float | None = None,
         poisson_ratio: float | None = None,
         tissue_thickness_over_t: float | None = None,
+        tissue_thickness_mm: float | None = None,
         coupling: str | None = None,
         law: str | None = None,
         c1: float | None = None,
@@ -144,6 +149,7 @@ class Skin:
         scales: int | str | None = None,
         load_position: float | None = None,
         load_inset_over_t: float | None = None,
+        load_inset_mm: float | None = None,
         needle: str | None = None,
         critical_tilt_deg: float | Sequence[float] | None = None,
         needle_friction: float | Sequence[float] | str | None = None,
@@ -152,9 +158,12 @@ class Skin:
         contact_modulus_over_substrate: float | None = None,
         method: str | None = None,
         membrane_length_over_t: float | None = None,
+        membrane_length_mm: float | None = None,
         gaps: int | str | None = None,
         membrane_thickness_over_t: float | None = None,
+        membrane_thickness_mm: float | None = None,
         membrane_axis_offset_over_t: float | None = None,
+        membrane_axis_offset_mm: float | None = None,
         elements_per_gap: int | str | None = None,
         max_end_rotation_deg: float | None = None,
         contact_modulus_over_membrane: float | None = None,
@@ -172,20 +181,17 @@ class Skin:
         substrate_modulus_MPa: float | None = None,
         membrane_modulus_MPa: float | None = None,
         scale_density_kg_m3: float | None = None,
-        # Lengths in mm, together with thickness_mm.
-        gap_mm: float | None = None,
-        length_mm: float | None = None,
-        load_inset_mm: float | None = None,
-        membrane_axis_offset_mm: float | None = None,
-        membrane_length_mm: float | None = None,
-        membrane_thickness_mm: float | None = None,
-        tissue_thickness_mm: float | None = None,
-        width_mm: float | None = None,
     ) -> None: ...
     @property
     def gap_over_t(self) -> float: ...
     @property
+    def gap_mm(self) -> float | None: ...
+    @property
     def length_over_t(self) -> float: ...
+    @property
+    def length_mm(self) -> float | None: ...
+    @property
+    def pitch_mm(self) -> float | None: ...
     @property
     def slant_deg(self) -> float: ...
     @property
@@ -193,9 +199,13 @@ class Skin:
     @property
     def width_over_t(self) -> float: ...
     @property
+    def width_mm(self) -> float | None: ...
+    @property
     def poisson_ratio(self) -> float: ...
     @property
     def tissue_thickness_over_t(self) -> float | None: ...
+    @property
+    def tissue_thickness_mm(self) -> float | None: ...
     @property
     def coupling(self) -> str: ...
     @property
@@ -213,6 +223,8 @@ class Skin:
     @property
     def load_inset_over_t(self) -> float | None: ...
     @property
+    def load_inset_mm(self) -> float | None: ...
+    @property
     def needle(self) -> str: ...
     @property
     def critical_tilt_deg(self) -> float | Sequence[float]: ...
@@ -229,11 +241,17 @@ class Skin:
     @property
     def membrane_length_over_t(self) -> float: ...
     @property
+    def membrane_length_mm(self) -> float | None: ...
+    @property
     def gaps(self) -> int | str: ...
     @property
     def membrane_thickness_over_t(self) -> float: ...
     @property
+    def membrane_thickness_mm(self) -> float | None: ...
+    @property
     def membrane_axis_offset_over_t(self) -> float: ...
+    @property
+    def membrane_axis_offset_mm(self) -> float | None: ...
     @property
     def elements_per_gap(self) -> int | str: ...
     @property

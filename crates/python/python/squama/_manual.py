@@ -50,8 +50,6 @@ _SKIN = '''class Skin:
         self,
         *,
 {parameters}
-        # Lengths in mm, together with thickness_mm.
-{in_mm}
     ) -> None: ...
 {attributes}
     @property
@@ -77,17 +75,13 @@ def stub(text):
     all_of = [(key, _type(expected), default) for key, *_, expected, default in parameters()]
     geometry = {key for key, section, *_ in parameters() if section == "designs"}
     # A length may be given in mm in the place of this one.
-    required = {key for key in geometry if not key.endswith("_over_t")}
+    required = {key for key in geometry if not key.endswith(("_over_t", "_mm"))}
     given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
-    known = {key for key, *_ in all_of}
-    in_mm = [key.removesuffix("_over_t") + "_mm" for key in sorted(known) if key.endswith("_over_t")]
-    in_mm = [key for key in in_mm if key not in known]
     # A parameter without a default is an attribute that may be None.
-    attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry else ' | None'}: ..."
+    attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry and not key.endswith("_mm") else ' | None'}: ..."
                   for key, of, default in all_of]
     return text.split(MARK)[0] + MARK + "\n" + _SKIN.format(
         parameters="\n".join(given),
-        in_mm="\n".join(f"        {key}: float | None = None," for key in in_mm),
         attributes="\n".join(attributes),
     )
 

@@ -6,9 +6,10 @@ from ._squama import Skin
 
 def replace(self, **parameters):
     """A skin with other values of some parameters; ``None`` is the default."""
-    # A length in mm takes the place of the same length over t.
-    over_t = {name.removesuffix("_mm") + "_over_t" for name in parameters if name.endswith("_mm")}
-    kept = {name: value for name, value in self.parameters.items() if name not in over_t}
+    # A length takes the place of the same length in the other unit.
+    lengths = {name.removesuffix("_mm") for name in parameters} | {name.removesuffix("_over_t") for name in parameters}
+    other = {f"{name}{unit}" for name in lengths for unit in ("_mm", "_over_t")} - {"thickness_mm"}
+    kept = {name: value for name, value in self.parameters.items() if name not in other}
     return Skin(**kept | parameters)
 
 

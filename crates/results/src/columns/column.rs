@@ -78,6 +78,14 @@ fn header(parameter: &Parameter) -> &'static str {
     }
 }
 
+/// Whether the column `name` of a table with these headers tells its designs apart: it is that of a parameter, and of no length in
+/// mm that stands there over the thickness too.
+pub fn tells_apart(name: &str, headers: &[String]) -> bool {
+    let over_t = parameter_of(name).map(Parameter::over_t);
+    let stands = |of: &Parameter| headers.iter().any(|header| header == of.key);
+    over_t.is_some_and(|over_t| !over_t.is_some_and(stands))
+}
+
 /// The parameter whose column has that header.
 pub fn parameter_of(name: &str) -> Option<&'static Parameter> {
     PARAMETERS.iter().find(|parameter| header(parameter) == name)

@@ -5,7 +5,7 @@
 //! column can be read off that row, in newtons, over a mass or as a margin: its difference over 0.001 is its derivative.
 
 use skin::flexure::FlexureMeasures;
-use sweep::{Case, Measure, PARAMETERS, Parameter};
+use sweep::{Case, Measure, PARAMETERS, Parameter, Role};
 
 use super::design_result::DesignResult;
 use super::parameter_derivative::ParameterDerivative;
@@ -45,7 +45,13 @@ impl DesignRow {
     /// As [`Self::extrapolated`], of the case whose `parameter` is larger `by` so much; `None` if the parameter is no number.
     pub fn extrapolated_by(&self, parameter: &Parameter, by: f64, side: SlopeSide) -> Option<Self> {
         let to = parameter.moved(&self.case, by)?;
-        Some(self.changed(&to, &[MovedParameter { parameter, by }], side))
+        // A length in mm, or a thickness, moves lengths over the thickness; measures have their derivatives by those.
+        let changes = if parameter.has(Role::Continuous) {
+            vec![MovedParameter { parameter, by }]
+        } else {
+            changes(&self.case, &to)
+        };
+        Some(self.changed(&to, &changes, side))
     }
 
     fn changed(&self, to: &Case, changes: &[MovedParameter<'_>], side: SlopeSide) -> Self {

@@ -33,8 +33,13 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     };
     let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
     // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction, a depth one unit.
-    let names_without = |others: [&str; 4]| {
-        let chosen = sweep::PARAMETERS.iter().filter(|p| !others.contains(&p.key));
+    let names_without = |others: [&str; 4], in_mm: bool| {
+        // A length is given in one unit, and none in mm has a place beside those that say it in other ways.
+        let is_other = |p: &sweep::Parameter| {
+            let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
+            unit || p.key == "pitch_mm" || others.contains(&p.key)
+        };
+        let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));
         let axes: String = chosen.map(axis).collect();
         let sweep = sweep(&format!("name = 'x'\n[designs]\n{axes}"));
         results::columns::design_columns(&sweep)
@@ -42,15 +47,13 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
             .map(|c| c.name.into_owned())
             .collect::<Vec<_>>()
     };
-    let mut names = names_without(["gaps", "needle_friction", "depth_mm", "load_inset_over_t"]);
+    let mut names = names_without(["gaps", "needle_friction", "load_inset_over_t", "-"], false);
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
-    let others = names_without([
-        "membrane_length_over_t",
-        "critical_tilt_deg",
-        "depth_over_t",
-        "load_position",
-    ]);
-    assert!(["gaps_asked", "needle_friction"].iter().all(|name| others.iter().any(|n| n == name)));
+    let others =
+        names_without(["membrane_length_mm", "critical_tilt_deg", "load_position", "-"], true);
+    let expected =
+        ["gaps_asked", "needle_friction", "gap_mm", "load_inset_mm", "tissue_thickness_mm"];
+    assert!(expected.iter().all(|name| others.iter().any(|n| n == name)));
     let count = names.len();
     names.sort_unstable();
     names.dedup();
@@ -96,4 +99,25 @@ fn several_critical_tilts_have_columns_of_their_own() {
         by_friction.contains(",critical_force_at_friction_0.1,critical_force_at_friction_0.2,")
     );
     assert_eq!(added("puncture.needle_friction = 0.1").concat(), "");
+}
+
+/// With a thickness every design has its lengths in mm, once, whichever of them are axes; and two columns never tell the same apart.
+#[test]
+fn a_thickness_gives_lengths_in_mm() {
+    let designs = |text: &str| headers(text).lines().next().expect("designs.csv").to_owned();
+    assert!(!designs("name = 'x'").contains("_mm"));
+    let material = "name = 'x'\nmaterial.thickness_mm = 2\n";
+    let added = "width_over_t,gap_mm,length_mm,width_mm,pitch_mm";
+    let plain = designs(material);
+    assert!(plain.contains(added), "{plain}");
+    for axis in ["gap_mm = 1", "pitch_mm = 9", "width_mm = [2, 3]", "width_over_t = 1"] {
+        let with = designs(&format!("{material}[designs]\n{axis}"));
+        let headers: Vec<String> = with.split([',', ' ']).map(str::to_owned).collect();
+        for name in added.split(',') {
+            assert_eq!(headers.iter().filter(|header| *header == name).count(), 1, "{with}");
+        }
+        let apart = ["gap_over_t", "length_over_t", "width_over_t"];
+        assert!(apart.iter().all(|name| results::columns::tells_apart(name, &headers)));
+        assert!(!results::columns::tells_apart("gap_mm", &headers));
+    }
 }

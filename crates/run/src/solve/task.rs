@@ -49,7 +49,9 @@ impl<'a> Task<'a> {
     pub fn solve(&self, index: u64) -> JournalEntry {
         let begun = self.clock.elapsed();
         let grid = self.grid();
-        let solved = self.evaluator.solve_metered(grid.number(index), &grid.case(index), self.work);
+        let number = grid.number(index);
+        let solve = || self.evaluator.solve_metered(number, &grid.case(index), self.work);
+        let solved = self.work.told(&number.to_string(), solve);
         let mut result = solved.row.result;
         result.settings.clone_from(&self.settings);
         let at = self.clock.elapsed();

@@ -3,18 +3,60 @@
 
 use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 use skin::flexure::{Method, whole_gaps};
+use solver::{FarAlong, watched};
 use sweep::{Case, Measure};
+
+/// The time that a design may take before it is told how far it is.
+const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The work that a run has and that it has done, counted in paths of one row or one gap. Any thread may look at it.
 #[derive(Debug, Default)]
 pub struct WorkMeter {
     all: AtomicU64,
     done: AtomicU64,
+    slow: Arc<Mutex<Vec<String>>>,
+}
+
+/// Does the work of one design, and tells in words how far it is if it takes longer than five seconds.
+pub fn told<T>(design: &str, tell: impl Fn(String) + 'static, work: impl FnOnce() -> T) -> T {
+    told_after(PATIENCE, design, tell, work)
+}
+
+fn told_after<T>(
+    patience: Duration,
+    design: &str,
+    tell: impl Fn(String) + 'static,
+    work: impl FnOnce() -> T,
+) -> T {
+    let design = design.to_owned();
+    let words = move |far: FarAlong| {
+        // Rest may be a negative zero.
+        let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
+        let FarAlong { points, .. } = far;
+        tell(format!(
+            "design {design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the last angle"
+        ));
+    };
+    watched(patience, words, work)
 }
 
 impl WorkMeter {
+    /// Takes what is to be told of designs that take long.
+    pub fn take_slow(&self) -> Vec<String> {
+        std::mem::take(&mut *self.slow.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Does the work of one design, and keeps for [`Self::take_slow`] how far it is if it takes long.
+    pub(crate) fn told<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
+        let slow = Arc::clone(&self.slow);
+        let tell = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
+        told(design, tell, work)
+    }
+
     /// The share of the work that is done, from 0 to 1.
     pub fn share(&self) -> f64 {
         let [done, all] = [&self.done, &self.all].map(|units| units.load(Ordering::Relaxed));
@@ -122,6 +164,20 @@ mod tests {
         assert_eq!(work_of(&perfect, &Measure::ALL), 3);
         assert_eq!(work_of(&uneven, &Measure::ALL), 3 + 7 * (1 + 50));
         assert_eq!(work_of(&uneven, &[Measure::Puncture]), 2 + 7);
+    }
+
+    #[test]
+    fn a_design_that_takes_long_tells_how_far_it_is() {
+        let text = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 0.9\nslant_deg = 60";
+        let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+        let (case, number) = (sweep.grid().case(0), sweep.grid().number(0));
+        let evaluator = crate::Evaluator::new(&[Measure::Puncture]);
+        let (told, heard) = (Arc::<Mutex<Vec<String>>>::default(), Duration::ZERO);
+        let tell = Arc::clone(&told);
+        let tell = move |text| tell.lock().expect("a lock").push(text);
+        told_after(heard, "0417", tell, || evaluator.solve(number, &case));
+        let told = told.lock().expect("a lock").join("\n");
+        assert!(told.starts_with("design 0417: 0 s so far, 1 points, at 0.0 %"), "{told}");
     }
 
     #[test]

@@ -17,6 +17,7 @@
 //! | `tilts` | measures at tilts on the way, against paths that end there |
 //! | `rubbing` | friction between scales: independent programs, steps, work |
 //! | `robustness` | the 720 designs of the reference study and random ones |
+//! | `widest` | random ones in the widest ranges of a definition |
 
 mod ends;
 mod first_contact;
@@ -35,6 +36,7 @@ mod snapshots;
 mod steps;
 mod tilts;
 mod two_blocks;
+mod widest;
 
 use approx::assert_relative_eq;
 use skin::Status;

@@ -106,11 +106,11 @@ pub fn long_campaigns() -> bool {
 }
 
 /// The generator of Steele, Lea & Flood 2014 (doi 10.1145/2660193.2660195).
-struct SplitMix64(u64);
+pub struct SplitMix64(pub u64);
 
 impl SplitMix64 {
     /// Evenly distributed in `[0, 1)`.
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

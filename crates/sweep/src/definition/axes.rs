@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::invalid::Problem;
+use crate::case::Case;
 use crate::decimal::{self, Decimal};
 use crate::grid::Axis;
 use crate::parameter::{Parameter, Scalar, WrongValue};
@@ -99,10 +100,13 @@ fn decimal(value: &Value) -> Result<Decimal, String> {
 }
 
 /// `written` with the axes that are not, in the order in which they vary: what is not written
-/// first (slowest), then as written, the slant last.
-pub(crate) fn ordered(mut written: Vec<Axis>) -> Vec<Axis> {
-    let is_missing =
-        |axis: &Axis| written.iter().all(|other| other.parameter().key != axis.parameter().key);
+/// first (slowest), then as written, the slant last. An axis may be written in another way, as the gap by a pitch.
+pub(crate) fn ordered(mut written: Vec<Axis>, base: &Case) -> Vec<Axis> {
+    let says = |other: &Axis, parameter: &Parameter| {
+        let other = other.parameter();
+        other == parameter || other.said_in(base) == Some(parameter)
+    };
+    let is_missing = |axis: &Axis| !written.iter().any(|other| says(other, axis.parameter()));
     let mut axes: Vec<Axis> = paper().into_iter().filter(is_missing).collect();
     axes.append(&mut written);
     // Stable, so that everything else keeps its order.

@@ -15,7 +15,7 @@ const EXAMPLE: &str =
 
 /// The deviation that an entry of the table describes.
 pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
-    let Some((parameter, in_mm)) = Deviation::parameter_of(&entry.key) else {
+    let Some(parameter) = Parameter::named(&entry.key).filter(|p| p.has(Role::Made)) else {
         return Err(unknown(entry));
     };
     let Value::Table(entries) = &entry.value else {
@@ -42,7 +42,7 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
     if batch.is_none() && scale_sd.is_none() {
         return Err(wrong(entry, format!("no deviation, expected {EXAMPLE}")));
     }
-    Ok(Deviation { parameter, in_mm, batch, scale_sd })
+    Ok(Deviation { parameter, batch, scale_sd })
 }
 
 /// The number of a key, if it is there.
@@ -69,7 +69,7 @@ fn unknown(entry: &KeyValue) -> Problem {
     let known: Vec<_> = possible.map(|parameter| parameter.key).collect();
     let hint = match suggestion::nearest(&entry.key, &known) {
         Some(near) => format!("did you mean {near}?"),
-        None => format!("expected one of {}, or a length in mm, as gap_mm", known.join(", ")),
+        None => format!("expected one of {}", known.join(", ")),
     };
     Problem::Unknown { value: entry.value.to_string(), hint }
 }

@@ -101,6 +101,30 @@ pub enum Problem {
         /// Where that stands.
         place: Place,
     },
+    /// A pitch besides a gap and a length.
+    #[error(
+        "cannot be combined with {other} at {place}: the pitch is base and gap; keep two of gap, length and pitch"
+    )]
+    Pitch {
+        /// One of the other keys.
+        other: String,
+        /// Where that stands.
+        place: Place,
+    },
+    /// A length in mm that no skin of that thickness has.
+    #[error("{value} with {beside} makes {key} {found}, expected {expected}")]
+    LengthInMm {
+        /// The length in mm.
+        value: String,
+        /// The keys and values beside it.
+        beside: String,
+        /// The parameter that follows.
+        key: &'static str,
+        /// Its value.
+        found: String,
+        /// The values that would be right.
+        expected: String,
+    },
     /// A deviation in a unit that only another key gives.
     #[error("needs {other} to be set")]
     Needs {

@@ -3,6 +3,7 @@
 use super::axes;
 use super::deviations;
 use super::invalid::{InvalidDefinition, Problem, refuse};
+use super::lengths;
 use super::measure::Measure;
 use super::suggestion;
 use super::variables;
@@ -133,6 +134,8 @@ impl Reader {
 
     /// The sweep, once every key of `file` is understood; or everything that is wrong with it.
     pub fn finish(mut self, file: &Place) -> Result<Sweep, InvalidDefinition> {
+        // Beside a gap the pitch says how long a scale is.
+        self.case.in_mm.pitch_says_length = self.says(key::PITCH) && self.says(key::GAP);
         let contradictions: Vec<_> = self.contradictions().collect();
         // A default in the place of a refused step says nothing about the others.
         let steps = if self.refused.is_empty() { self.check_steps(file) } else { Ok(()) };
@@ -143,41 +146,55 @@ impl Reader {
         self.refused.extend(without_unit);
         self.refused.extend(self.check_alternatives().err());
         self.refused.extend(self.check_needle().err());
-        self.refused.extend(self.check_depth().err());
+        let without_thickness: Vec<_> = self.lengths_without_thickness().collect();
+        self.refused.extend(without_thickness);
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
-        InvalidDefinition::of(self.refused)?;
+        InvalidDefinition::of(std::mem::take(&mut self.refused))?;
+        let written: Vec<_> = self.written().map(|(k, p, place)| (k, p, place.clone())).collect();
         let measures = self.measures.unwrap_or_else(|| Measure::USUAL.to_vec());
         let variables: Vec<_> = self.variables.into_iter().map(|(variable, _)| variable).collect();
         let deviations = self.deviations.into_iter().map(|(deviation, _)| deviation).collect();
         // A variable stands in the middle of its values until it is searched over or drawn.
         let middle = |v: &Variable| Axis::list(v.parameter(), vec![v.at(0.5)]);
-        let written = self.axes.into_iter().map(|written| written.axis);
-        let axes = axes::ordered(written.chain(variables.iter().map(middle)).collect());
+        let axes = self.axes.into_iter().map(|written| written.axis);
+        let axes = axes::ordered(axes.chain(variables.iter().map(middle)).collect(), &self.case);
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
+        for (key, parameter, place) in written.iter().filter(|(_, p, _)| p.is_in_mm()) {
+            let checked = lengths::check(parameter, &grid, &variables);
+            checked.map_err(|problem| refuse(place, key, problem))?;
+        }
         Ok(Sweep { name: self.name.unwrap_or_default(), measures, grid, variables, deviations })
     }
 
-    /// Every variable that is also given a value, itself or its alternative.
+    /// Every variable that is also given a value, itself or in another way.
     fn fixed_variables(&self) -> impl Iterator<Item = InvalidDefinition> {
-        self.variables.iter().filter_map(|(variable, place)| {
+        let variables = self.variables.iter().enumerate();
+        variables.filter_map(|(k, (variable, place))| {
             let parameter = variable.parameter();
-            let alternative = parameter.alternative_in(&self.case);
-            let alternative = alternative.filter(|other| !self.leaves_open(other));
-            let mut both = std::iter::once(parameter).chain(alternative);
-            let (fixed, there) = both.find_map(|fixed| Some((fixed, self.place(fixed.key)?)))?;
-            let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
-            let section = if is_axis { "designs" } else { fixed.section };
-            let other = format!("{section}.{}", fixed.key);
+            let others = parameter.others_in(&self.case).filter(|other| !self.leaves_open(other));
+            let mut all = std::iter::once(parameter).chain(others);
+            let earlier = |other: &Parameter| {
+                let (_, there) =
+                    self.variables[..k].iter().find(|(v, _)| v.parameter() == other)?;
+                Some((format!("{}.{}", suggestion::VARIABLES, other.key), there))
+            };
+            let (fixed, (other, there)) = all.find_map(|fixed| {
+                let is_axis = self.axes.iter().any(|axis| axis.axis.parameter() == fixed);
+                let section = if is_axis { "designs" } else { fixed.section };
+                let given = self.place(fixed.key);
+                let given = given.map(|there| (format!("{section}.{}", fixed.key), there));
+                Some((fixed, given.or_else(|| earlier(fixed))?))
+            })?;
             let key = format!("{}.{}", suggestion::VARIABLES, parameter.key);
-            Some(refuse(place, &key, Problem::Alternative { other, place: there.clone() }))
+            Some(refuse(place, &key, conflict(parameter, fixed, other, there)))
         })
     }
 
     /// Every deviation of a material, or in mm, of a skin whose material or thickness is not given.
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
-            let needed = deviation.needs().find(|needed| self.place(needed).is_none())?;
+            let needed = deviation.needs().find(|needed| !self.says(needed))?;
             let problem = Problem::Needs { other: Parameter::named(needed)?.path() };
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
             Some(refuse(place, &key, problem))
@@ -233,15 +250,14 @@ impl Reader {
         Err(refuse(place, &parameter.path(), Problem::from(wrong)))
     }
 
-    /// Refuses a depth in mm of scales whose thickness is not given.
-    fn check_depth(&self) -> Result<(), InvalidDefinition> {
-        let Some(place) =
-            self.place(key::DEPTH_MM).filter(|_| self.place(key::THICKNESS).is_none())
-        else {
-            return Ok(());
-        };
-        let problem = Problem::Needs { other: format!("material.{}", key::THICKNESS) };
-        Err(refuse(place, &format!("puncture.{}", key::DEPTH_MM), problem))
+    /// Every length in mm of scales whose thickness is not given.
+    fn lengths_without_thickness(&self) -> impl Iterator<Item = InvalidDefinition> {
+        let unknown = !self.says(key::THICKNESS);
+        let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
+        in_mm.map(|(key, _, place)| {
+            let other = format!("material.{}", key::THICKNESS);
+            refuse(place, &key, Problem::Needs { other })
+        })
     }
 
     /// Refuses a parameter that `gives` a value if its alternative does too.
@@ -251,13 +267,12 @@ impl Reader {
         place: &Place,
         gives: bool,
     ) -> Result<(), InvalidDefinition> {
-        let other = parameter.alternative_in(&self.case);
-        let other = other.filter(|other| gives && !self.leaves_open(other));
-        let Some((other, there)) = other.and_then(|other| Some((other, self.place(other.key)?)))
+        let mut others = parameter.others_in(&self.case).filter(|p| gives && !self.leaves_open(p));
+        let Some((other, there)) = others.find_map(|other| Some((other, self.place(other.key)?)))
         else {
             return Ok(());
         };
-        let problem = Problem::Alternative { other: other.path(), place: there.clone() };
+        let problem = conflict(parameter, other, other.path(), there);
         Err(refuse(place, &parameter.path(), problem))
     }
 
@@ -295,11 +310,39 @@ impl Reader {
         )
     }
 
+    /// The parameters that are written, with their dotted keys and places.
+    fn written(&self) -> impl Iterator<Item = (String, &'static Parameter, &Place)> {
+        let shared = self.shared.iter().map(|(p, place)| (p.path(), *p, place));
+        let axes = self.axes.iter().map(|WrittenAxis { axis, place }| {
+            (format!("designs.{}", axis.parameter().key), axis.parameter(), place)
+        });
+        let variables = self.variables.iter().map(|(variable, place)| {
+            let parameter = variable.parameter();
+            (format!("{}.{}", suggestion::VARIABLES, parameter.key), parameter, place)
+        });
+        shared.chain(axes).chain(variables)
+    }
+
+    /// Whether a parameter is written, itself or in mm.
+    fn says(&self, key: &str) -> bool {
+        self.written().any(|(_, parameter, _)| parameter.is_or_says(key))
+    }
+
     /// The place at which a parameter is written.
     fn place(&self, key: &str) -> Option<&Place> {
         let axes = self.axes.iter().map(|written| (written.axis.parameter(), &written.place));
         let shared = self.shared.iter().map(|(parameter, place)| (*parameter, place));
         axes.chain(shared).find(|(parameter, _)| parameter.key == key).map(|(_, place)| place)
+    }
+}
+
+/// Why two parameters cannot both be given.
+fn conflict(one: &Parameter, two: &Parameter, other: String, there: &Place) -> Problem {
+    let place = there.clone();
+    if one == two || [one, two].iter().all(|parameter| parameter.key != key::PITCH) {
+        Problem::Alternative { other, place }
+    } else {
+        Problem::Pitch { other, place }
     }
 }
 

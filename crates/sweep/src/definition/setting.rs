@@ -122,9 +122,10 @@ impl Setting {
         let is_needle =
             parameter.key == key::NEEDLE_FRICTION || parameter.key == key::CRITICAL_TILT;
         // Under a guided needle tilt and friction are two things.
-        if let Some(other) = parameter.alternative().filter(|_| !(is_guided && is_needle)) {
-            drop_from_file(table, "designs", other.key);
-            drop_from_file(table, other.section, other.key);
+        for other in parameter.others().filter(|_| !(is_guided && is_needle)) {
+            for section in ["designs", VARIABLES, other.section] {
+                drop_from_file(table, section, other.key);
+            }
         }
     }
 }

@@ -14,6 +14,14 @@ pub(crate) const TOLERANCE: &str = "tolerance";
 /// Keys outside of the sections of parameters.
 const TOP: [&str; 4] = ["name", "measures", VARIABLES, TOLERANCE];
 
+/// Endings of names that are units.
+const UNITS: [&str; 7] = ["_over_t", "_mm", "_deg", "_MPa", "_kg_m2", "_kg_m3", "_N"];
+
+/// The quantity that a name stands for, without its unit.
+fn quantity(name: &str) -> &str {
+    UNITS.iter().find_map(|unit| name.strip_suffix(unit)).unwrap_or(name)
+}
+
 /// Whether a definition has a section of that name.
 pub(crate) fn is_section(key: &str) -> bool {
     sections().contains(&key)
@@ -28,11 +36,20 @@ pub(crate) fn sections() -> Vec<&'static str> {
 
 /// A suggestion of what to write instead of `key` in `section` (empty: outside of the sections).
 pub(crate) fn for_key(section: &str, key: &str) -> String {
-    if let Some(parameter) = Parameter::named(key) {
-        return format!("did you mean {}?", parameter.path());
-    }
     let known = keys_of(section);
-    match nearest(key, &known) {
+    if let Some(parameter) = Parameter::named(key) {
+        // A thickness of the substrate is that of the tissue, before it is that of the scales.
+        let end = format!("_{key}");
+        let own = known.iter().find(|own| parameter.section != section && own.ends_with(&end));
+        let path = own.map_or_else(|| parameter.path(), |own| format!("{section}.{own}"));
+        return format!("did you mean {path}?");
+    }
+    // A length without a unit is first of all one over the thickness; it is longer to type, which must not count.
+    let over_t = |near: &'static str| {
+        let of = Parameter::named(near).filter(|_| !key.ends_with('m')).and_then(Parameter::over_t);
+        of.map_or(near, |of| of.key)
+    };
+    match nearest(key, &known).map(over_t) {
         Some(near) if section.is_empty() => format!("did you mean {near}?"),
         Some(near) => format!("did you mean {section}.{near}?"),
         None => format!("expected one of {}", known.join(", ")),
@@ -56,14 +73,25 @@ pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
     if let Some(whole) = candidates.iter().find(|candidate| !key.is_empty() && goes_on(candidate)) {
         return Some(whole);
     }
+    // A word of several names, as `force` is, is no slip of the pen for one of them.
+    if candidates.iter().filter(|c| c.split('_').any(|word| word == key)).count() > 1 {
+        return None;
+    }
+    // A name with a unit stands for something that has one: `gap_mm` is neither `gaps` nor `gap_cv`.
+    let (has_unit, all) = (quantity(key) != key, candidates);
+    let kept: Vec<&'c str> =
+        all.iter().copied().filter(|c| !has_unit || quantity(c) != *c).collect();
+    if has_unit && let Some(same) = kept.iter().find(|c| quantity(c) == quantity(key)) {
+        return Some(same);
+    }
     let typos = |candidate: &str| strsim::damerau_levenshtein(key, candidate);
-    let typed = candidates.iter().min_by_key(|candidate| typos(candidate))?;
+    let typed = kept.iter().min_by_key(|candidate| typos(candidate))?;
     if typos(typed) <= key.chars().count() / 3 {
         return Some(typed);
     }
     // A part of a key, say `slant`, is far from it in typos.
     let similarity = |candidate: &str| strsim::jaro_winkler(key, candidate);
-    let alike = candidates.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
+    let alike = kept.iter().max_by(|a, b| similarity(a).total_cmp(&similarity(b)))?;
     (similarity(alike) > 0.8).then_some(alike)
 }
 
@@ -80,6 +108,12 @@ mod tests {
         assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");
         assert_eq!(for_key("flexure", "gap"), "did you mean flexure.gaps?");
         assert_eq!(for_key("scale", "c2"), "did you mean contact.c2?");
+        let tissue = "did you mean substrate.tissue_thickness_mm?";
+        assert_eq!(for_key("substrate", "thickness_mm"), tissue);
+        assert_eq!(for_key("scale", "width"), "did you mean scale.width_over_t?");
+        assert_eq!(for_key("scale", "width_m"), "did you mean scale.width_mm?");
+        assert_eq!(nearest("gap_mm", &["gaps", "gap_cv", "bend_radius_mm"]), None);
+        assert_eq!(nearest("force", &["fold_force_N", "critical_force"]), None);
         assert_eq!(for_key("", "conatct"), "did you mean contact?");
         assert_eq!(for_key("", "mesures"), "did you mean measures?");
     }

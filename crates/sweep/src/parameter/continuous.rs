@@ -1,7 +1,7 @@
 //! Parameters that change continuously: what has derivatives with respect to them, and cases near one.
 
 use super::Bound::{Excluded, Included};
-use super::{Parameter, ParameterKind, Scalar, key};
+use super::{Parameter, ParameterKind, Scalar, key, length};
 use crate::case::Case;
 
 /// Friction smaller than this has no derivatives: a step of differences would lead below zero.
@@ -16,9 +16,12 @@ impl Parameter {
     }
 
     /// The case in which this parameter, a number, is larger `by` so much; it may leave its bounds. `None` if the parameter is no
-    /// number, not given, or follows from its alternative.
+    /// number, not given, or follows from its alternative. A length in mm moves the one over the thickness.
     pub fn moved(&self, case: &Case, by: f64) -> Option<Case> {
         let mut moved = *case;
+        if let Some(of) = self.over_t().filter(|_| !self.is_given(case)) {
+            return of.moved(case, by / case.material.thickness_mm?);
+        }
         match &self.kind {
             ParameterKind::Number { field, .. } | ParameterKind::SignedNumber { field, .. } => {
                 *field(&mut moved) += by;
@@ -29,6 +32,7 @@ impl Parameter {
             }
             _ => return None,
         }
+        length::keep_in_step(&mut moved, self);
         Some(moved)
     }
 
@@ -42,7 +46,10 @@ impl Parameter {
         else {
             return None;
         };
-        let value = self.own(case)?.number()?.abs();
+        let value = match self.over_t() {
+            Some(_) => self.millimetres(case)?.abs(),
+            None => self.own(case)?.number()?.abs(),
+        };
         if self.key == key::FRICTION && value < LEAST_FRICTION {
             // A path of scales that do not rub knows nothing of how they slip, and so not what a little friction does.
             return None;

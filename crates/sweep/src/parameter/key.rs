@@ -6,6 +6,9 @@ pub const GAP: &str = "gap_over_t";
 /// The length of a scale.
 pub const LENGTH: &str = "length_over_t";
 
+/// The distance from scale to scale, in mm.
+pub const PITCH: &str = "pitch_mm";
+
 /// The slant of the scales.
 pub const SLANT: &str = "slant_deg";
 
@@ -20,6 +23,9 @@ pub const CRITICAL_TILT: &str = "critical_tilt_deg";
 
 /// The place of the load, as a part of the top.
 pub const LOAD_POSITION: &str = "load_position";
+
+/// The distance of the load from the right corner of the top.
+pub const LOAD_INSET: &str = "load_inset_over_t";
 
 /// How the needle is held.
 pub const NEEDLE: &str = "needle";
@@ -46,6 +52,12 @@ pub const TISSUE: &str = "tissue_thickness_over_t";
 
 /// The length of the membrane.
 pub const MEMBRANE_LENGTH: &str = "membrane_length_over_t";
+
+/// The thickness of the membrane.
+pub const MEMBRANE_THICKNESS: &str = "membrane_thickness_over_t";
+
+/// The depth of the axis of the membrane below the bases of the scales.
+pub const MEMBRANE_AXIS: &str = "membrane_axis_offset_over_t";
 
 /// The thickness of the scales.
 pub const THICKNESS: &str = "thickness_mm";

@@ -8,20 +8,39 @@ use substrate::{Coupling, SubstrateLaw};
 use crate::case::Case;
 use crate::parameter::Bound::{Excluded, Included};
 use crate::parameter::Role::{
-    Continuous, EndsBending, EndsPuncture, Geometry, InsteadOf, Made, MovesSprings, Scattered,
-    UnitOfBending,
+    Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, Made, MovesSprings,
+    Scattered, UnitOfBending,
 };
 use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Role, Scalar, key};
 
 // Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
 const LENGTH: Range = Range { low: Included(1e-3), high: Included(1e3) };
 const POSITIVE: Range = Range { low: Included(1e-6), high: Included(1e9) };
+// A length in mm is held to bounds where it is divided by the thickness.
+const ANY: Range = Range { low: Included(-1e9), high: Included(1e9) };
 const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
 // Scales are rigid but where they touch: softer than what they stand on they would bend.
 const STIFF: Range = Range { low: Included(1.0), high: Included(1e9) };
 
 /// The roles of a number that describes the skin and its load, and no more.
 const NUMBER: &[Role] = &[Continuous, Made];
+
+/// A length in mm beside the same over the thickness, which follows from it.
+macro_rules! in_mm {
+    ($stem:literal, $section:literal, $range:expr, $roles:expr, $field:expr) => {
+        Parameter {
+            key: concat!($stem, "_mm"),
+            section: $section,
+            unit: "mm",
+            meaning: concat!(
+                $stem,
+                "_over_t in mm, instead of that; with thickness_mm in [material]"
+            ),
+            roles: $roles,
+            kind: ParameterKind::OptionalNumber { noun: "a length", range: $range, field: $field },
+        }
+    };
+}
 
 /// Every parameter, in the order of the documentation. Keys are unique over all sections, because
 /// an axis is named by its key alone.
@@ -38,6 +57,9 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.design.gap,
         },
     },
+    in_mm!("gap", "designs", POSITIVE, &[InMm(key::GAP), Made, Scattered, MovesSprings], |c| {
+        &mut c.in_mm.gap
+    }),
     Parameter {
         key: key::LENGTH,
         section: "designs",
@@ -48,6 +70,21 @@ pub static PARAMETERS: &[Parameter] = &[
             noun: "a length",
             range: LENGTH,
             field: |c| &mut c.design.length,
+        },
+    },
+    in_mm!("length", "designs", POSITIVE, &[InMm(key::LENGTH), Made, MovesSprings], |c| &mut c
+        .in_mm
+        .length),
+    Parameter {
+        key: key::PITCH,
+        section: "designs",
+        unit: "mm",
+        meaning: "base and gap of a scale in mm, instead of its gap or, beside a gap, of its length; with thickness_mm in [material]",
+        roles: &[InMm(key::GAP), Made, MovesSprings],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a length",
+            range: POSITIVE,
+            field: |c| &mut c.in_mm.pitch,
         },
     },
     Parameter {
@@ -86,6 +123,9 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.design.width,
         },
     },
+    in_mm!("width", "scale", POSITIVE, &[InMm(key::WIDTH), Made, MovesSprings], |c| &mut c
+        .in_mm
+        .width),
     Parameter {
         key: key::POISSON_RATIO,
         section: "substrate",
@@ -110,6 +150,13 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.tissue_thickness,
         },
     },
+    in_mm!(
+        "tissue_thickness",
+        "substrate",
+        POSITIVE,
+        &[InMm(key::TISSUE), Made, MovesSprings],
+        |c| &mut c.in_mm.tissue_thickness
+    ),
     Parameter {
         key: "coupling",
         section: "substrate",
@@ -204,7 +251,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "load_inset_over_t",
+        key: key::LOAD_INSET,
         section: "puncture",
         unit: "t",
         meaning: "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position",
@@ -215,6 +262,7 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.load_inset,
         },
     },
+    in_mm!("load_inset", "puncture", ANY, &[InMm(key::LOAD_INSET)], |c| &mut c.in_mm.load_inset),
     Parameter {
         key: key::NEEDLE,
         section: "puncture",
@@ -292,18 +340,7 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.puncture.depth,
         },
     },
-    Parameter {
-        key: key::DEPTH_MM,
-        section: "puncture",
-        unit: "mm",
-        meaning: "the same depth in mm, with the thickness of the scales in [material]",
-        roles: &[InsteadOf(key::DEPTH)],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: POSITIVE,
-            field: |c| &mut c.depth_mm,
-        },
-    },
+    in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
     Parameter {
         key: "contact_modulus_over_substrate",
         section: "puncture",
@@ -340,6 +377,13 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.flexure.membrane_length,
         },
     },
+    in_mm!(
+        "membrane_length",
+        "flexure",
+        POSITIVE,
+        &[InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
+        |c| &mut c.in_mm.membrane_length
+    ),
     Parameter {
         key: "gaps",
         section: "flexure",
@@ -353,7 +397,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "membrane_thickness_over_t",
+        key: key::MEMBRANE_THICKNESS,
         section: "flexure",
         unit: "t",
         meaning: "thickness h of the membrane",
@@ -364,8 +408,15 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.flexure.membrane_thickness,
         },
     },
+    in_mm!(
+        "membrane_thickness",
+        "flexure",
+        POSITIVE,
+        &[InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
+        |c| &mut c.in_mm.membrane_thickness
+    ),
     Parameter {
-        key: "membrane_axis_offset_over_t",
+        key: key::MEMBRANE_AXIS,
         section: "flexure",
         unit: "t",
         meaning: "depth of the axis of the membrane below the bases of the scales",
@@ -376,6 +427,9 @@ pub static PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.flexure.membrane_axis_offset,
         },
     },
+    in_mm!("membrane_axis_offset", "flexure", ANY, &[InMm(key::MEMBRANE_AXIS), Made], |c| &mut c
+        .in_mm
+        .membrane_axis_offset),
     Parameter {
         key: "elements_per_gap",
         section: "flexure",

@@ -25,6 +25,8 @@ pub enum Role {
     UnitOfBending,
     /// It says in another way what the parameter of that key says, and may leave it to that by a word.
     InsteadOf(&'static str),
+    /// It is the length of that key in mm, which then follows from it.
+    InMm(&'static str),
 }
 
 impl Parameter {
@@ -38,25 +40,30 @@ impl Parameter {
         PARAMETERS.iter().filter(move |parameter| parameter.has(role))
     }
 
-    /// The parameter that says the same in another way: a definition has one of the two.
-    pub(crate) fn alternative(&self) -> Option<&'static Self> {
-        self.instead_of().or_else(|| self.instead())
+    /// The parameters that say the same in another way: a definition has one of them.
+    pub(crate) fn others(&self) -> impl Iterator<Item = &'static Self> {
+        let (of, key) = (self.origin(), self.key);
+        PARAMETERS.iter().filter(move |other| other.key != key && other.origin() == of)
     }
 
-    /// The same in a case: under a guided needle tilt and friction are two things.
-    pub(crate) fn alternative_in(&self, case: &Case) -> Option<&'static Self> {
-        self.alternative().filter(|other| {
-            let is_needle = [self.key, other.key].contains(&key::NEEDLE_FRICTION);
-            !(is_needle && case.puncture.needle.is_guided())
-        })
+    /// The same in a case: under a guided needle tilt and friction are two things, and beside a gap the pitch says a length.
+    pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
+        let origin = |parameter: &Self| {
+            let says_length = parameter.key == key::PITCH && case.in_mm.pitch_says_length;
+            if says_length { key::LENGTH } else { parameter.origin() }
+        };
+        let is_needle = self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
+        let (of, key) = (origin(self), self.key);
+        PARAMETERS.iter().filter(move |p| !is_needle && p.key != key && origin(p) == of)
     }
 
-    /// The parameter instead of which this one may be given.
-    fn instead_of(&self) -> Option<&'static Self> {
-        self.roles.iter().find_map(|role| match role {
-            Role::InsteadOf(key) => Self::named(key),
+    /// The key of the parameter that this one stands for, in another way or unit; its own, if it stands for none.
+    fn origin(&self) -> &'static str {
+        let stands_for = self.roles.iter().find_map(|role| match role {
+            Role::InsteadOf(key) | Role::InMm(key) => Self::named(key),
             _ => None,
-        })
+        });
+        stands_for.map_or(self.key, Self::origin)
     }
 
     /// The parameter that may be given instead of this one.
@@ -74,11 +81,7 @@ mod tests {
     fn roles_agree_with_each_other() {
         for parameter in PARAMETERS {
             let key = parameter.key;
-            let alternative = parameter.alternative();
-            assert_eq!(
-                alternative.and_then(Parameter::alternative).map(|p| p.key),
-                alternative.map(|_| key)
-            );
+            assert!(parameter.others().all(|other| other.others().any(|back| back.key == key)));
             if let Some(instead) = parameter.instead() {
                 let open = instead.default();
                 assert!(matches!(open, Scalar::Word(_)), "{key} is left to {open}");
@@ -88,6 +91,7 @@ mod tests {
                 !parameter.has(Role::Continuous) || is_number || parameter.is_optional(),
                 "{key} has no number"
             );
+            let parameter = parameter.over_t().unwrap_or(parameter);
             let is_skin = parameter.has(Role::Continuous) || parameter.section == "material";
             assert_eq!(
                 parameter.has(Role::Made),

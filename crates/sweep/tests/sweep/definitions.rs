@@ -19,6 +19,9 @@ fn a_definition_reads_back_from_its_complete_form() {
         "name = 'x'\n[solver]\nmax_step = 0.005\n[puncture]\nscales = 7",
         "name = 'x'\n[designs]\nmethod = ['chain', 'unit-cell']\n[flexure]\nelements_per_gap = 3",
         "name = 'x'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\nc1 = [1, 2]\nbase = ['L', '2L']",
+        "name = 'x'\nscale.width_mm = 3\nmaterial.thickness_mm = 2\n[designs]\ngap_mm = [0.2, 0.4]\nlength_mm = { from = 1, to = 3, step = 0.5 }",
+        "name = 'x'\nscale.base = '2L'\n[designs]\npitch_mm = [3, 4]\nlength_mm = 1\nthickness_mm = [1, 2]",
+        "name = 'x'\nmaterial.thickness_mm = 2\n[variables]\npitch_mm = { from = 1, to = 2 }\n[designs]\ngap_mm = 0.4\n[flexure]\nmembrane_length_mm = 100",
         "name = 'x'\n[material]\nthickness_mm = 8\n[tolerance]\ngap_mm = { batch_sd = 0.1, scale_sd = 0.05 }\nslant_deg = { batch_within = 2 }\nthickness_mm = { batch_sd = 0.05 }",
     ];
     for text in texts {
@@ -201,4 +204,89 @@ fn only_what_may_vanish_is_measured_by_one_where_it_is_small() {
     let found = ["gap_over_t", "length_over_t", "membrane_thickness_over_t", "slant_deg"].map(size);
     assert_eq!(found[..2], [Some(0.1), Some(0.5)]);
     assert!(found[2].is_some_and(|size| size < 1.0) && found[3] == Some(1.0), "{found:?}");
+}
+
+/// A length in mm is the same skin as that over the thickness, for every thickness; and a pitch is base and gap.
+#[test]
+fn lengths_in_mm_are_those_over_the_thickness() {
+    let case = |text: &str| {
+        let text = format!("name = 'x'\n{text}");
+        Sweep::parse(&text, "x.toml", &[]).unwrap().grid().case(0)
+    };
+    let in_mm = "designs = { gap_mm = 0.5, length_mm = 3, thickness_mm = 2, width_mm = 4 }\n\
+        substrate.tissue_thickness_mm = 8\n\
+        flexure = { membrane_thickness_mm = 0.25, membrane_length_mm = 100, membrane_axis_offset_mm = -0.5 }\n\
+        puncture = { depth_mm = 1, load_inset_mm = 0.5 }";
+    let over_t = "designs = { gap_over_t = 0.25, length_over_t = 1.5 }\nscale.width_over_t = 2\n\
+        substrate.tissue_thickness_over_t = 4\nmaterial.thickness_mm = 2\n\
+        flexure = { membrane_thickness_over_t = 0.125, membrane_length_over_t = 50, membrane_axis_offset_over_t = -0.25 }\n\
+        puncture = { depth_over_t = 0.5, load_inset_over_t = 0.25 }";
+    let (one, other) = (case(in_mm), case(over_t));
+    assert_eq!(
+        (one.design, one.flexure, one.tissue_thickness),
+        (other.design, other.flexure, other.tissue_thickness)
+    );
+    assert_eq!(
+        (one.punctured(), one.footprint().unwrap()),
+        (other.punctured(), other.footprint().unwrap())
+    );
+    let lengths = [("gap_mm", 0.5), ("length_mm", 3.0), ("width_mm", 4.0), ("pitch_mm", 3.5)];
+    for (key, length) in lengths {
+        let parameter = sweep::Parameter::named(key).unwrap();
+        assert_eq!(
+            [one, other].map(|case| parameter.millimetres(&case)),
+            [Some(length); 2],
+            "{key}"
+        );
+    }
+    let pitched = "scale.base = '2L'\nmaterial.thickness_mm = 2\n[designs]\npitch_mm = 3.5\n";
+    for (beside, key) in [("length_mm = 1.5", "gap_mm"), ("length_over_t = 0.75", "gap_mm")] {
+        let gap =
+            sweep::Parameter::named(key).unwrap().millimetres(&case(&format!("{pitched}{beside}")));
+        assert_eq!(gap, Some(0.5), "{beside}");
+    }
+    for beside in ["gap_mm = 0.5", "gap_over_t = 0.25"] {
+        assert_eq!(case(&format!("{pitched}{beside}")).design.length, 0.75, "{beside}");
+    }
+}
+
+/// A thickness moves what is over it where lengths are given in mm, and a length in mm moves what follows from it.
+#[test]
+fn lengths_in_mm_move_together() {
+    let text = "name = 'x'\n[designs]\ngap_mm = 0.5\npitch_mm = 3.5\nthickness_mm = 2\n";
+    let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
+    let moved = |key: &str, by| sweep::Parameter::named(key).unwrap().moved(&case, by).unwrap();
+    let thick = moved("thickness_mm", 2.0);
+    assert_eq!((thick.design.gap, thick.design.length), (0.125, 0.75));
+    assert_eq!(moved("pitch_mm", 0.5).design.length, 1.75);
+    assert_eq!(moved("gap_mm", 0.5).design.length, 1.25);
+    // The gap alone, over the thickness: the pitch says so too, so that nothing takes it back.
+    let wide = moved("gap_over_t", 0.25);
+    assert_eq!((wide.design.gap, wide.design.length, wide.in_mm.pitch), (0.5, 1.5, Some(4.0)));
+    let length = sweep::Parameter::named("width_mm").unwrap().moved(&wide, 1.0).unwrap();
+    assert_eq!((length.design.width, length.design.gap), (1.5, 0.5));
+}
+
+/// A deviation in mm, or a depth, beside a thickness that is searched over.
+#[test]
+fn a_thickness_may_vary_beside_lengths_in_mm() {
+    let text = "name = 'x'\npuncture.depth_mm = 1\n[designs]\ngap_mm = 0.5\n[variables]\n\
+        thickness_mm = { from = 1, to = 3 }\n[tolerance]\ngap_mm = { batch_sd = 0.1, scale_sd = 0.1 }";
+    let sweep = Sweep::parse(text, "x.toml", &[]).unwrap();
+    let case = sweep.grid().case(0);
+    assert_eq!((case.design.gap, case.punctured().depth), (0.25, Some(0.5)));
+    let deviation = &sweep.deviations()[0];
+    assert_eq!(deviation.scale_sd(&case), Some(0.05));
+    assert_eq!(deviation.moved(&case, 0.1).unwrap().in_mm.gap, Some(0.6));
+}
+
+/// Settings take the place of the other ways to say a length.
+#[test]
+fn a_length_in_mm_takes_the_place_of_the_other() {
+    let settings = ["designs.gap_mm=0.4", "scale.width_mm=3", "material.thickness_mm=2"];
+    let settings: Vec<_> = settings.map(|text| Setting::parse(text).expect("valid")).to_vec();
+    let text =
+        "name = 'x'\nscale.width_over_t = 2\n[variables]\ngap_over_t = { from = 0.1, to = 1 }";
+    let case = Sweep::parse(text, "x.toml", &settings).expect("valid").grid().case(0);
+    assert_eq!((case.design.gap, case.design.width), (0.2, 1.5));
 }

@@ -1,6 +1,6 @@
 //! Refusals: one line with file, key, value and what would be right.
 
-use sweep::{Setting, Sweep};
+use sweep::{PARAMETERS, Parameter, Setting, Sweep};
 
 /// The message, a line for each error.
 fn errors(text: &str, settings: &[&str]) -> String {
@@ -33,6 +33,31 @@ fn keys() {
         "definition.name = 'y'",
     ]));
     insta::assert_snapshot!(refused("", &[]));
+}
+
+/// Lengths and moduli of 1e-30 and 1e30 used to end in internal errors.
+#[test]
+fn lengths_and_moduli_beyond_all_measure_are_refused() {
+    let spans = |parameter: &&Parameter| {
+        parameter.unit == "t"
+            || parameter.unit.contains("mm")
+            || parameter.key.contains("modulus")
+            || ["c1", "c2"].contains(&parameter.key)
+    };
+    let mut count = 0;
+    for parameter in PARAMETERS.iter().filter(spans) {
+        for value in ["1e-30", "1e30"] {
+            let text = format!("name = 'x'\n{} = {value}", parameter.path());
+            let message = Sweep::parse(&text, "x.toml", &[]).err().map(|error| error.to_string());
+            // A place or an offset may be next to nothing; in mm it is refused for want of a thickness.
+            let places = ["load_inset", "membrane_axis_offset"];
+            let is_place = places.iter().any(|place| parameter.key.starts_with(place));
+            let is_refused = message.is_some_and(|message| message.contains("out of range"));
+            assert!(is_refused || (value == "1e-30" && is_place), "{text}");
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
 }
 
 #[test]
@@ -282,4 +307,24 @@ fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
         "{error}"
     );
     assert_eq!(error.lines().count(), 1);
+}
+
+/// Lengths in mm: without a thickness, beside the same over the thickness, all three of gap, length and pitch, and out of bounds.
+#[test]
+fn lengths_in_mm() {
+    insta::assert_snapshot!(all(&[
+        "designs.gap_mm = 0.4",
+        "scale.width_mm = 0",
+        "scale = { width_mm = 2, width_over_t = 1 }\nmaterial.thickness_mm = 2",
+        "designs = { gap_mm = [0.2, 0.4], gap_over_t = 0.1, thickness_mm = 2 }",
+        "designs = { gap_mm = 1, length_over_t = 1, pitch_mm = 3, thickness_mm = 2 }",
+        "variables = { gap_over_t = { from = 0.1, to = 1 }, gap_mm = { from = 0.1, to = 1 } }\nmaterial.thickness_mm = 2",
+        "variables = { pitch_mm = { from = 2, to = 3 } }\ndesigns = { gap_mm = 1, length_mm = 1, thickness_mm = 2 }",
+        "flexure = { gaps = 42, membrane_length_mm = 50 }\nmaterial.thickness_mm = 2",
+        "puncture = { load_position = 0.5, load_inset_mm = 0.5 }\nmaterial.thickness_mm = 2",
+        "designs = { gap_mm = 0.4, thickness_mm = [1, 1e3] }",
+        "designs = { pitch_mm = 3, length_mm = 2, thickness_mm = 2 }\nscale.base = '2L'",
+        "variables = { pitch_mm = { from = 1.5, to = 3 }, length_mm = { from = 1, to = 2 } }\nmaterial.thickness_mm = 2",
+        "tolerance.tissue_thickness_mm = { batch_sd = 0.1 }\nmaterial.thickness_mm = 2",
+    ]));
 }

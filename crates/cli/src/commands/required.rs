@@ -1,0 +1,29 @@
+//! The requirements that commands take.
+
+use anyhow::Context as _;
+use clap::Args;
+use ranking::{Requirement, Standard, TILTING_ONLY};
+
+use crate::print::note;
+
+/// Requirements on columns.
+#[derive(Debug, Args)]
+pub struct Required {
+    /// Requirement: >=, <=, >, < or == in any column of numbers, or a level of a standard, e.g. 'needle 2' (may be repeated: all must hold)
+    #[arg(long = "require", value_name = "REQUIREMENT")]
+    pub texts: Vec<String>,
+}
+
+impl Required {
+    /// The requirements, once they are understood. Says what a level of a standard asks for, and what it leaves out.
+    pub fn read(&self) -> anyhow::Result<Vec<Requirement>> {
+        let read = |text: &String| text.parse().with_context(|| format!("--require {text}"));
+        let all = self.texts.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
+        for (text, (standard, level)) in
+            self.texts.iter().filter_map(|text| Some((text, Standard::requirement(text)?)))
+        {
+            note(&format!("--require {text}: {level} ({}); {TILTING_ONLY}", standard.source));
+        }
+        Ok(all)
+    }
+}
