@@ -80,7 +80,10 @@ fn python(py: Python<'_>, scalar: Scalar) -> PyResult<Bound<'_, PyAny>> {
     Ok(match scalar {
         Scalar::Number(number) => number.into_pyobject(py)?.into_any(),
         Scalar::Count(count) => count.into_pyobject(py)?.into_any(),
-        Scalar::Word(word) => word.into_pyobject(py)?.into_any(),
+        Scalar::Word(word) => match word.parse::<bool>() {
+            Ok(whether) => whether.into_pyobject(py)?.to_owned().into_any(),
+            Err(_) => word.into_pyobject(py)?.into_any(),
+        },
         Scalar::List(list) => PyTuple::new(py, list.as_slice())?.into_any(),
     })
 }

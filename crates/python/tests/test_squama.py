@@ -413,6 +413,14 @@ def test_searches_and_tolerances(tmp_path):
         squama.tolerance(skin)
 
 
+def test_a_load_is_taken_away_again():
+    skin = squama.Skin(gap_over_t=0.1, length_over_t=1, slant_deg=45, friction=0.2)
+    assert skin.unload is False
+    loop = skin.replace(unload=True, unbend=True)
+    assert (loop.unload, loop.unbend) == (True, True)
+    assert loop.solve("puncture")["loop_work"] > 1e-3
+
+
 def test_help_is_the_manual_and_the_stub_is_up_to_date():
     manual = squama.Skin.__doc__
     for key, _, _, meaning, expected, _ in squama._squama.parameters():

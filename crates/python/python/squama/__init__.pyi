@@ -151,6 +151,7 @@ class Skin:
         load_inset_over_t: float | None = None,
         load_inset_mm: float | None = None,
         needle: str | None = None,
+        unload: bool | None = None,
         critical_tilt_deg: float | Sequence[float] | None = None,
         needle_friction: float | Sequence[float] | str | None = None,
         depth_over_t: float | None = None,
@@ -165,6 +166,7 @@ class Skin:
         membrane_axis_offset_over_t: float | None = None,
         membrane_axis_offset_mm: float | None = None,
         elements_per_gap: int | str | None = None,
+        unbend: bool | None = None,
         max_end_rotation_deg: float | None = None,
         contact_modulus_over_membrane: float | None = None,
         gap_cv: float | None = None,
@@ -227,6 +229,8 @@ class Skin:
     @property
     def needle(self) -> str: ...
     @property
+    def unload(self) -> bool: ...
+    @property
     def critical_tilt_deg(self) -> float | Sequence[float]: ...
     @property
     def needle_friction(self) -> float | Sequence[float] | str: ...
@@ -254,6 +258,8 @@ class Skin:
     def membrane_axis_offset_mm(self) -> float | None: ...
     @property
     def elements_per_gap(self) -> int | str: ...
+    @property
+    def unbend(self) -> bool: ...
     @property
     def max_end_rotation_deg(self) -> float: ...
     @property

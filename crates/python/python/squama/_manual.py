@@ -8,6 +8,8 @@ from ._squama import columns, parameters
 def _type(expected):
     number = "float | Sequence[float]" if "a list" in expected else "int" if expected.startswith("a whole") else "float"
     is_word = expected.startswith('"')
+    if expected == '"false" or "true"':
+        return "bool"
     return "str" if is_word else f"{number} | str" if '"' in expected else number
 
 
@@ -20,7 +22,9 @@ def signature():
 
 
 def _value(default):
-    return None if default is None else default.strip('"') if default.startswith('"') else float(default)
+    if default in (None, "false", "true"):
+        return None if default is None else default == "true"
+    return default.strip('"') if default.startswith('"') else float(default)
 
 
 def skin():
@@ -78,7 +82,7 @@ def stub(text):
     required = {key for key in geometry if not key.endswith(("_over_t", "_mm"))}
     given = [f"        {key}: {of}{'' if key in required else ' | None = None'}," for key, of, _ in all_of]
     # A parameter without a default is an attribute that may be None.
-    attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry and not key.endswith("_mm") else ' | None'}: ..."
+    attributes = [f"    @property\n    def {key}(self) -> {of}{'' if default or key in geometry and not key.endswith('_mm') else ' | None'}: ..."
                   for key, of, default in all_of]
     return text.split(MARK)[0] + MARK + "\n" + _SKIN.format(
         parameters="\n".join(given),
