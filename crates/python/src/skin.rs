@@ -61,8 +61,8 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     }
     let says_length = keys.iter().filter(|key| **key == key::GAP).count() > 1;
     let is_missing = |p: &&Parameter| {
-        !keys.contains(&p.key)
-            && !(p.key == key::LENGTH && says_length && keys.contains(&key::PITCH))
+        let follows = p.key == key::LENGTH && says_length && keys.contains(&key::PITCH);
+        !(keys.contains(&p.key) || follows)
     };
     if let Some(missing) = Parameter::with(Role::Geometry).find(is_missing) {
         return Err(error::invalid_parameter(py, missing.key, None, &missing.expected()));

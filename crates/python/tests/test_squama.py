@@ -136,7 +136,8 @@ def test_a_skin_in_mm():
     value, gradient = skin.value_and_gradient("critical_force_N", ["gap_mm"])
     assert value == skin.solve()["critical_force_N"]
     _, over_t = skin.value_and_gradient("critical_force_N", ["gap_over_t"])
-    assert gradient[0] == pytest.approx(over_t[0] / 2.5, rel=1e-12)
+    # The force in N is followed along the straight line of the force, by a difference.
+    assert gradient[0] == pytest.approx(over_t[0] / 2.5, rel=1e-9)
 
 
 def test_definitions_of_several_designs():
