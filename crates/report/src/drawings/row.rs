@@ -198,7 +198,7 @@ impl RowSheet {
             short(state.displacement),
             short(state.force),
             state.tilt_deg + 0.0,
-            contacts_label(state.contacts.len())
+            contacts_label(&state.contacts)
         )
     }
 
