@@ -20,12 +20,12 @@ const PAUSE: Duration = Duration::from_millis(100);
 /// The parts of the bar.
 const PARTS: u64 = 10_000;
 
-/// Said when the first signal has come.
-const ENDING: &str =
+/// What is said when the first signal has come, of work that `--resume` continues.
+pub const RESUMED: &str =
     "ending after the designs in progress; a second signal ends at once, and --resume continues";
 
 /// Work that can be looked at while it is done.
-trait Watched: Send + Sync + 'static {
+pub trait Watched: Send + Sync + 'static {
     /// The part of the work that is done, and a few words about it after `elapsed`.
     fn look(&self, elapsed: Duration) -> (f64, String);
 
@@ -35,24 +35,18 @@ trait Watched: Send + Sync + 'static {
     }
 }
 
-/// Shows how far work is. A thread looks at it, because a single design may take a minute.
-struct Watcher(Option<(Sender<()>, JoinHandle<()>)>);
-
-/// Shows how far a run is: rate, remaining time and failures so far.
-pub struct ProgressDisplay {
-    counts: Arc<Counts>,
-    _watcher: Watcher,
+/// Shows how far work is, until it is dropped. A thread looks at it, because a single design may take a minute.
+pub struct Display<W> {
+    watched: Arc<W>,
+    watcher: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
-/// Shows how far a search is: the part in hand, and the designs so far.
-pub struct SearchDisplay {
-    meter: Arc<SearchMeter>,
-    _watcher: Watcher,
-}
+/// How far a run is: rate, remaining time and failures so far.
+pub type ProgressDisplay = Display<Counts>;
 
 /// How far the run is.
 #[derive(Debug, Default)]
-struct Counts {
+pub struct Counts {
     work: WorkMeter,
     designs: AtomicU64,
     /// Designs that were done before the run began.
@@ -61,21 +55,26 @@ struct Counts {
     failed: AtomicU64,
 }
 
-impl Watcher {
-    /// A bar, unless `quiet` or nobody watches; and a word when a signal asks the work to end, unless `quiet`.
-    fn new(quiet: bool, interrupt: &Interrupt, watched: Arc<impl Watched>) -> Self {
+impl<W: Watched> Display<W> {
+    /// A bar, unless `quiet` or nobody watches; and `ending` when a signal asks the work to end, unless `quiet`.
+    pub fn new(quiet: bool, interrupt: &Interrupt, watched: Arc<W>, ending: &'static str) -> Self {
         let watcher = (!quiet).then(|| {
             let (sender, ended) = channel();
-            let interrupt = interrupt.clone();
-            (sender, std::thread::spawn(move || watch(&*watched, &interrupt, &ended)))
+            let (interrupt, watched) = (interrupt.clone(), Arc::clone(&watched));
+            (sender, std::thread::spawn(move || watch(&*watched, &interrupt, ending, &ended)))
         });
-        Self(watcher)
+        Self { watched, watcher }
+    }
+
+    /// Where the work tells how far it is.
+    pub fn watched(&self) -> &W {
+        &self.watched
     }
 }
 
-impl Drop for Watcher {
+impl<W> Drop for Display<W> {
     fn drop(&mut self) {
-        if let Some((sender, watcher)) = self.0.take() {
+        if let Some((sender, watcher)) = self.watcher.take() {
             drop(sender);
             // The bar is all that a watcher that has ended badly leaves unfinished.
             let _ = watcher.join();
@@ -83,59 +82,45 @@ impl Drop for Watcher {
     }
 }
 
-impl SearchDisplay {
-    /// The display of a search that is about to begin.
-    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
-        let meter = Arc::<SearchMeter>::default();
-        let watcher = Watcher::new(quiet, interrupt, Arc::clone(&meter));
-        Self { meter, _watcher: watcher }
-    }
-
-    /// Where the search tells how far it is.
-    pub fn meter(&self) -> &SearchMeter {
-        &self.meter
-    }
-}
-
 impl Watched for SearchMeter {
-    fn look(&self, _elapsed: Duration) -> (f64, String) {
+    fn look(&self, elapsed: Duration) -> (f64, String) {
         let (part, done, tasks) = self.progress();
-        let text = format!("{}: {done}/{tasks}  {} designs", part.words(), self.designs());
-        (done as f64 / tasks.max(1) as f64, text)
+        let share = self.share();
+        let left = left(share, elapsed);
+        (share, format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs()))
     }
 }
 
-impl ProgressDisplay {
-    /// The display of a run that is about to begin.
-    pub fn new(quiet: bool, interrupt: &Interrupt) -> Self {
-        let counts = Arc::<Counts>::default();
-        let watcher = Watcher::new(quiet, interrupt, Arc::clone(&counts));
-        Self { counts, _watcher: watcher }
+impl Watched for WorkMeter {
+    fn look(&self, elapsed: Duration) -> (f64, String) {
+        let share = self.share();
+        (share, format!("{:.0} %{}", 100.0 * share, left(share, elapsed)))
     }
+}
 
+impl Counts {
     /// Where the run tells of its work.
     pub fn work(&self) -> &WorkMeter {
-        &self.counts.work
+        &self.work
     }
 
     /// Takes the progress of the run into account.
     pub fn show(&self, progress: Progress) {
-        let counts = &self.counts;
         match progress {
             Progress::Begun { designs, done } => {
-                counts.designs.store(designs, Ordering::Relaxed);
-                counts.before.store(done, Ordering::Relaxed);
+                self.designs.store(designs, Ordering::Relaxed);
+                self.before.store(done, Ordering::Relaxed);
             }
             Progress::Done { failed } => {
-                counts.failed.fetch_add(u64::from(failed), Ordering::Relaxed);
-                counts.done.fetch_add(1, Ordering::Relaxed);
+                self.failed.fetch_add(u64::from(failed), Ordering::Relaxed);
+                self.done.fetch_add(1, Ordering::Relaxed);
             }
         }
     }
 }
 
 /// Draws the bar until the work has `ended`.
-fn watch(watched: &dyn Watched, interrupt: &Interrupt, ended: &Receiver<()>) {
+fn watch(watched: &dyn Watched, interrupt: &Interrupt, ending: &str, ended: &Receiver<()>) {
     let bar = if stderr().is_terminal() { ProgressBar::new(PARTS) } else { ProgressBar::hidden() };
     if let Ok(style) = ProgressStyle::with_template("{wide_bar} {msg}") {
         bar.set_style(style);
@@ -146,7 +131,7 @@ fn watch(watched: &dyn Watched, interrupt: &Interrupt, ended: &Receiver<()>) {
     while ended.recv_timeout(PAUSE) == Err(RecvTimeoutError::Timeout) {
         if interrupt.exit_code().is_some() && !is_ending {
             is_ending = true;
-            bar.suspend(|| eprintln!("{ENDING}"));
+            bar.suspend(|| eprintln!("{ending}"));
         }
         for line in watched.news() {
             bar.suspend(|| eprintln!("{line}"));
@@ -178,15 +163,16 @@ impl Counts {
         let rate = done as f64 / elapsed.as_secs_f64();
         // A rate below one would read 0/s.
         let rate = if rate >= 1.0 { format!("  {rate:.0}/s") } else { String::new() };
-        let left = left(share, elapsed).map_or(String::new(), |left| format!("  {left} left"));
+        let left = left(share, elapsed);
         format!("{}/{designs} designs{rate}{left}  {failed} failed", before + done)
     }
 }
 
-/// The time that the rest of the work takes if it goes on as it has begun.
-fn left(share: f64, elapsed: Duration) -> Option<String> {
+/// The time that the rest of the work takes if it goes on as it has begun, in words; nothing before it has begun.
+fn left(share: f64, elapsed: Duration) -> String {
     let left = elapsed.as_secs_f64() * (1.0 - share) / share;
-    Duration::try_from_secs_f64(left.ceil()).ok().map(time)
+    let left = Duration::try_from_secs_f64(left.ceil()).ok();
+    left.map_or(String::new(), |left| format!("  {} left", time(left)))
 }
 
 #[cfg(test)]

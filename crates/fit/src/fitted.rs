@@ -7,7 +7,7 @@
 use std::sync::atomic::AtomicBool;
 
 use nalgebra::DMatrix;
-use run::Evaluator;
+use run::{Evaluator, WorkMeter};
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 use sweep::Sweep;
 
@@ -107,11 +107,12 @@ const AS_WIDE: f64 = 0.5;
 const AT_END: f64 = 1e-3;
 
 impl FitDefinition {
-    /// Finds the unknowns with which the curves of the model are closest to the measured ones, until `stop` is set.
+    /// Finds the unknowns with which the curves of the model are closest to the measured ones, until `stop` is set; tells `work`
+    /// how far it is.
     ///
     /// # Errors
     /// If there are too few points, nothing is sought, no skin can be solved, or it was told to stop.
-    pub fn fit(&self, stop: &AtomicBool) -> Result<Fitted, NoFit> {
+    pub fn fit(&self, stop: &AtomicBool, work: &WorkMeter) -> Result<Fitted, NoFit> {
         let points = self.curves.iter().map(|curve| curve.measured.points.len()).sum();
         let unknowns = self.unknowns.len();
         if unknowns == 0 {
@@ -121,7 +122,7 @@ impl FitDefinition {
             return Err(NoFit::TooFew { points, unknowns });
         }
         let evaluator = Evaluator::new(&[]);
-        let mut residuals = Residuals::new(self, &evaluator, stop);
+        let mut residuals = Residuals::new(self, &evaluator, (stop, work));
         let sizes = residuals.noise.clone();
         let mut shares = residuals.best()?;
         for _ in 0..ROUNDS {

@@ -8,7 +8,7 @@ use basin::{
     BoundedLevenbergMarquardt, BoxBounds, ConstraintDescription, ConstraintSet,
     ConstraintSolveError, Constraints, DenseMatrix, Executor, Jacobian, PointState, Residual,
 };
-use run::Evaluator;
+use run::{Evaluator, WorkMeter, WorkPiece};
 
 use crate::definition::FitDefinition;
 use crate::model::ModelCurve;
@@ -19,6 +19,9 @@ const IMPROVED: usize = 4;
 
 /// Steps of one search, at most. One with noise takes five to ten.
 const MOST_STEPS: u64 = 60;
+
+/// Skins that an improvement solves, as is expected where the work is told.
+const EXPECTED: u64 = 12;
 
 /// A residual of a skin that cannot be solved at all: worse than any that can, and no infinity, which would end the search.
 const UNSOLVABLE: f64 = 1e6;
@@ -45,6 +48,9 @@ pub(crate) struct Residuals<'a> {
     /// The last that was solved, since its derivatives are asked for next.
     last: RefCell<Option<(Vec<f64>, Solved)>>,
     solutions: RefCell<usize>,
+    work: &'a WorkMeter,
+    /// The improvement in hand.
+    piece: RefCell<Option<WorkPiece<'a>>>,
 }
 
 /// The curves of the model; `None` where it has none.
@@ -54,9 +60,12 @@ impl<'a> Residuals<'a> {
     pub(crate) fn new(
         definition: &'a FitDefinition,
         evaluator: &'a Evaluator,
-        stop: &'a AtomicBool,
+        (stop, work): (&'a AtomicBool, &'a WorkMeter),
     ) -> Self {
         let count = definition.unknowns.len();
+        // Of several curves the noise is found in some three more improvements.
+        let improved = IMPROVED + if definition.curves.len() > 1 { 3 } else { 0 };
+        work.begin((STARTS * count + 1) as u64 + EXPECTED * improved as u64);
         let noise = definition.curves.iter().map(|curve| {
             let points = &curve.measured.points;
             let squares: f64 = points.iter().map(|point| point[1].powi(2)).sum();
@@ -71,6 +80,8 @@ impl<'a> Residuals<'a> {
             upper: vec![1.0; count],
             last: RefCell::default(),
             solutions: RefCell::default(),
+            work,
+            piece: RefCell::default(),
         }
     }
 
@@ -98,6 +109,10 @@ impl<'a> Residuals<'a> {
             return Err(Stopped);
         }
         *self.solutions.borrow_mut() += 1;
+        match &*self.piece.borrow() {
+            Some(piece) => piece.count(1),
+            None => self.work.count(1),
+        }
         let solved = self.definition.model(self.evaluator, &self.values(shares)).ok().map(Rc::new);
         *self.last.borrow_mut() = Some((shares.to_vec(), solved.clone()));
         Ok(solved)
@@ -139,7 +154,10 @@ impl<'a> Residuals<'a> {
             .with_absolute_scaled_gradient_tolerance(FLAT)
             .with_relative_cost_change_tolerance(CHANGED);
         let search = Executor::new(self, solver, PointState::new(start)).max_iter(MOST_STEPS);
-        match search.run() {
+        *self.piece.borrow_mut() = Some(WorkPiece::new(self.work, EXPECTED));
+        let found = search.run();
+        *self.piece.borrow_mut() = None;
+        match found {
             Ok(found) => Ok(found.param().clone()),
             Err(ConstraintSolveError::Evaluation(stopped)) => Err(stopped),
             // The bounds are 0 and 1.

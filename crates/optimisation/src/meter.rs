@@ -1,7 +1,7 @@
 //! How far a search is, for whoever watches it.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// A part of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -26,10 +26,21 @@ pub enum SearchPart {
 /// How far a search is: written by the search, read by whoever watches.
 #[derive(Debug, Default)]
 pub struct SearchMeter {
-    part: Mutex<(SearchPart, usize)>,
+    parts: Mutex<Parts>,
     done: AtomicUsize,
+    /// The largest share that was told, as bits: a bar does not go back.
+    farthest: AtomicU64,
     designs: AtomicUsize,
     starts: AtomicUsize,
+}
+
+/// The parts of a search with the work that each is expected to be, and which of them is in hand.
+#[derive(Debug, Default)]
+struct Parts {
+    expected: Vec<(SearchPart, f64)>,
+    at: usize,
+    /// Tasks of the part in hand.
+    tasks: usize,
 }
 
 impl SearchPart {
@@ -50,8 +61,26 @@ impl SearchPart {
 impl SearchMeter {
     /// The part that is in hand, how many of its tasks are done, and of how many.
     pub fn progress(&self) -> (SearchPart, usize, usize) {
-        let (part, tasks) = *self.part.lock().unwrap_or_else(PoisonError::into_inner);
-        (part, self.done.load(Ordering::Relaxed).min(tasks), tasks)
+        let parts = self.parts();
+        let part = parts.expected.get(parts.at).map_or_else(SearchPart::default, |part| part.0);
+        (part, self.done.load(Ordering::Relaxed).min(parts.tasks), parts.tasks)
+    }
+
+    /// The share of the whole search that is done, from 0 to 1, as far as its work was foreseen.
+    pub fn share(&self) -> f64 {
+        let (_, done, tasks) = self.progress();
+        let parts = self.parts();
+        let work = |parts: &[(SearchPart, f64)]| parts.iter().map(|part| part.1).sum::<f64>();
+        let own = parts.expected.get(parts.at).map_or(0.0, |part| part.1);
+        let before = work(&parts.expected[..parts.at.min(parts.expected.len())]);
+        let share = (before + own * done as f64 / tasks.max(1) as f64) / work(&parts.expected);
+        // Bits of positive numbers are in the order of the numbers; no work at all is no number.
+        let bits = share.max(0.0).to_bits();
+        f64::from_bits(self.farthest.fetch_max(bits, Ordering::Relaxed).max(bits))
+    }
+
+    fn parts(&self) -> MutexGuard<'_, Parts> {
+        self.parts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Designs that were looked at.
@@ -69,9 +98,18 @@ impl SearchMeter {
         self.starts.fetch_add(1, Ordering::Relaxed);
     }
 
-    /// A part of so many tasks begins.
+    /// A search of such parts begins.
+    pub(crate) fn expect(&self, expected: Vec<(SearchPart, f64)>) {
+        *self.parts() = Parts { expected, ..Parts::default() };
+    }
+
+    /// A part of so many tasks begins, the next of that kind. Parts in between are left out.
     pub(crate) fn begin(&self, part: SearchPart, tasks: usize) {
-        *self.part.lock().unwrap_or_else(PoisonError::into_inner) = (part, tasks);
+        let mut parts = self.parts();
+        let is_next = |(k, of): (usize, &(SearchPart, f64))| k > parts.at && of.0 == part;
+        let last = || parts.expected.iter().rposition(|of| of.0 == part);
+        let next = parts.expected.iter().enumerate().position(is_next).or_else(last);
+        (parts.at, parts.tasks) = (next.unwrap_or(parts.at), tasks);
         self.done.store(0, Ordering::Relaxed);
     }
 
@@ -88,16 +126,27 @@ impl SearchMeter {
 
 #[cfg(test)]
 mod tests {
+    use super::SearchPart::{Check, Climb, Finish, Sample};
     use super::*;
 
     #[test]
-    fn tasks_are_counted_part_by_part() {
+    fn tasks_are_counted_part_by_part_and_the_share_over_all() {
         let meter = SearchMeter::default();
-        meter.begin(SearchPart::Climb, 12);
+        assert_eq!(meter.share(), 0.0);
+        meter.expect(vec![(Sample, 1.0), (Climb, 2.0), (Finish, 3.0), (Climb, 2.0), (Check, 2.0)]);
+        meter.begin(Sample, 12);
         meter.step();
         meter.look();
-        assert_eq!(meter.progress(), (SearchPart::Climb, 1, 12));
-        meter.begin(SearchPart::Front, 30);
-        assert_eq!((meter.progress(), meter.designs()), ((SearchPart::Front, 0, 30), 1));
+        assert_eq!((meter.progress(), meter.designs()), ((Sample, 1, 12), 1));
+        meter.begin(Climb, 4);
+        meter.step();
+        assert_eq!((meter.progress(), meter.share()), ((Climb, 1, 4), 0.15));
+        meter.begin(Finish, 1);
+        assert_eq!(meter.share(), 0.3);
+        meter.begin(Climb, 4);
+        assert_eq!(meter.share(), 0.6);
+        // A part that was not foreseen again does not lead back.
+        meter.begin(Finish, 2);
+        assert_eq!((meter.progress(), meter.share()), ((Finish, 0, 2), 0.6));
     }
 }

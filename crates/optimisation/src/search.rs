@@ -103,6 +103,7 @@ fn find(
     evaluations: &Evaluations<'_>,
     meter: &SearchMeter,
 ) -> Result<Found, Halt> {
+    meter.expect(expected(goal));
     let points = fill::points(&goal.space, goal.samples, goal.seed);
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
@@ -134,6 +135,36 @@ fn find(
     }
     let (starts, evaluations) = (meter.starts(), evaluations.count());
     Ok(Found { history, answer, left_out, starts, regions: regions.len(), evaluations, rescaled })
+}
+
+/// The parts of the search for a goal, each with the solutions that it takes: of the goals in `sweeps` within a factor of two.
+fn expected(goal: &DesignGoal) -> Vec<(SearchPart, f64)> {
+    let (objectives, variables) = (goal.objectives.len(), goal.space.intervals().len() as f64);
+    let mut parts = vec![(SearchPart::Sample, goal.samples as f64)];
+    let mut answer = |plan: Plan, each: f64| {
+        for _ in 0..objectives {
+            let climbs = (plan.regions + plan.starts) as f64;
+            parts.push((SearchPart::Climb, climbs * 11.0 * variables * each));
+            parts.push((SearchPart::Finish, plan.finalists as f64 * 75.0 * variables * each));
+        }
+        if objectives > 1 {
+            // Half of the points first, then those between them.
+            let points = plan.points as f64 * 80.0 * variables * each;
+            parts.extend([(SearchPart::Front, points), (SearchPart::Front, points)]);
+        }
+    };
+    answer(Plan { points: goal.points, ..Plan::NOMINAL }, 1.0);
+    if goal.is_about_samples() {
+        // Samples are punctured one by one, but neither differentiated nor bent where no requirement asks for it.
+        let each = 0.25 * goal.realisations as f64;
+        answer(Plan { points: goal.points, ..Plan::SAMPLED }, each);
+        let best = if objectives > 1 { goal.points } else { 1 } as f64;
+        parts.extend([
+            (SearchPart::Refine, 230.0 * variables * each),
+            (SearchPart::Check, best * 500.0),
+        ]);
+    }
+    parts
 }
 
 /// The rows of the points that fill the space.

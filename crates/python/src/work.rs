@@ -51,9 +51,9 @@ impl Watch {
 
     /// The part of the work that is done, and a few words about it.
     fn progress(&self) -> (f64, String) {
-        let (part, done, tasks) = self.search.progress();
+        let (part, _, tasks) = self.search.progress();
         if tasks > 0 {
-            return (done as f64 / tasks as f64, part.words().to_owned());
+            return (self.search.share(), part.words().to_owned());
         }
         let (done, all) = (self.done.load(Ordering::Relaxed), self.all.load(Ordering::Relaxed));
         let share =

@@ -80,7 +80,7 @@ pub use rerun::{InvalidRerun, Rerun};
 pub use run::run;
 pub use solve::curve::CurvePoints;
 pub use solve::evaluator::Evaluator;
-pub use solve::work::{WorkMeter, told};
+pub use solve::work::{WorkMeter, WorkPiece, told};
 pub use status::RunStatus;
 pub use store::{JournalError, JournalHeader, Program, Start};
 pub use tables::summary::{Best, Summary};

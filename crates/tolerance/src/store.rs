@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use results::{Cell, Column, CsvFormat, OutputError, RunFolder, write_rows};
-use run::{JournalError, JournalHeader, Start};
+use run::{JournalError, JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 use store::{Journal, Records};
 
@@ -33,6 +33,7 @@ pub struct SolvedSample {
 #[derive(Clone, Debug)]
 pub struct SampleStore {
     folder: RunFolder,
+    work: Arc<WorkMeter>,
 }
 
 /// The samples of one definition that are kept, by their numbers.
@@ -67,7 +68,12 @@ impl Records for KeptSamples {
 impl SampleStore {
     /// The store in `folder`, which is made when there is something to keep.
     pub fn new(folder: &Path) -> Self {
-        Self { folder: RunFolder::new(folder) }
+        Self { folder: RunFolder::new(folder), work: Arc::default() }
+    }
+
+    /// How far the work is, in samples; whoever asks for them says first how many there will be.
+    pub fn work(&self) -> &Arc<WorkMeter> {
+        &self.work
     }
 
     /// The first `count` samples under a label of what `header` describes: those that are kept, and those that `solve` makes of the
@@ -90,11 +96,13 @@ impl SampleStore {
         let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
         let mut missing: Vec<u64> = (1..=count as u64).collect();
         missing.retain(|number| !lock().records().values.contains_key(number));
+        self.work.leave_out((count - missing.len()) as u64);
         missing.into_par_iter().try_for_each(|number| {
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
             let values = solve(number);
+            self.work.count(1);
             lock().append(SolvedSample { number, values })
         })?;
         let mut journal = lock();

@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use ::fit::{Estimate, FitDefinition, Fitted, FittedCurve, NoFit};
 use anyhow::Context as _;
 use clap::Args;
 use report::{FitPanel, fit_figure};
 use results::{Claim, Column, CsvFormat, Maker, RunFolder, write_rows};
+use run::WorkMeter;
 use serde_json::{Value, json};
 
 use super::source::{folder_of, settings};
@@ -16,6 +18,7 @@ use super::{DONE, INCOMPLETE};
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{aligned, counted, digits, note, print};
+use crate::progress::Display;
 
 /// Arguments of `squama fit`.
 #[derive(Debug, Args)]
@@ -52,6 +55,10 @@ pub struct Arguments {
     #[command(flatten)]
     pub threads: Threads,
 
+    /// Show no progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
@@ -59,6 +66,9 @@ pub struct Arguments {
 
 /// Files that it writes.
 const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
+
+/// What is said when the first signal has come.
+const ENDING: &str = "ending after the skin in hand, without an answer";
 
 /// Correlations of at least this are told.
 const STRONG: f64 = 0.9;
@@ -71,7 +81,12 @@ pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
     Claim::check(&folder, Maker::Fit)?;
     interrupt.ask_first();
-    let fitted = match arguments.threads.pool()?.install(|| definition.fit(interrupt.stop())) {
+    let display = Display::<WorkMeter>::new(arguments.quiet, interrupt, Arc::default(), ENDING);
+    let fit = || definition.fit(interrupt.stop(), display.watched());
+    let fitted = arguments.threads.pool()?.install(fit);
+    // The bar goes before anything is printed.
+    drop(display);
+    let fitted = match fitted {
         Err(stopped @ NoFit::Stopped) => {
             note(&format!("{path}: {stopped}"));
             return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));

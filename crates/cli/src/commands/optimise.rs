@@ -6,11 +6,12 @@ mod report;
 mod skins;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
 use ::report::Figure;
 use clap::Args;
-use optimisation::{Answer, DesignGoal, Found, SearchOptions, write_found};
+use optimisation::{Answer, DesignGoal, Found, SearchMeter, SearchOptions, write_found};
 use ranking::TILTING_ONLY;
 use results::RunFolder;
 
@@ -21,7 +22,7 @@ use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::json;
 use crate::print::{note, print};
-use crate::progress::SearchDisplay;
+use crate::progress::{Display, RESUMED};
 use figures::figures;
 use record::record;
 use report::SearchReport;
@@ -101,7 +102,7 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
     let folder = folder_of(goal.space.sweep(), arguments.out.as_deref());
     interrupt.ask_first();
     let begun = Instant::now();
-    let display = SearchDisplay::new(arguments.quiet, interrupt);
+    let display = Display::new(arguments.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(arguments, interrupt, &display);
     let found = optimisation::optimise(&goal, &folder, &options, &PROGRAM)?;
     // The bar goes before anything is printed.
@@ -131,13 +132,13 @@ pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<
 fn options<'i>(
     arguments: &Arguments,
     interrupt: &'i Interrupt,
-    display: &'i SearchDisplay,
+    display: &'i Display<SearchMeter>,
 ) -> SearchOptions<'i> {
     SearchOptions {
         threads: arguments.threads.count(),
         start: arguments.earlier.start(),
         stop: interrupt.stop(),
-        meter: display.meter(),
+        meter: display.watched(),
     }
 }
 

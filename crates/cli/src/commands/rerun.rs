@@ -1,6 +1,7 @@
 //! `squama rerun`.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
 use run::{Filter, Rerun};
@@ -11,7 +12,7 @@ use super::work::{Format, Work};
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{counted, print};
-use crate::progress::ProgressDisplay;
+use crate::progress::{ProgressDisplay, RESUMED};
 
 /// Arguments of `squama rerun`.
 #[derive(Debug, Args)]
@@ -77,9 +78,9 @@ pub fn rerun(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8>
         return Ok(DONE);
     }
     interrupt.ask_first();
-    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(&arguments.work, &arguments.format, interrupt, &display);
-    let progress = |progress| display.show(progress);
+    let progress = |progress| display.watched().show(progress);
     let finished = rerun.run(&options, &PROGRAM, progress);
     let threads = options.threads;
     drop(display);

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
+use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
@@ -16,7 +17,7 @@ use super::work::{Earlier, Format, Work, whole};
 use super::{DONE, INCOMPLETE, PROGRAM, audit};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, counted, note, print, time};
-use crate::progress::ProgressDisplay;
+use crate::progress::{ProgressDisplay, RESUMED};
 
 /// A part of the designs.
 #[derive(Clone, Copy, Debug)]
@@ -104,9 +105,9 @@ pub fn run(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let folder = folder(arguments, &sweep);
     note_variables(&sweep);
     interrupt.ask_first();
-    let display = ProgressDisplay::new(arguments.work.quiet, interrupt);
+    let display = ProgressDisplay::new(arguments.work.quiet, interrupt, Arc::default(), RESUMED);
     let options = options(&arguments.work, &arguments.format, interrupt, &display);
-    let progress = |progress| display.show(progress);
+    let progress = |progress| display.watched().show(progress);
     let (subset, start) = (subset(arguments), arguments.earlier.start());
     let finished = run::run(&sweep, subset, &folder, start, &options, &PROGRAM, progress);
     let threads = options.threads;
@@ -180,7 +181,7 @@ pub(super) fn options<'i>(
         fail_fast: work.fail_fast,
         tables_every: TABLES_EVERY,
         stop: interrupt.stop(),
-        work: display.work(),
+        work: display.watched().work(),
     }
 }
 

@@ -12,6 +12,7 @@ use super::source::{Definition, folder_within};
 use super::work::Threads;
 use crate::interrupt::Interrupt;
 use crate::print::note;
+use crate::progress::Display;
 
 /// How samples are solved, and where they are kept.
 #[derive(Debug, Args)]
@@ -23,15 +24,22 @@ pub struct Sampled {
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 
+    /// Show no progress bar
+    #[arg(long, short)]
+    pub quiet: bool,
+
     /// Print JSON instead of text
     #[arg(long)]
     pub json: bool,
 }
 
+/// What is said when the first signal has come.
+const ENDING: &str = "ending after the samples in progress; a second signal ends at once, and the same command continues";
+
 /// The folder in which samples are kept and tables are written.
 pub struct SampledFolder<'a> {
     definition: &'a Definition,
-    threads: Threads,
+    arguments: &'a Sampled,
     maker: Maker,
     pub folder: RunFolder,
 }
@@ -40,24 +48,28 @@ impl<'a> SampledFolder<'a> {
     /// The folder of the command called `name`. One that holds files of others is refused before hours of work, and not behind them.
     pub fn new(
         (definition, sweep): (&'a Definition, &Sweep),
-        arguments: &Sampled,
+        arguments: &'a Sampled,
         (name, maker): (&str, Maker),
     ) -> anyhow::Result<Self> {
         let default = || folder_within(definition, sweep, name);
         let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
         Claim::check(&folder, maker)?;
-        Ok(Self { definition, threads: arguments.threads, maker, folder })
+        Ok(Self { definition, arguments, maker, folder })
     }
 
-    /// What `solve` makes of the samples, and the claim on the tables; `None`, and a word about it, if it was told to stop.
+    /// What `solve` makes of so many `samples`, and the claim on the tables; `None`, and a word about it, if it was told to stop.
     pub fn solved<T: Send>(
         &self,
-        interrupt: &Interrupt,
+        (samples, interrupt): (u64, &Interrupt),
         solve: impl FnOnce(&SampleStore) -> Result<T, NoAnalysis> + Send,
     ) -> anyhow::Result<Option<(T, Claim<'_>)>> {
         let store = SampleStore::new(&self.folder.file("samples"));
         interrupt.ask_first();
-        match self.threads.pool()?.install(|| solve(&store)) {
+        store.work().begin(samples);
+        let display = Display::new(self.arguments.quiet, interrupt, store.work().clone(), ENDING);
+        let solved = self.arguments.threads.pool()?.install(|| solve(&store));
+        drop(display);
+        match solved {
             Ok(solved) => Ok(Some((solved, Claim::take(&self.folder, self.maker)?))),
             Err(stopped @ NoAnalysis::Stopped { .. }) => {
                 note(&format!("{stopped}, which are kept; the same command continues from them"));

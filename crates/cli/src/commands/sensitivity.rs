@@ -62,7 +62,9 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let (samples, stop) = (arguments.samples as usize, interrupt.stop());
     let analysis = GlobalAnalysis { sweep: &sweep, samples, stop, program: PROGRAM };
-    let Some((found, claim)) = sampled.solved(interrupt, |store| analysis.solve(store))? else {
+    let Some((found, claim)) =
+        sampled.solved((arguments.samples, interrupt), |store| analysis.solve(store))?
+    else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };
     let folder = &sampled.folder;

@@ -77,8 +77,9 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
     let command = ("tolerance", Maker::Tolerance);
     let sampled = SampledFolder::new((&arguments.definition, &sweep), &arguments.sampled, command)?;
     let samples = arguments.samples as usize;
+    let work = designs.len() as u64 * arguments.samples;
     let analysis = Analysis::new(&sweep, &requirements, samples, PROGRAM, interrupt.stop());
-    let solved = sampled.solved(interrupt, |store| analysed(&analysis, &designs, store))?;
+    let solved = sampled.solved((work, interrupt), |store| analysed(&analysis, &designs, store))?;
     let Some((all, mut claim)) = solved else {
         return Ok(interrupt.exit_code().unwrap_or(INCOMPLETE));
     };

@@ -187,6 +187,16 @@ mod signals {
         run.until_said(word);
         // What comes within a second is the same request; a later one ends it.
         assert_eq!(run.end_by(SIGINT).code(), Some(130));
+
+        let mut tolerance = place.spawn(
+            "tolerance x.toml --samples 2 --threads 1 --set tolerance.slant_deg={batch_sd=1}",
+        );
+        tolerance.until(|| place.path("results/endless/tolerance/samples/0001.csv").exists());
+        tolerance.send(SIGINT);
+        tolerance.until_said(
+            "ending after the samples in progress; a second signal ends at once, and the same command continues\n",
+        );
+        assert_eq!(tolerance.end_by(SIGINT).code(), Some(130));
     }
 
     /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes: all of them are

@@ -1,5 +1,6 @@
 //! What was put into curves comes out of them, as surely as is said.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};
 
@@ -145,15 +146,29 @@ fn trial(number: u64) -> Trial {
     KINDS[number as usize % KINDS.len()](&mut ChaCha12Rng::seed_from_u64(number))
 }
 
-/// What came of a trial: of each unknown whether its interval holds the truth, `None` if it is not told or at an end of its range.
-fn held(number: u64, noise: f64) -> Vec<Option<bool>> {
+/// What came of an unknown of a trial.
+enum Came {
+    /// It has an interval; whether that holds the truth.
+    Interval { holds: bool },
+    /// The curves do not tell it.
+    Untold,
+    /// It stands at an end of its range.
+    AtEnd,
+}
+
+/// What came of each unknown of a trial, by name.
+fn held(number: u64, noise: f64) -> Vec<(String, Came)> {
     let truth = trial(number).truth;
     let fitted = trial(number).fitted(number, noise);
-    let holds = |(estimate, truth): (&Estimate, &f64)| {
-        let interval = estimate.interval.filter(|_| !estimate.at_end);
-        interval.map(|[low, high]| (low..=high).contains(truth))
+    let came = |(estimate, truth): (&Estimate, &f64)| {
+        let came = match estimate.interval {
+            None => Came::Untold,
+            Some(_) if estimate.at_end => Came::AtEnd,
+            Some([low, high]) => Came::Interval { holds: (low..=high).contains(truth) },
+        };
+        (format!("{} of kind {}", estimate.unknown.name, number % KINDS.len() as u64), came)
     };
-    fitted.estimates.iter().zip(&truth).map(holds).collect()
+    fitted.estimates.iter().zip(&truth).map(came).collect()
 }
 
 #[test]
@@ -195,13 +210,27 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
         let has_time = |number: &u64| *number < FEW || begun.elapsed() < longest;
         let numbers = (0..count).into_par_iter().filter(has_time);
         let trials: Vec<_> = numbers.map(|number| held(number, noise)).collect();
-        let all: Vec<_> = trials.iter().flatten().flatten().collect();
-        let share = all.iter().filter(|held| ***held).count() as f64 / all.len() as f64;
-        let (trials, intervals) = (trials.len(), all.len());
+        let mut counts = BTreeMap::<&str, [usize; 4]>::new();
+        for (name, came) in trials.iter().flatten() {
+            let column = match came {
+                Came::Interval { holds: true } => 0,
+                Came::Interval { holds: false } => 1,
+                Came::Untold => 2,
+                Came::AtEnd => 3,
+            };
+            counts.entry(name).or_default()[column] += 1;
+        }
+        let [hold, miss] = [0, 1].map(|k| counts.values().map(|count| count[k]).sum::<usize>());
+        let intervals = hold + miss;
+        let share = hold as f64 / intervals as f64;
         println!(
-            "noise {noise}: {:.2} % of {intervals} intervals of {trials} trials",
-            100.0 * share
+            "noise {noise}: {:.2} % of {intervals} intervals of {} trials; hold, miss, untold, at an end:",
+            100.0 * share,
+            trials.len()
         );
+        for (name, counts) in counts {
+            println!("  {name}: {counts:?}");
+        }
         let chance = 3.5 * (TOGETHER * 0.95 * 0.05 / intervals as f64).sqrt();
         assert!((share - 0.95).abs() <= chance.max(0.02), "{noise}: {share} of {intervals}");
     }

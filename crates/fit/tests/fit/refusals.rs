@@ -1,5 +1,10 @@
 //! What is wrong with a definition is said with its place, its key and what would be right.
 
+use std::sync::atomic::AtomicBool;
+
+use fit::{FitDefinition, NoFit};
+use run::WorkMeter;
+
 use crate::made::Place;
 
 const SKIN: &str =
@@ -28,6 +33,17 @@ fn keys_of_curves_are_checked() {
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap = 1\n"), @"test.toml:10: curve.gap: unknown key (its value is 1), expected file, kind, columns, from, to, offsets or what this specimen has alone, e.g. gap_over_t");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = -1\n"), @"test.toml:10: curve.gap_over_t: designs.gap_over_t: -1 is out of range, expected a length of at least 0.001 and at most 1000");
     insta::assert_snapshot!(wrong("file = 'a.csv'\nkind = 'puncture'\ngap_over_t = [0.1, 0.2]\n"), @"test.toml: designs.gap_over_t: [0.1, 0.2] is not accepted, expected one value, or gap_over_t among [variables]");
+}
+
+#[test]
+fn a_fit_that_is_told_to_stop_has_no_answer() {
+    let place = Place::new();
+    place.write("a.csv", "displacement,force\n0.1,1\n0.2,2\n");
+    let sought = "[variables]\nfriction = { from = 0, to = 1 }\n[[curve]]\nfile = 'a.csv'\nkind = 'puncture'\n";
+    place.write("test.toml", &format!("{SKIN}{sought}"));
+    let definition = FitDefinition::read(&place.path("test.toml"), &[]).expect("a definition");
+    let stopped = definition.fit(&AtomicBool::new(true), &WorkMeter::default());
+    assert!(matches!(stopped, Err(NoFit::Stopped)), "{stopped:?}");
 }
 
 #[test]

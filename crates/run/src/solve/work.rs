@@ -64,9 +64,46 @@ impl WorkMeter {
     }
 
     /// Begins to count `all` units.
-    pub(crate) fn begin(&self, all: u64) {
+    pub fn begin(&self, all: u64) {
         self.done.store(0, Ordering::Relaxed);
         self.all.store(all, Ordering::Relaxed);
+    }
+
+    /// Leaves out some units that need no work, so that they do not count as done quickly.
+    pub fn leave_out(&self, units: u64) {
+        self.all.fetch_sub(units.min(self.all.load(Ordering::Relaxed)), Ordering::Relaxed);
+    }
+
+    /// Counts units that are done.
+    pub fn count(&self, units: u64) {
+        self.done.fetch_add(units, Ordering::Relaxed);
+    }
+}
+
+/// A piece of the work of which so many units are expected: no more are counted, and what is left when it ends is done with it.
+pub struct WorkPiece<'m> {
+    meter: &'m WorkMeter,
+    left: Cell<u64>,
+}
+
+impl<'m> WorkPiece<'m> {
+    /// A piece, none of it done.
+    pub fn new(meter: &'m WorkMeter, units: u64) -> Self {
+        Self { meter, left: Cell::new(units) }
+    }
+
+    /// Counts units that are done.
+    pub fn count(&self, units: u64) {
+        // No more than was promised, so that the share of the work never passes 1.
+        let units = units.min(self.left.get());
+        self.left.set(self.left.get() - units);
+        self.meter.count(units);
+    }
+}
+
+impl Drop for WorkPiece<'_> {
+    fn drop(&mut self) {
+        self.count(u64::MAX);
     }
 }
 
@@ -106,42 +143,27 @@ pub(crate) fn work_of(case: &Case, measures: &[Measure]) -> u64 {
     Parts::of(case, measures).sum()
 }
 
-/// The work of one design while it is solved. What is left when it ends, because nothing is told of a part or a path
-/// stopped early, is done with it.
+/// The work of one design while it is solved.
 pub(crate) struct DesignWork<'m> {
-    meter: &'m WorkMeter,
+    piece: WorkPiece<'m>,
     parts: Parts,
-    left: Cell<u64>,
 }
 
 impl<'m> DesignWork<'m> {
     /// The work of `case`, none of it done.
     pub fn new(meter: &'m WorkMeter, case: &Case, measures: &[Measure]) -> Self {
         let parts = Parts::of(case, measures);
-        Self { meter, parts, left: Cell::new(parts.sum()) }
+        Self { piece: WorkPiece::new(meter, parts.sum()), parts }
     }
 
     /// An imperfect row is done.
     pub fn row_done(&self) {
-        self.done(self.parts.row);
+        self.piece.count(self.parts.row);
     }
 
     /// An imperfect strip is done.
     pub fn strip_done(&self) {
-        self.done(self.parts.strip);
-    }
-
-    fn done(&self, units: u64) {
-        // No more than was promised, so that the share of the work never passes 1.
-        let units = units.min(self.left.get());
-        self.left.set(self.left.get() - units);
-        self.meter.done.fetch_add(units, Ordering::Relaxed);
-    }
-}
-
-impl Drop for DesignWork<'_> {
-    fn drop(&mut self) {
-        self.done(u64::MAX);
+        self.piece.count(self.parts.strip);
     }
 }
 
