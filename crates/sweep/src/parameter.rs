@@ -4,6 +4,7 @@ mod continuous;
 pub mod key;
 pub(crate) mod length;
 mod list;
+mod modulus;
 mod role;
 mod scalar;
 
@@ -184,6 +185,7 @@ impl Parameter {
     pub(crate) fn set(&self, case: &mut Case, value: Scalar) {
         self.assign(case, value);
         length::settle(case);
+        modulus::settle(case);
     }
 
     /// Sets this parameter alone.

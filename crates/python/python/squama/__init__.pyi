@@ -183,6 +183,7 @@ class Skin:
         thickness_mm: float | None = None,
         substrate_modulus_MPa: float | None = None,
         membrane_modulus_MPa: float | None = None,
+        scale_modulus_MPa: float | None = None,
         scale_density_kg_m3: float | None = None,
     ) -> None: ...
     @property
@@ -293,6 +294,8 @@ class Skin:
     def substrate_modulus_MPa(self) -> float | None: ...
     @property
     def membrane_modulus_MPa(self) -> float | None: ...
+    @property
+    def scale_modulus_MPa(self) -> float | None: ...
     @property
     def scale_density_kg_m3(self) -> float | None: ...
     @property

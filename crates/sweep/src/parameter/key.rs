@@ -68,6 +68,15 @@ pub const THICKNESS: &str = "thickness_mm";
 /// The modulus of the substrate.
 pub const SUBSTRATE_MODULUS: &str = "substrate_modulus_MPa";
 
+/// The modulus of the scales.
+pub const SCALE_MODULUS: &str = "scale_modulus_MPa";
+
+/// The modulus of the scales in contact over that of the substrate.
+pub const CONTACT_OVER_SUBSTRATE: &str = "contact_modulus_over_substrate";
+
+/// The modulus of the scales in contact over that of the membrane.
+pub const CONTACT_OVER_MEMBRANE: &str = "contact_modulus_over_membrane";
+
 /// The modulus of the membrane.
 pub const MEMBRANE_MODULUS: &str = "membrane_modulus_MPa";
 

@@ -359,7 +359,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "contact_modulus_over_substrate",
+        key: key::CONTACT_OVER_SUBSTRATE,
         section: "puncture",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
@@ -492,7 +492,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "contact_modulus_over_membrane",
+        key: key::CONTACT_OVER_MEMBRANE,
         section: "flexure",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
@@ -653,6 +653,18 @@ pub static PARAMETERS: &[Parameter] = &[
             noun: "a number",
             range: POSITIVE,
             field: |c| &mut c.material.membrane_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: key::SCALE_MODULUS,
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_ct of the scales in contact, in the place of its ratios to the other two",
+        roles: &[Made],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.scale_modulus_mpa,
         },
     },
     Parameter {
