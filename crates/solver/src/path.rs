@@ -72,6 +72,8 @@ pub struct Path<S: System> {
     pub(crate) is_positive: bool,
     /// Whether no event had another way on among those that were looked at.
     pub(crate) is_unique: bool,
+    /// How often an event left no way on but that everything sticks and the path turns round.
+    pub(crate) reversals: usize,
     /// The sign of a load that only pushes: the path ends where it comes back to zero.
     pub(crate) pushes: Option<f64>,
     /// Whether the path has been turned back, away from its target.
@@ -106,6 +108,7 @@ impl<S: System> Path<S> {
             guards: Vec::new(),
             slopes: Vec::new(),
             is_unique: true,
+            reversals: 0,
             pushes: None,
             is_back: false,
             step: settings.first_step.min(settings.max_step),
@@ -447,9 +450,12 @@ impl<S: System> Iterator for Path<S> {
         match self.advance() {
             Ok(point) => {
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
-                    self.stop = Some(Stop::Reached);
+                    // On its way back a path that rises to its target again has turned round.
+                    self.stop = Some(if self.is_back { Stop::Jumps } else { Stop::Reached });
                 } else if point.event == Some(Event::Unloaded) {
-                    self.stop = Some(Stop::Unloaded);
+                    // Nobody took the load away: it fell because the path could not go on where it turned.
+                    let has_turned = self.reversals > 0 && !self.is_back;
+                    self.stop = Some(if has_turned { Stop::Jumps } else { Stop::Unloaded });
                 }
                 self.stand(point.clone());
                 Some(point)

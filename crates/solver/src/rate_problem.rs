@@ -16,6 +16,9 @@ const SAME_WAY: f64 = 1e-6;
 /// More sets of changes than this are not tried where constraints have companions.
 const MOST_WITH_FRICTION: usize = 500;
 
+/// More often than this no path takes its load back. Those that are known to come through do so once or twice.
+const MOST_REVERSALS: usize = 20;
+
 /// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at
 /// `z_c = 0` and `r_c(z) = 0` at once, and the direction in which the path goes on solves the complementarity
 /// problem of the rates,
@@ -53,6 +56,7 @@ impl<S: System> Path<S> {
         // event.
         if changes.len() > 1
             && let Some((next, leaving)) = self.pivot_together(state, arriving, changes)
+            && self.cosine(arriving, &leaving) > 0.0
         {
             *state = next;
             return Ok(leaving);
@@ -65,26 +69,43 @@ impl<S: System> Path<S> {
         let mut found: Option<Resolved<S::Mode>> = None;
         let mut failure = Stop::Singular;
         let before = self.is_positive;
-        for start in self.starts(state, changes[0]) {
-            self.is_positive = before;
-            match self.pivot_in_turn(state, arriving, changes, &start) {
-                Err(stop) => failure = stop,
-                Ok(resolved) => {
-                    if let Some(other) = &found {
-                        let cosine = self.cosine(&other.leaving, &resolved.leaving);
-                        self.is_unique &= cosine > 1.0 - SAME_WAY;
-                    }
-                    let worth = |way: &Resolved<S::Mode>| (way.is_positive == before, way.along);
-                    if found.as_ref().is_none_or(|best| worth(best) < worth(&resolved)) {
-                        found = Some(resolved);
-                    }
+        // Of changes that happen at once one may turn the path round, as a corner that closes where another lets go: only then is it asked
+        // what comes of beginning with another of them.
+        for change in changes.clone() {
+            for start in self.starts(state, change) {
+                self.is_positive = before;
+                match self.pivot_in_turn(state, arriving, changes, &start) {
+                    Err(stop) => failure = stop,
+                    Ok(way) => found = Some(self.better_way(found, way, before)),
                 }
             }
+            if found.as_ref().is_some_and(|way| way.along > 0.0) {
+                break;
+            }
         }
-        let Resolved { state: next, leaving, changes: made, is_positive, .. } =
+        let Resolved { state: next, leaving, changes: made, is_positive, along } =
             found.ok_or(failure)?;
+        if along < 0.0 && !self.system.growing().is_empty() {
+            self.reversals += 1;
+            if self.reversals > MOST_REVERSALS {
+                return Err(Stop::Jumps);
+            }
+        }
         (*state, *changes, self.is_positive) = (next, made, is_positive);
         Ok(leaving)
+    }
+
+    /// Of two ways on the one that keeps the orientation, or else turns less.
+    fn better_way(
+        &mut self,
+        found: Option<Resolved<S::Mode>>,
+        other: Resolved<S::Mode>,
+        is_positive: bool,
+    ) -> Resolved<S::Mode> {
+        let Some(found) = found else { return other };
+        self.is_unique &= self.cosine(&found.leaving, &other.leaving) > 1.0 - SAME_WAY;
+        let worth = |way: &Resolved<S::Mode>| (way.is_positive == is_positive, way.along);
+        if worth(&found) < worth(&other) { other } else { found }
     }
 
     /// Turns the path back where it stands: what slides sticks, the load falls, and the path ends where that comes to zero.

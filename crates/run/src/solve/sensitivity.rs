@@ -149,31 +149,33 @@ impl Varied<'_> {
     }
 
     pub(super) fn punctured(&self, by: f64) -> Option<PunctureInput> {
-        let stiffness = self.slopes?.stiffness.clone();
-        let stiffness = match self.stiffness_rate() {
-            Some(rate) => stiffness + rate * by,
-            None => stiffness,
-        };
-        Some(punctured(&self.parameter.moved(self.case, by)?, stiffness))
+        let moved = self.parameter.moved(self.case, by)?;
+        Some(punctured(&moved, self.stiffness(&moved)?))
     }
 
     pub(super) fn bent(&self, by: f64) -> Option<FlexureInput> {
         Some(bent(&self.parameter.moved(self.case, by)?))
     }
 
-    /// The derivative of the stiffness with respect to the parameter; `None` if there is none.
-    fn stiffness_rate(&self) -> Option<RowStiffness> {
-        let design = &self.case.design;
-        let slopes = self.slopes?;
-        let a = design.half_base();
-        match self.parameter.key {
-            "gap_over_t" => Some(slopes.by_gap.clone() * a.recip()),
-            "width_over_t" => Some(slopes.by_width.clone() * a.recip()),
-            // A longer scale has a footprint of smaller ratios.
-            "length_over_t" => Some(slopes.by_size.clone() * -design.length.recip()),
-            "poisson_ratio" => Some(slopes.by_poisson_ratio.clone()),
-            "tissue_thickness_over_t" => Some(slopes.by_thickness.clone()? * a.recip()),
-            _ => None,
+    /// The stiffness of a case close by, on the straight lines of its derivatives.
+    // Read from the footprint that has moved, not from the parameter's name: a length in mm moves it, and so may a thickness in mm.
+    fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
+        let (slopes, case) = (self.slopes?, self.case);
+        let (from, to) = (&case.design, &moved.design);
+        let a = from.half_base();
+        // A longer scale has a footprint of smaller ratios.
+        let mut ways = vec![
+            (&slopes.by_gap, (to.gap - from.gap) / a),
+            (&slopes.by_width, (to.width - from.width) / a),
+            (&slopes.by_size, 1.0 - to.length / from.length),
+            (&slopes.by_poisson_ratio, moved.puncture.poisson_ratio - case.puncture.poisson_ratio),
+        ];
+        if let (Some(by), Some(to), Some(from)) =
+            (&slopes.by_thickness, moved.tissue_thickness, case.tissue_thickness)
+        {
+            ways.push((by, (to - from) / a));
         }
+        let ways = ways.into_iter().filter(|(_, by)| *by != 0.0);
+        Some(ways.fold(slopes.stiffness.clone(), |sum, (slope, by)| sum + slope.clone() * by))
     }
 }

@@ -19,6 +19,8 @@ mod outline;
 mod passage;
 mod transition;
 
+use std::ops::Range;
+
 use contact::{CornerContact, CornerEdge};
 use geometry::Vec2;
 use solver::{Condition, Newton};
@@ -129,6 +131,14 @@ impl GuidedNeedle {
     /// Number of a constraint of a touch among those of the row.
     fn number(&self, touch: usize, constraint: usize) -> usize {
         self.contacts + CONSTRAINTS * touch + constraint
+    }
+
+    /// Those of the push and of the slip of a tip that rubs: as it comes off a face it holds to, its friction goes with it.
+    pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
+        let number = constraint - self.contacts;
+        let first = constraint - number % CONSTRAINTS;
+        let is_of_touch = number < THROUGH && number % CONSTRAINTS <= BACKWARD;
+        if is_of_touch && self.rubs() { first..first + 3 } else { constraint..constraint + 1 }
     }
 
     /// The constraint at which a path has ended.

@@ -368,10 +368,12 @@ impl System for Chain {
     }
 
     fn companions(&self, constraint: usize) -> std::ops::Range<usize> {
-        if constraint >= self.contacts.forces().len() {
-            return constraint..constraint + 1;
+        match &self.needle {
+            Some(needle) if constraint >= self.contacts.forces().len() => {
+                needle.companions(constraint)
+            }
+            _ => self.contacts.companions(constraint),
         }
-        self.contacts.companions(constraint)
     }
 
     fn load_only_pushes(&self) -> bool {

@@ -237,3 +237,41 @@ fn the_load_is_taken_away_again() {
         }
     }
 }
+
+/// A tip that leaves a notch as the load falls, with frictionless scales; corners that close where others let go. Where pivoting begins with
+/// the wrong one of changes that happen at once, each of these turns round or stops.
+#[test]
+fn the_way_back_leads_through_changes_that_happen_at_once() {
+    let guided = Needle::Guided { friction: 0.3 };
+    for (gap, length, slant_deg, base, friction, needle) in [
+        (0.6, 0.9, 75.0, Base::L, 0.0, guided),
+        (0.1, 0.5, 60.0, Base::L, 0.0, guided),
+        (0.1, 0.3, 75.0, Base::TwoL, 0.0, guided),
+        (0.6, 1.0, 75.0, Base::TwoL, 0.3, Needle::Free),
+        (1.0, 0.8, 75.0, Base::TwoL, 0.3, Needle::Free),
+    ] {
+        let design = design(gap, length, slant_deg, base);
+        let load_position = if needle == Needle::Free { 1.0 } else { 0.975 };
+        let parameters =
+            PunctureParameters { needle, unload: true, load_position, ..Default::default() };
+        let puncture = solve_as(&Calibrations::default(), &design, &rubbing(friction), &parameters);
+        let back = puncture.way_back.as_ref().unwrap();
+        assert_eq!((puncture.status, back.stop), (Status::Complete, Stop::Unloaded), "{design:?}");
+    }
+}
+
+/// Nobody takes the load away from these rows: their paths turn round where friction leaves no way on, and fall back to rest (the
+/// first) or repeat themselves.
+#[test]
+fn a_path_that_turns_round_jumps() {
+    let needle = Needle::Guided { friction: 0.3 };
+    let parameters = PunctureParameters { needle, load_position: 0.95, ..Default::default() };
+    for (gap, length, slant_deg, base) in
+        [(0.063_973, 1.488_271, 76.554, Base::L), (0.062_271, 2.393_676, 79.65, Base::L)]
+    {
+        let design = design(gap, length, slant_deg, base);
+        let puncture = solve_as(&Calibrations::default(), &design, &rubbing(0.1), &parameters);
+        assert_eq!(puncture.status, Status::Stopped(Stop::Jumps), "{design:?}");
+        assert!(puncture.path.len() < 1000, "{design:?}");
+    }
+}

@@ -124,3 +124,20 @@ fn a_parameter_without_derivatives_has_no_rate() {
     assert_eq!([0, 1, 2].map(|k| rates[k].is_some()), [true, false, true]);
     assert!(points[1].is_none(), "no path comes so far");
 }
+
+/// A length in mm moves the springs, too.
+#[test]
+fn a_length_in_mm_has_the_rate_of_the_length() {
+    let text = "name = 'x'\n[designs]\ngap_mm = 0.5\nlength_mm = 2.0\nslant_deg = 40\n[material]\nthickness_mm = 2.0\nsubstrate_modulus_MPa = 0.1";
+    let case = Sweep::parse(text, "x.toml", &[]).expect("a sweep").grid().case(0);
+    let keys = ["gap_mm", "gap_over_t", "length_mm", "length_over_t"];
+    let parameters = keys.map(|key| Parameter::named(key).expect("a parameter"));
+    let points = forces(&Evaluator::new(&[]), &case, &parameters, &[0.05, 0.2]);
+    for point in points {
+        let rates: Vec<_> = point.expect("a point").rates.into_iter().flatten().collect();
+        for pair in rates.chunks(2) {
+            assert!((pair[0] * 2.0 - pair[1]).abs() < 1e-8 * pair[1].abs(), "{rates:?}");
+        }
+        assert_eq!(rates.len(), 4);
+    }
+}

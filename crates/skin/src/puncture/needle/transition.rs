@@ -30,7 +30,7 @@ impl Chain {
         let (slot, constraint) = (number / CONSTRAINTS, number % CONSTRAINTS);
         let valid = match (constraint, change.activated) {
             (PUSH, true) => self.enter_notch(needle, state, slot)?,
-            (PUSH, false) => self.leave(needle, state, slot)?,
+            (PUSH, false) => return self.leave(needle, state, slot),
             (FORWARD | BACKWARD, true) => {
                 let at = self.way(state, slot)?;
                 let sign = if constraint == FORWARD { 1.0 } else { -1.0 };
@@ -125,8 +125,14 @@ impl Chain {
         needle.end_sliding(state, slot);
         state.z[needle.push(slot) + 1] = 0.0;
         state.mode.needle.touches[slot] = None;
+        if !state.mode.needle.touches[1 - slot]?.is_held() {
+            return Some(needle.number(slot, PUSH));
+        }
         self.come_to_rest(needle, state, 1 - slot);
-        Some(PUSH)
+        // The corner still lies on the face, and the tip at the corner, so no gap opens: what tells which way the path goes is the friction
+        // that was full there.
+        let is_forward = state.z[needle.push(1 - slot) + 1] >= 0.0;
+        Some(needle.number(1 - slot, if is_forward { FORWARD } else { BACKWARD }))
     }
 
     /// Lets the corner of a notch rub by itself again, as the tip leaves its place.
