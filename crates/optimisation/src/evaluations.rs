@@ -10,7 +10,7 @@ use rayon::iter::{IntoParallelIterator as _, ParallelIterator as _};
 use results::{DesignResult, DesignRow, OutputError};
 use run::{Evaluator, Program};
 use store::Journal;
-use sweep::{Case, DesignNumber, Measure, Parameter, key};
+use sweep::{Case, DesignNumber, Measure};
 use tolerance::Sampler;
 
 use crate::error::OptimisationError;
@@ -70,11 +70,9 @@ impl<'a> Evaluations<'a> {
         let measures = self.space.sweep().measures();
         let is_measured = |section: &str| measures.iter().any(|m| m.sections().contains(&section));
         let intervals = self.space.intervals().iter().enumerate();
-        // A thickness does more where lengths are given in mm: it moves those over it.
-        let moves = self.space.sweep().gives_millimetres();
-        let is_moving = |of: &Parameter| moves && of.key == key::THICKNESS;
+        // A thickness does more where lengths are given in mm, and a modulus beside that of the scales.
         let scaling = intervals.filter(|(_, Interval { parameter, .. })| {
-            !(is_measured(parameter.section) || is_moving(parameter))
+            !(is_measured(parameter.section) || self.space.sweep().has_followers(parameter))
         });
         scaling.map(|(j, _)| j).collect()
     }
@@ -150,8 +148,10 @@ impl<'a> Evaluations<'a> {
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
-        let in_mm = self.space.sweep().gives_millimetres();
-        let moves_more = in_mm || (sample.is_some() && has_material);
+        let sweep = self.space.sweep();
+        let moves =
+            sweep.gives_millimetres() || self.space.parameters().any(|p| sweep.has_followers(p));
+        let moves_more = moves || (sample.is_some() && has_material);
         result.sensitivity.retain(|d| moves_more || is_variable(d.parameter));
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();

@@ -164,6 +164,7 @@ mod tests {
             thickness_mm: Some(2.0),
             substrate_modulus_mpa: Some(0.3),
             membrane_modulus_mpa: Some(4.5),
+            scale_modulus_mpa: Some(3000.0),
             scale_density_kg_m3: Some(1200.0),
         };
         case
@@ -212,6 +213,7 @@ mod tests {
                 thickness_mm: material.thickness_mm.map(|thickness| thickness * length),
                 substrate_modulus_mpa: stress(material.substrate_modulus_mpa),
                 membrane_modulus_mpa: stress(material.membrane_modulus_mpa),
+                scale_modulus_mpa: stress(material.scale_modulus_mpa),
                 scale_density_kg_m3: material.scale_density_kg_m3,
             };
             let dimensions = [

@@ -18,6 +18,7 @@ use std::path::Path;
 use crate::case::Case;
 use crate::deviation::Deviation;
 use crate::grid::Grid;
+use crate::number;
 use crate::parameter::Scalar;
 use crate::parameter::{PARAMETERS, Parameter, key};
 use crate::toml_source::{self, KeyValue, KeyValues, Place, Value};
@@ -152,6 +153,36 @@ impl Sweep {
         PARAMETERS.iter().any(|parameter| parameter.is_in_mm() && self.gives(parameter.key))
     }
 
+    /// Whether another parameter of the skin follows from this one: a length over the thickness from a thickness, a ratio of contact from
+    /// a modulus.
+    pub fn has_followers(&self, parameter: &Parameter) -> bool {
+        match parameter.key {
+            key::THICKNESS => self.gives_millimetres(),
+            key::SUBSTRATE_MODULUS | key::MEMBRANE_MODULUS => self.gives(key::SCALE_MODULUS),
+            key::SCALE_MODULUS => true,
+            _ => parameter.is_in_mm(),
+        }
+    }
+
+    /// What is strange about the definition though it is valid: a modulus of soft tissue in the unit of another prefix.
+    pub fn question(&self) -> Option<String> {
+        let written = |parameter: &Parameter| {
+            let axis = self.grid.axis(parameter.key).map(|axis| axis.span().1);
+            let variable = self.variables.iter().find(|v| v.parameter() == parameter);
+            let variable = variable.and_then(|variable| variable.at(1.0).number());
+            variable.or(axis).or_else(|| parameter.get(self.grid.base()).number())
+        };
+        let modulus = written(Parameter::named(key::SUBSTRATE_MODULUS)?)?;
+        (modulus > STIFFEST_TISSUE).then(|| {
+            format!(
+                "material.{} is {} MPa, {} GPa: soft tissue has some 0.001 to 10 MPa; is it in MPa, and not in kPa or Pa?",
+                key::SUBSTRATE_MODULUS,
+                number::text(modulus),
+                number::text(modulus / 1e3)
+            )
+        })
+    }
+
     /// Whether the parameter of that name is an axis, or has another value than that by default.
     pub fn sets(&self, key: &str) -> bool {
         let is_set = |parameter: &Parameter| parameter.get(self.grid.base()) != parameter.default();
@@ -180,6 +211,9 @@ impl Sweep {
         self.grid.axis(parameter.key).is_some() || (parameter.is_optional() && is_number)
     }
 }
+
+/// Modulus in `MPa` above which nothing is soft tissue: that of bone is ten times as much, that of cartilage a hundredth.
+const STIFFEST_TISSUE: f64 = 1e3;
 
 /// Bytes of a definition, at most: a million values of an axis take a third of them.
 const LONGEST: u64 = 1 << 26;

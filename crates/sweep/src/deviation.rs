@@ -77,11 +77,6 @@ impl Deviation {
                 moved.flexure.contact_modulus_over_membrane *= modulus / (modulus + by);
                 Some(moved)
             }
-            key::DENSITY => {
-                let (mut moved, density) = (*case, case.material.scale_density_kg_m3?);
-                moved.material.scale_density_kg_m3 = Some(density + by);
-                Some(moved)
-            }
             _ => self.parameter.moved(case, by),
         }
     }

@@ -12,7 +12,7 @@ use results::{Claim, Column, CsvFormat, Maker, RunFolder, write_rows};
 use run::WorkMeter;
 use serde_json::{Value, json};
 
-use super::source::{folder_of, settings};
+use super::source::{folder_of, question, settings};
 use super::work::Threads;
 use super::{DONE, INCOMPLETE};
 use crate::interrupt::Interrupt;
@@ -77,6 +77,7 @@ const STRONG: f64 = 0.9;
 pub fn fit(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let path = arguments.path.display();
     let definition = FitDefinition::read(&arguments.path, &settings(&arguments.settings)?)?;
+    question(definition.sweep());
     let default = || folder_of(definition.sweep(), None).join("fit");
     let folder = RunFolder::new(arguments.out.clone().unwrap_or_else(default));
     Claim::check(&folder, Maker::Fit)?;

@@ -16,7 +16,7 @@ use ranking::TILTING_ONLY;
 use results::RunFolder;
 
 use super::required::Required;
-use super::source::{folder_of, settings};
+use super::source::{folder_of, question, settings};
 use super::work::{Earlier, Format, Threads};
 use super::{DONE, INCOMPLETE, PROGRAM};
 use crate::interrupt::Interrupt;
@@ -96,6 +96,7 @@ pub struct Arguments {
 pub fn optimise(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result<u8> {
     let (settings, required) = (settings(&arguments.settings)?, arguments.required.read()?);
     let goal = DesignGoal::read_with(&arguments.path, &settings, &required)?;
+    question(goal.space.sweep());
     for standard in &goal.standards {
         note(&format!("goal.protects: {}; {TILTING_ONLY}", standard.source));
     }

@@ -8,6 +8,8 @@ use clap::Args;
 use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
 use sweep::{InvalidSetting, Setting, Sweep};
 
+use crate::print::note;
+
 /// Whether results are used that are not whole.
 #[derive(Debug, Args)]
 pub struct Partial {
@@ -46,7 +48,16 @@ pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
 /// The sweep that is defined, with its settings.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
     let settings = settings(&definition.settings)?;
-    Ok(Sweep::read(&definition_file(&definition.path)?, &settings)?)
+    let sweep = Sweep::read(&definition_file(&definition.path)?, &settings)?;
+    question(&sweep);
+    Ok(sweep)
+}
+
+/// Says what is strange about a definition though it is valid.
+pub fn question(sweep: &Sweep) {
+    if let Some(question) = sweep.question() {
+        note(&question);
+    }
 }
 
 /// The file of the definition, which is as it was written if a run has written it: `path`, or in the folder `path` the record of the run

@@ -80,3 +80,24 @@ fn a_material_may_vary_and_is_shown() {
     place.prints("draw y.toml --design 4 --out d");
     assert!(place.read("d/design-0004-puncture-at-critical-tilt.svg").contains(" mm"));
 }
+
+#[test]
+fn a_modulus_in_another_unit_is_questioned_and_that_of_the_scales_stands_for_its_ratios() {
+    let place = Place::with(
+        "name = 'x'\ndesigns = { gap_over_t = 0.2, length_over_t = 1, slant_deg = 45 }\n[material]\n\
+         thickness_mm = 2\nsubstrate_modulus_MPa = 310000\nmembrane_modulus_MPa = 4.5\n",
+    );
+    let checked = place.squama("check x.toml").assert().code(0).get_output().stderr.clone();
+    let question = "note: material.substrate_modulus_MPa is 310000 MPa, 310 GPa:";
+    assert!(String::from_utf8_lossy(&checked).starts_with(question));
+    // Scales that are a hundred times as stiff as what they lie on.
+    let known = "design x.toml --set material.substrate_modulus_MPa=0.31 --json";
+    let force = |set: &str| {
+        let json: serde_json::Value =
+            serde_json::from_str(&place.prints(&format!("{known} {set}"))).expect("JSON");
+        json["measures"]["critical_force_N"].as_f64().expect("a force")
+    };
+    let by_ratio = force("--set puncture.contact_modulus_over_substrate=100");
+    let by_modulus = force("--set material.scale_modulus_MPa=31");
+    assert!((by_ratio - by_modulus).abs() < 1e-9 * by_ratio && by_ratio != force(""), "{by_ratio}");
+}

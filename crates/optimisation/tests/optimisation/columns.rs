@@ -35,6 +35,18 @@ fn lengths_in_mm_too() {
     columns_have_the_derivatives_of_solved_designs(text, &keys);
 }
 
+/// Soft scales, whose contact gives way: each modulus moves a ratio, and that of the scales both.
+#[test]
+fn moduli_beside_that_of_the_scales_too() {
+    let text = format!("{TEXT}scale_modulus_MPa = 8\n");
+    let keys = ["substrate_modulus_MPa", "membrane_modulus_MPa", "scale_modulus_MPa"];
+    columns_have_the_derivatives_of_solved_designs(&text, &keys);
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a sweep");
+    assert!(
+        keys.iter().all(|key| sweep.has_followers(Parameter::named(key).expect("a parameter")))
+    );
+}
+
 fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
     let sweep = Sweep::parse(text, "x.toml", &[]).expect("a sweep");
     let case = sweep.grid().case(0);
@@ -65,7 +77,7 @@ fn columns_have_the_derivatives_of_solved_designs(text: &str, keys: &[&str]) {
             compared += 1;
         }
     }
-    assert!(compared > 120, "{compared}");
+    assert!(compared > 24 * keys.len(), "{compared}");
 }
 
 #[test]

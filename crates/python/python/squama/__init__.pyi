@@ -156,6 +156,7 @@ class Skin:
         needle_friction: float | Sequence[float] | str | None = None,
         depth_over_t: float | None = None,
         depth_mm: float | None = None,
+        places: int | str | None = None,
         contact_modulus_over_substrate: float | None = None,
         method: str | None = None,
         membrane_length_over_t: float | None = None,
@@ -182,6 +183,7 @@ class Skin:
         thickness_mm: float | None = None,
         substrate_modulus_MPa: float | None = None,
         membrane_modulus_MPa: float | None = None,
+        scale_modulus_MPa: float | None = None,
         scale_density_kg_m3: float | None = None,
     ) -> None: ...
     @property
@@ -239,6 +241,8 @@ class Skin:
     @property
     def depth_mm(self) -> float | None: ...
     @property
+    def places(self) -> int | str: ...
+    @property
     def contact_modulus_over_substrate(self) -> float: ...
     @property
     def method(self) -> str: ...
@@ -290,6 +294,8 @@ class Skin:
     def substrate_modulus_MPa(self) -> float | None: ...
     @property
     def membrane_modulus_MPa(self) -> float | None: ...
+    @property
+    def scale_modulus_MPa(self) -> float | None: ...
     @property
     def scale_density_kg_m3(self) -> float | None: ...
     @property

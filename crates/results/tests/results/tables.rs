@@ -37,7 +37,9 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         // A length is given in one unit, and none in mm has a place beside those that say it in other ways.
         let is_other = |p: &sweep::Parameter| {
             let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
-            unit || p.key == "pitch_mm" || others.contains(&p.key)
+            let is_modulus = p.key == "scale_modulus_MPa" && !in_mm;
+            let is_ratio = p.key.starts_with("contact_modulus_over") && in_mm;
+            unit || is_modulus || is_ratio || p.key == "pitch_mm" || others.contains(&p.key)
         };
         let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));
         let axes: String = chosen.map(axis).collect();
@@ -52,7 +54,7 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
     let others =
         names_without(["membrane_length_mm", "critical_tilt_deg", "load_position", "-"], true);
     let expected =
-        ["gaps_asked", "needle_friction", "gap_mm", "load_inset_mm", "tissue_thickness_mm"];
+        ["gaps_asked", "needle_friction", "gap_mm", "load_inset_mm", "scale_modulus_MPa"];
     assert!(expected.iter().all(|name| others.iter().any(|n| n == name)));
     let count = names.len();
     names.sort_unstable();
@@ -70,6 +72,17 @@ fn a_depth_has_a_force() {
     assert_eq!(results::yardsticks("force_at_depth").first(), Some(&"needle"));
     assert!(results::yardsticks("force_at_depth").contains(&"depth_over_t"));
     assert!(!results::yardsticks("critical_force").contains(&"depth_over_t"));
+}
+
+/// The weakest place is told where places are tried.
+#[test]
+fn places_have_a_weakest() {
+    assert!(!headers("name = 'x'").contains("weakest"));
+    let places = "name = 'x'\n[puncture]\nplaces = 11";
+    assert!(headers(places).contains(",weakest_force,weakest_place,weakest_status,"));
+    let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
+    assert!(headers(&format!("{places}\n{material}")).contains(",weakest_force_N,"));
+    assert!(results::yardsticks("weakest_force").contains(&"places"));
 }
 
 /// One path has columns for each of several critical tilts, or frictions, behind the others.

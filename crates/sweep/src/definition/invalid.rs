@@ -112,10 +112,10 @@ pub enum Problem {
         /// Where that stands.
         place: Place,
     },
-    /// A length in mm that no skin of that thickness has.
+    /// A length in mm that no skin of that thickness has, or a modulus of the scales below that of what they lie on.
     #[error("{value} with {beside} makes {key} {found}, expected {expected}")]
     LengthInMm {
-        /// The length in mm.
+        /// What is given.
         value: String,
         /// The keys and values beside it.
         beside: String,

@@ -1,4 +1,4 @@
-//! Lengths in mm whose skins cannot be made: too thin, too thick, or scales longer than their pitch.
+//! Lengths in mm whose skins cannot be made: too thin, too thick, or scales longer than their pitch; and scales softer than what they lie on.
 
 use super::invalid::Problem;
 use crate::case::Case;
@@ -7,15 +7,27 @@ use crate::number;
 use crate::parameter::{Parameter, Scalar, key};
 use crate::variable::{Variable, VariableValues};
 
-/// What is wrong with the length `in_mm` in the designs of a grid and of its variables, if something is.
+/// What is wrong with `given`, a length in mm or the modulus of the scales, in the designs of a grid and of its variables, if something is.
+pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
+    let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));
+    let ratios = Parameter::ratios().filter(|_| given.key == key::SCALE_MODULUS);
+    let mut all = length.into_iter().chain(ratios);
+    all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
+}
+
+/// The same of one parameter `of` that follows from it, over the parameter `unit`.
 ///
-/// A length over the thickness is monotone in each of the lengths that it is made of, so the corners of their ranges tell.
-pub(super) fn check(in_mm: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
-    let Some(of) = in_mm.said_in(grid.base()) else { return Ok(()) };
+/// It is monotone in each of the parameters that it is made of, so the corners of their ranges tell.
+fn check_one(
+    given: &Parameter,
+    (of, unit): (&'static Parameter, &str),
+    grid: &Grid,
+    variables: &[Variable],
+) -> Result<(), Problem> {
     let matters = |p: &Parameter| {
-        let is_pitch = in_mm.key == key::PITCH;
+        let is_pitch = given.key == key::PITCH;
         let makes_pitch = [key::GAP, key::LENGTH, "base"].iter().any(|key| p.is_or_says(key));
-        p == in_mm || p.key == key::THICKNESS || (is_pitch && makes_pitch)
+        p == given || p.key == unit || (is_pitch && makes_pitch)
     };
     let axes = grid.axes().iter().filter(|axis| matters(axis.parameter()));
     let axes: Vec<_> = axes.map(|axis| (axis.parameter(), ends(axis, variables))).collect();
@@ -26,11 +38,11 @@ pub(super) fn check(in_mm: &Parameter, grid: &Grid, variables: &[Variable]) -> R
     }
     let Some(wrong) = corners.iter().find(|case| !of.contains(of.get(case))) else { return Ok(()) };
     let mut beside: Vec<_> = axes.iter().map(|(parameter, _)| *parameter).collect();
-    beside.retain(|parameter| parameter.key != in_mm.key && parameter.key != key::THICKNESS);
-    beside.extend(Parameter::named(key::THICKNESS));
+    beside.retain(|parameter| parameter.key != given.key && parameter.key != unit);
+    beside.extend(Parameter::named(unit));
     let beside = beside.into_iter().map(|p| format!("{} {}", p.key, p.get(wrong)));
     Err(Problem::LengthInMm {
-        value: in_mm.get(wrong).to_string(),
+        value: given.get(wrong).to_string(),
         beside: beside.collect::<Vec<_>>().join(", "),
         key: of.key,
         found: of.get(wrong).number().map(number::text).unwrap_or_default(),

@@ -148,6 +148,7 @@ impl Reader {
         self.refused.extend(self.check_needle().err());
         let without_thickness: Vec<_> = self.lengths_without_thickness().collect();
         self.refused.extend(without_thickness);
+        self.refused.extend(self.check_scale_modulus().err());
         self.refused.extend(steps.err());
         self.refused.extend(self.name.is_none().then(|| missing_name(file)));
         InvalidDefinition::of(std::mem::take(&mut self.refused))?;
@@ -160,7 +161,7 @@ impl Reader {
         let axes = self.axes.into_iter().map(|written| written.axis);
         let axes = axes::ordered(axes.chain(variables.iter().map(middle)).collect(), &self.case);
         let grid = Grid::new(axes, self.case).map_err(|error| refuse(file, "designs", error))?;
-        for (key, parameter, place) in written.iter().filter(|(_, p, _)| p.is_in_mm()) {
+        for (key, parameter, place) in &written {
             let checked = lengths::check(parameter, &grid, &variables);
             checked.map_err(|problem| refuse(place, key, problem))?;
         }
@@ -257,6 +258,21 @@ impl Reader {
             let other = format!("material.{}", key::THICKNESS);
             refuse(place, &key, Problem::Needs { other })
         })
+    }
+
+    /// Refuses a modulus of the scales without that which a measure has its ratio to.
+    fn check_scale_modulus(&self) -> Result<(), InvalidDefinition> {
+        let mut written = self.written().filter(|(_, p, _)| p.key == key::SCALE_MODULUS);
+        let Some((key, _, place)) = written.next() else { return Ok(()) };
+        let measures = self.measures.as_deref().unwrap_or(&Measure::USUAL);
+        let matters = |of: &Parameter| measures.iter().any(|m| m.sections().contains(&of.section));
+        let mut needed = Parameter::ratios().filter(|(ratio, _)| matters(ratio));
+        match needed.find(|(_, below)| !self.says(below)) {
+            Some((_, below)) => {
+                Err(refuse(place, &key, Problem::Needs { other: format!("material.{below}") }))
+            }
+            None => Ok(()),
+        }
     }
 
     /// Refuses a parameter that `gives` a value if its alternative does too.

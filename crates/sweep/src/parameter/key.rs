@@ -47,6 +47,9 @@ pub const DEPTH: &str = "depth_over_t";
 /// The same in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
+/// The places of the load that are tried.
+pub const PLACES: &str = "places";
+
 /// The thickness of the tissue.
 pub const TISSUE: &str = "tissue_thickness_over_t";
 
@@ -64,6 +67,15 @@ pub const THICKNESS: &str = "thickness_mm";
 
 /// The modulus of the substrate.
 pub const SUBSTRATE_MODULUS: &str = "substrate_modulus_MPa";
+
+/// The modulus of the scales.
+pub const SCALE_MODULUS: &str = "scale_modulus_MPa";
+
+/// The modulus of the scales in contact over that of the substrate.
+pub const CONTACT_OVER_SUBSTRATE: &str = "contact_modulus_over_substrate";
+
+/// The modulus of the scales in contact over that of the membrane.
+pub const CONTACT_OVER_MEMBRANE: &str = "contact_modulus_over_membrane";
 
 /// The modulus of the membrane.
 pub const MEMBRANE_MODULUS: &str = "membrane_modulus_MPa";

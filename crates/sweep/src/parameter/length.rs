@@ -3,7 +3,7 @@
 //! What lies behind a case reads lengths over the thickness alone. Whatever sets a parameter, [`settle`] has them follow from the
 //! lengths that are given in mm: `gap_over_t = gap_mm/t`, with whichever of the two is known last.
 
-use super::{PARAMETERS, Parameter, Role, Scalar, key};
+use super::{PARAMETERS, Parameter, Role, Scalar, key, modulus};
 use crate::case::{Case, Millimetres};
 
 impl Parameter {
@@ -32,9 +32,10 @@ impl Parameter {
         if says_length { Self::named(key::LENGTH) } else { self.over_t() }
     }
 
-    /// Whether it is a length over the thickness that follows from one in mm.
+    /// Whether it is a length over the thickness that follows from one in mm, or a ratio that follows from a modulus.
     pub fn follows(&self, case: &Case) -> bool {
-        given(case).any(|(in_mm, _)| in_mm.said_in(case).is_some_and(|of| of == self))
+        let says = |in_mm: &Self| in_mm.said_in(case).is_some_and(|of| of == self);
+        given(case).any(|(in_mm, _)| says(in_mm)) || self.follows_modulus(case)
     }
 
     /// The length of this parameter in mm; `None` if it is no length, or the thickness is not given.
@@ -83,12 +84,15 @@ pub(super) fn settle(case: &mut Case) {
     }
 }
 
-/// Has the other unit of a length that has changed follow, or all lengths the thickness.
+/// Has the other unit of a length that has changed follow, or all lengths the thickness, or the ratios a modulus.
 pub(super) fn keep_in_step(case: &mut Case, changed: &Parameter) {
     if changed.is_in_mm() || changed.key == key::THICKNESS {
         settle(case);
+    } else if changed.is_modulus() {
+        modulus::settle(case);
     } else {
         restate(case, changed);
+        modulus::restate(case, changed);
     }
 }
 

@@ -22,6 +22,9 @@ const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
 // Scales are rigid but where they touch: softer than what they stand on they would bend.
 const STIFF: Range = Range { low: Included(1.0), high: Included(1e9) };
 
+/// The word of a count that is to be found.
+const AUTO: &str = "auto";
+
 /// The roles of a number that describes the skin and its load, and no more.
 const NUMBER: &[Role] = &[Continuous, Made];
 
@@ -227,7 +230,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "scales in the row",
         roles: &[],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| match c.puncture.scales {
                 RowLength::Auto => None,
@@ -342,7 +346,20 @@ pub static PARAMETERS: &[Parameter] = &[
     },
     in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
     Parameter {
-        key: "contact_modulus_over_substrate",
+        key: key::PLACES,
+        section: "puncture",
+        unit: "-",
+        meaning: "places of the load that are tried besides, from the left corner of the top to the right, for weakest_force",
+        roles: &[],
+        kind: ParameterKind::CountOrWord {
+            word: "none",
+            range: CountRange { low: 2, high: 1000 },
+            get: |c| c.puncture.places,
+            set: |c, count| c.puncture.places = count,
+        },
+    },
+    Parameter {
+        key: key::CONTACT_OVER_SUBSTRATE,
         section: "puncture",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
@@ -390,7 +407,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "gaps of the strip, the same number for every design, instead of a length",
         roles: &[InsteadOf(key::MEMBRANE_LENGTH)],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| c.flexure.gaps,
             set: |c, count| c.flexure.gaps = count,
@@ -436,7 +454,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
         roles: &[],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1000 },
             get: |c| match c.flexure.elements_per_gap {
                 MembraneMesh::Auto => None,
@@ -473,7 +492,7 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
-        key: "contact_modulus_over_membrane",
+        key: key::CONTACT_OVER_MEMBRANE,
         section: "flexure",
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
@@ -634,6 +653,18 @@ pub static PARAMETERS: &[Parameter] = &[
             noun: "a number",
             range: POSITIVE,
             field: |c| &mut c.material.membrane_modulus_mpa,
+        },
+    },
+    Parameter {
+        key: key::SCALE_MODULUS,
+        section: "material",
+        unit: "MPa",
+        meaning: "modulus E_ct of the scales in contact, in the place of its ratios to the other two",
+        roles: &[Made],
+        kind: ParameterKind::OptionalNumber {
+            noun: "a number",
+            range: POSITIVE,
+            field: |c| &mut c.material.scale_modulus_mpa,
         },
     },
     Parameter {

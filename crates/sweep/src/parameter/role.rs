@@ -42,8 +42,9 @@ impl Parameter {
 
     /// The parameters that say the same in another way: a definition has one of them.
     pub(crate) fn others(&self) -> impl Iterator<Item = &'static Self> {
-        let (of, key) = (self.origin(), self.key);
-        PARAMETERS.iter().filter(move |other| other.key != key && other.origin() == of)
+        let of = self.origin();
+        let is_same = move |other: &Self| other.key != self.key && other.origin() == of;
+        PARAMETERS.iter().filter(move |other| is_same(other) || self.excludes(other))
     }
 
     /// The same in a case: under a guided needle tilt and friction are two things, and beside a gap the pitch says a length.
@@ -53,8 +54,9 @@ impl Parameter {
             if says_length { key::LENGTH } else { parameter.origin() }
         };
         let is_needle = self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
-        let (of, key) = (origin(self), self.key);
-        PARAMETERS.iter().filter(move |p| !is_needle && p.key != key && origin(p) == of)
+        let of = origin(self);
+        let is_same = move |p: &Self| !is_needle && p.key != self.key && origin(p) == of;
+        PARAMETERS.iter().filter(move |p| is_same(p) || self.excludes(p))
     }
 
     /// The key of the parameter that this one stands for, in another way or unit; its own, if it stands for none.

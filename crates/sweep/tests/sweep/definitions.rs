@@ -1,6 +1,6 @@
 //! The meaning of a definition.
 
-use sweep::{Setting, Sweep};
+use sweep::{Case, Parameter, Setting, Sweep};
 
 use crate::sweep;
 
@@ -193,6 +193,66 @@ fn deviations_move_a_case_in_their_own_unit() {
     // Twice as stiff, and the scales as before.
     let stiff = modulus.moved(&case, 0.3).expect("a modulus");
     assert_eq!(stiff.puncture.contact_modulus_over_substrate, 9677.0 / 2.0);
+}
+
+/// Scales ten thousand times as stiff as what they lie on, and five hundred times as stiff as what joins them.
+const SCALES: &str = "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 45\n[material]\n\
+                      scale_modulus_MPa = 3000\nmembrane_modulus_MPa = 6\n";
+
+#[test]
+fn ratios_of_contact_follow_from_the_modulus_of_the_scales() {
+    let ratios = |case: &Case| {
+        let Case { puncture, flexure, .. } = case;
+        [puncture.contact_modulus_over_substrate, flexure.contact_modulus_over_membrane]
+    };
+    let fixed = format!("{SCALES}substrate_modulus_MPa = 0.3");
+    let axis = SCALES.replace("[designs]\n", "[designs]\nsubstrate_modulus_MPa = [0.3, 1.5]\n");
+    let varied = format!("{SCALES}[variables]\nsubstrate_modulus_MPa = {{ from = 0.5, to = 1.5 }}");
+    for (text, found) in [
+        (fixed.as_str(), vec![10_000.0]),
+        (axis.as_str(), vec![10_000.0, 2000.0]),
+        (varied.as_str(), vec![3000.0]),
+    ] {
+        let sweep = sweep(text);
+        let of = |index| ratios(&sweep.grid().case(index));
+        assert_eq!((0..sweep.grid().len()).map(|k| of(k)[0]).collect::<Vec<_>>(), found, "{text}");
+        assert_eq!(of(0)[1], 500.0);
+        // What is written back says the modulus, and neither ratio.
+        let again = sweep.to_toml();
+        assert!(
+            !again.contains("contact_modulus") && again.contains("scale_modulus_MPa"),
+            "{again}"
+        );
+        let again = Sweep::parse(&again, "again.toml", &[]).expect("a sweep");
+        assert_eq!(again.grid().case(0), sweep.grid().case(0));
+    }
+    let case = sweep(&fixed).grid().case(0);
+    // Whatever moves, the three say the same.
+    let named = |key| Parameter::named(key).expect("a parameter");
+    let softer = named("substrate_modulus_MPa").moved(&case, 0.3).expect("a modulus");
+    assert_eq!(ratios(&softer), [5000.0, 500.0]);
+    let stiffer = named("scale_modulus_MPa").moved(&case, 3000.0).expect("a modulus");
+    assert_eq!(ratios(&stiffer), [20_000.0, 1000.0]);
+    let ratio = named("contact_modulus_over_substrate").moved(&case, 1000.0).expect("a ratio");
+    assert_eq!(ratio.material.scale_modulus_mpa, Some(3300.0));
+    // A setting of one takes the place of the other in a file.
+    let setting = Setting::parse("puncture.contact_modulus_over_substrate=50").expect("a setting");
+    let set = Sweep::parse(&fixed, "x.toml", &[setting]).expect("a sweep");
+    assert_eq!(ratios(&set.grid().case(0)), [50.0, 667.0]);
+}
+
+#[test]
+fn a_modulus_of_tissue_in_another_unit_is_questioned() {
+    let question = |modulus: &str| {
+        sweep(&format!("name = 'x'\ndesigns.substrate_modulus_MPa = {modulus}")).question()
+    };
+    assert_eq!(
+        (question("0.31"), question("1000"), sweep("name = 'x'").question()),
+        (None, None, None)
+    );
+    insta::assert_snapshot!(question("[0.31, 310000]").expect("a question"), @"material.substrate_modulus_MPa is 310000 MPa, 310 GPa: soft tissue has some 0.001 to 10 MPa; is it in MPa, and not in kPa or Pa?");
+    let variable = "name = 'x'\nvariables.substrate_modulus_MPa = { from = 1, to = 2000 }";
+    assert!(sweep(variable).question().is_some());
 }
 
 /// Steps of differences are parts of these sizes.

@@ -311,6 +311,24 @@ fn a_definition_of_millions_of_values_is_refused_before_it_is_read() {
 
 /// Lengths in mm: without a thickness, beside the same over the thickness, all three of gap, length and pitch, and out of bounds.
 #[test]
+fn the_modulus_of_the_scales() {
+    let with = |text: &str| format!("material.scale_modulus_MPa = 3000\n{text}");
+    let both = "material.substrate_modulus_MPa = 0.3\nmaterial.membrane_modulus_MPa = 4.5\n";
+    let texts = [
+        with(""),
+        with("material.substrate_modulus_MPa = 0.3"),
+        with(&format!("{both}puncture.contact_modulus_over_substrate = 9677")),
+        with(&format!("{both}designs.contact_modulus_over_membrane = [600, 700]")),
+        with(&format!(
+            "{both}variables.contact_modulus_over_membrane = {{ from = 600, to = 700 }}"
+        )),
+        with(&both.replace("0.3", "4000")),
+        format!("{both}designs.scale_modulus_MPa = [1, 3000]"),
+    ];
+    insta::assert_snapshot!(all(&texts.each_ref().map(String::as_str)));
+}
+
+#[test]
 fn lengths_in_mm() {
     insta::assert_snapshot!(all(&[
         "designs.gap_mm = 0.4",
