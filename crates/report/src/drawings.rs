@@ -28,21 +28,6 @@ const HEAD: f64 = 40.0;
 /// Height of the line above a panel, px.
 const CAPTION: f64 = 26.0;
 
-/// States of one design, drawn alike.
-struct Frames {
-    height: f64,
-    /// Caption and contents of each.
-    states: Vec<(String, Vec<Element>)>,
-}
-
-impl Frames {
-    fn new(panels: Vec<DrawingPanel>) -> Self {
-        let height = panels.iter().map(|panel| panel.height).fold(0.0, f64::max);
-        let states = panels.into_iter().map(|panel| (panel.caption, panel.inside)).collect();
-        Self { height, states }
-    }
-}
-
 /// A part of a drawing, drawn from its own upper left corner.
 struct DrawingPanel {
     height: f64,

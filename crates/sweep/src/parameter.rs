@@ -141,6 +141,13 @@ pub enum WrongValue {
     },
 }
 
+impl WrongValue {
+    /// A value that is refused, beside what would be taken.
+    pub fn not_accepted(found: impl fmt::Display, expected: impl Into<String>) -> Self {
+        Self::NotAccepted { found: found.to_string(), expected: expected.into() }
+    }
+}
+
 impl Parameter {
     /// The parameter of that name.
     pub fn named(key: &str) -> Option<&'static Self> {
