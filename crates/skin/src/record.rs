@@ -78,6 +78,11 @@ pub(crate) trait Skin: System<Mode = SkinMode> {
 
     /// Whether any two scales that may meet overlap by more than the approach of their contacts.
     fn interpenetrates(&self, state: &SkinState) -> bool;
+
+    /// Whether a contact is about to pass an end of what it lies on, where the model knows nothing to go on with.
+    fn passes_an_end(&self, at: &SkinPoint) -> bool {
+        self.contacts().off_edge(&at.state) || self.contacts().passes_an_end(at)
+    }
 }
 
 /// What friction has taken along a path, of what is solved for.

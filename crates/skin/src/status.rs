@@ -22,7 +22,7 @@ pub enum Status {
     Interpenetration,
     /// The scales of a strip lock: the moment grows, and next to nothing turns.
     Locked,
-    /// A contact carries beyond the end of its edge, or a corner passes round that end.
+    /// A contact carries beyond the end of its edge, a corner passes round that end, or one comes at a guided needle from the side.
     OffEdge,
 }
 
@@ -38,7 +38,7 @@ impl Status {
                 Self::Interpenetration
             }
             Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
-                if skin.contacts().off_edge(end) || skin.contacts().passes_an_end(path.point()) =>
+                if skin.passes_an_end(path.point()) =>
             {
                 Self::OffEdge
             }

@@ -101,7 +101,7 @@ impl Outcome {
             Self::RowLimit => "a row needs more scales than it may take",
             Self::Interpenetration => "two scales overlap by more than their contact law allows",
             Self::OffEdge => {
-                "a contact carries beyond the end of its edge, or a corner passes round that end"
+                "a contact carries beyond the end of its edge, a corner passes round that end, or one comes at a guided needle from the side"
             }
             Self::Locked => {
                 "the scales of a strip lock: the moment grows, and what still gives is a membrane stretched beyond its law"

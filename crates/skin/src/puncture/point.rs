@@ -97,6 +97,13 @@ impl Skin for Chain {
     fn interpenetrates(&self, state: &SkinState) -> bool {
         self.contacts.interpenetrate(state)
     }
+
+    fn passes_an_end(&self, at: &SkinPoint) -> bool {
+        let contacts = &self.contacts;
+        contacts.off_edge(&at.state)
+            || contacts.passes_an_end(at)
+            || self.is_met_from_the_side(&at.state)
+    }
 }
 
 /// Every scale of a row, from the left: of a row that ends those too that are not solved for.

@@ -14,6 +14,9 @@ const HOLDS: f64 = 1.0;
 /// A foot may lie beyond the end of a face by this much, over `t`: corners that lie on it do so to round-off and their approach.
 const BESIDE: f64 = 1e-9;
 
+/// The shortest steps of a path come as near as this, over `t`, to an end that they cannot pass.
+const AT_AN_END: f64 = 1e-6;
+
 /// Difference of the unknowns over which slopes of conditions are differences, relative to the largest rate.
 const STEP: f64 = 1e-6;
 
@@ -162,6 +165,18 @@ impl Chain {
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
         let faced = tip.filter(|tip| (-BESIDE..=tip.length + BESIDE).contains(&tip.way));
         faced.map_or(HOLDS, |tip| tip.gap)
+    }
+
+    /// Whether the tip is already below the face that it would come to next, whose end is about to come over it: there a corner meets the
+    /// shaft, of which the model knows nothing.
+    pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
+        let [Some(touch), None] = state.mode.needle.touches else { return false };
+        let next = Self::next_touch(&touch);
+        let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
+        tip.is_some_and(|tip| {
+            let way = tip.way.min(tip.length - tip.way);
+            tip.gap < -BESIDE && way.abs() < AT_AN_END
+        })
     }
 
     /// Appends the derivatives of the conditions of a guided needle along a direction.
