@@ -72,8 +72,10 @@ pub struct Path<S: System> {
     pub(crate) is_positive: bool,
     /// Whether no event had another way on among those that were looked at.
     pub(crate) is_unique: bool,
-    /// How often an event left no way on but that everything sticks and the path turns round.
+    /// How often an event of constraints that rub has turned the path round since it was farthest.
     pub(crate) reversals: usize,
+    /// The largest value of the control parameter so far.
+    farthest: f64,
     /// The sign of a load that only pushes: the path ends where it comes back to zero.
     pub(crate) pushes: Option<f64>,
     /// Whether the path has been turned back, away from its target.
@@ -109,6 +111,7 @@ impl<S: System> Path<S> {
             slopes: Vec::new(),
             is_unique: true,
             reversals: 0,
+            farthest: 0.0,
             pushes: None,
             is_back: false,
             step: settings.first_step.min(settings.max_step),
@@ -449,12 +452,17 @@ impl<S: System> Iterator for Path<S> {
         self.points += 1;
         match self.advance() {
             Ok(point) => {
+                let progress = self.progress(&point.state.z);
+                if progress > self.farthest + FLOOR {
+                    (self.farthest, self.reversals) = (progress, 0);
+                }
                 if point.event == Some(Event::Target) || self.at_target(&point.state) {
                     // On its way back a path that rises to its target again has turned round.
                     self.stop = Some(if self.is_back { Stop::Jumps } else { Stop::Reached });
                 } else if point.event == Some(Event::Unloaded) {
-                    // Nobody took the load away: it fell because the path could not go on where it turned.
-                    let has_turned = self.reversals > 0 && !self.is_back;
+                    // Back at rest, or next to it: nobody took the load away, it fell because the path could not go on where it turned.
+                    let is_at_rest = progress < 0.01 * self.system.target();
+                    let has_turned = self.reversals > 0 && is_at_rest && !self.is_back;
                     self.stop = Some(if has_turned { Stop::Jumps } else { Stop::Unloaded });
                 }
                 self.stand(point.clone());

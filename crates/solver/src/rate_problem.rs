@@ -16,7 +16,7 @@ const SAME_WAY: f64 = 1e-6;
 /// More sets of changes than this are not tried where constraints have companions.
 const MOST_WITH_FRICTION: usize = 500;
 
-/// More often than this no path takes its load back. Those that are known to come through do so once or twice.
+/// More often than this no path turns round before it comes farther. Those that are known to come through do so once or twice.
 const MOST_REVERSALS: usize = 20;
 
 /// At an event the path has a direction `ż` on each side. Of the constraints that meet there, some are at

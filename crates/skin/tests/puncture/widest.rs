@@ -69,7 +69,7 @@ fn few_punctures_in_the_widest_ranges_end_for_a_reason_of_numbers() {
         use Stop::{Cycling, NoConvergence, NotFinite, Singular};
         matches!(status, Status::Stopped(NoConvergence | Singular | NotFinite | Cycling))
     };
-    // Fifteen of 1,055 when they were counted; of few there may be some more.
+    // Eight of 1,181 when they were counted; of few there may be some more.
     let numeric = solved.iter().filter(is_numeric).count();
-    assert!(numeric <= 5 + solved.len() / 50, "{numeric}: {counts:?}");
+    assert!(numeric <= 5 + solved.len() / 100, "{numeric}: {counts:?}");
 }
