@@ -3,7 +3,7 @@
 
 use skin::Design;
 use skin::flexure::Flexure;
-use skin::puncture::Puncture;
+use skin::puncture::{Puncture, Weakest};
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
@@ -79,6 +79,7 @@ pub fn curves(
     let moment = if is_physical(true) { &MOMENT_IN_N_MM } else { &MOMENT };
     let candidates = [
         ("force-displacement-curves", one_panel(name, force, designs, puncture, over(false))),
+        ("force-over-place", one_panel(name, &PLACES, designs, places, None)),
         ("moment-curvature-curves", one_panel(name, moment, designs, flexure, over(true))),
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
@@ -100,6 +101,12 @@ const FORCE: FigureText = FigureText {
     x: "displacement $u^*$ = $u/t$, dimensionless",
     y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
     note: "× a contact closes, opens or passes a corner;  ○ the surface folds over;  fine dots: unstable under a held depth",
+};
+const PLACES: FigureText = FigureText {
+    title: "puncture force over the place of the load",
+    x: "place on the top: 0 left corner, 1 right corner",
+    y: FORCE.y,
+    note: "○ the weakest place, if it is known;  fine dots: across places without a critical force",
 };
 const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
@@ -136,6 +143,18 @@ fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
         rings: fold.into_iter().collect(),
         unstable: unstable.collect(),
     })
+}
+
+fn places(solved: &DesignCurves) -> Option<CurveValues> {
+    let all = &solved.puncture?.places;
+    let known: Vec<_> = all.iter().filter_map(|p| Some([p.position, p.force?])).collect();
+    let weakest = Weakest::of(all).ok().and_then(|of| Some([of.place?, of.force?]));
+    let open = || all.iter().filter(|p| p.force.is_none());
+    let is_across =
+        |ends: &[[f64; 2]]| open().any(|p| (ends[0][0]..ends[1][0]).contains(&p.position));
+    let unstable = known.windows(2).map(is_across).collect();
+    let (crosses, rings) = (vec![], weakest.into_iter().collect());
+    (!known.is_empty()).then_some(CurveValues { points: known, crosses, rings, unstable })
 }
 
 fn flexure(solved: &DesignCurves) -> Option<CurveValues> {
@@ -206,10 +225,9 @@ fn one_panel(
         width: WIDTH - MARGINS[0] - MARGINS[1],
         height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
     };
-    let (x, y, title) = (&x, &y, String::new());
-    let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel::new(area, &x, &y);
     let note = [MARGINS[0], 48.0];
-    let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
+    let mut inside = panel.axes(56.0).to_vec();
     inside.push(label(text.note, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
@@ -375,7 +393,7 @@ fn energies_of(
     let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
     let (x, y) = axes(text, &points);
     let title = format!("{}:  {}", solved.number, geometry_label(solved.design));
-    let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),
         color: color.to_owned(),
@@ -386,5 +404,5 @@ fn energies_of(
         unstable: Vec::new(),
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
-    [panel.frame(), panel.x_name(), panel.y_name(58.0)].into_iter().chain(curves).collect()
+    panel.axes(58.0).into_iter().chain(curves).collect()
 }

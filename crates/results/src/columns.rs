@@ -28,8 +28,8 @@ pub use column::{Column, number, parameter_of, tells_apart};
 pub use failures::failure_detail_columns;
 pub use measured_value::{Goal, MeasuredValue, Shown};
 pub use path::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, PunctureEvent, SCALES, STEPS,
-    StabilityPoint, flexure_path_columns, path_columns,
+    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, LOADED_PLACES, PunctureEvent,
+    SCALES, STEPS, StabilityPoint, flexure_path_columns, path_columns,
 };
 pub use reruns::RERUN_COLUMNS;
 pub use sensitivity::DERIVATIVE_COLUMNS;

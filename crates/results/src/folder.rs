@@ -93,7 +93,7 @@ const fn plain(name: &'static str, maker: Maker, role: Role) -> FileEntry {
 }
 
 /// Every file of a fixed name that squama leaves in a folder of results, in the order in which people read them.
-pub static FILES: [FileEntry; 46] = [
+pub static FILES: [FileEntry; 47] = [
     plain(RunFolder::JOURNAL, Maker::Run, Role::Journal),
     stated(RunFolder::DESIGNS, Maker::Run, Role::Table),
     stated("coverage.csv", Maker::Run, Role::Table),
@@ -140,6 +140,7 @@ pub static FILES: [FileEntry; 46] = [
     plain(RunFolder::FLEXURE[3], Maker::Design, Role::Record),
     plain(RunFolder::WAY_BACK[0], Maker::Design, Role::Record),
     plain(RunFolder::WAY_BACK[1], Maker::Design, Role::Record),
+    plain(RunFolder::PLACES, Maker::Design, Role::Record),
 ];
 
 impl FileEntry {
@@ -197,6 +198,8 @@ impl RunFolder {
         ["flexure_path.csv", "flexure_events.csv", "flexure_scales.csv", "flexure_steps.csv"];
     /// The tables of the way back of one design, of its puncture and of its bending.
     pub const WAY_BACK: [&'static str; 2] = ["way_back.csv", "flexure_way_back.csv"];
+    /// The table of the places of the load that were tried.
+    pub const PLACES: &'static str = "places.csv";
 
     /// The folder at `path`, which need not exist.
     pub fn new(path: impl Into<PathBuf>) -> Self {

@@ -6,7 +6,7 @@ use store::OutputError;
 
 use crate::columns::{
     BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS,
-    PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
+    LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
@@ -30,6 +30,10 @@ pub fn write_path_tables(
         files.extend(write_flexure(folder, flexure)?);
     }
     files.extend(write_ways_back(folder, solved)?);
+    if let Some(puncture) = solved.puncture.as_ref().filter(|solved| !solved.places.is_empty()) {
+        write_rows(folder, RunFolder::PLACES, Plain, LOADED_PLACES, &puncture.places)?;
+        files.push(RunFolder::PLACES);
+    }
     if !solved.row.result.sensitivity.is_empty() {
         let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
         write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;

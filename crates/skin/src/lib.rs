@@ -18,6 +18,7 @@
 //! | [`puncture::RowLength`] | how many scales are solved for: a number, or as many as contact reaches |
 //! | [`puncture::OddScale`] | one scale of a row that differs from all others, for derivatives with respect to single scales |
 //! | [`puncture::Snap`], [`puncture::Instability`], [`puncture::TiltMeasures`] | snaps and losses of stability along the path; measures at other critical tilts |
+//! | [`puncture::LoadedPlace`], [`puncture::Weakest`] | the puncture at other places of the load, and the weakest of them |
 //! | [`puncture::Puncture`], [`puncture::PunctureMeasures`] | its path, events, scales and measures |
 //! | [`puncture::Fold`], [`puncture::GapStretch`] | a gap in which the surface of the substrate folds over; how far gaps are stretched |
 //! | [`puncture::snapshots`] | the row at chosen places of the path |

@@ -8,6 +8,7 @@ mod measures;
 mod needle;
 mod number_list;
 mod odd_scale;
+mod places;
 mod point;
 mod sensitivity;
 mod snap;
@@ -43,6 +44,7 @@ pub(crate) use needle::NeedleMode;
 pub use needle::{CriticalEvent, Needle, Passage};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
+pub use places::{LoadedPlace, Weakest, loaded_places};
 pub use point::{PuncturePoint, ScaleState};
 pub use sensitivity::{PunctureInput, differentiate, force_curve};
 pub use snap::Snap;
@@ -90,6 +92,8 @@ pub struct PunctureParameters {
     pub depth: Option<f64>,
     /// Whether the load is taken away again at the end.
     pub unload: bool,
+    /// Places of the load that are tried besides, from the left corner of the top to the right one: at least two.
+    pub places: Option<usize>,
 }
 
 impl Default for PunctureParameters {
@@ -106,6 +110,7 @@ impl Default for PunctureParameters {
             needle: Needle::Free,
             depth: None,
             unload: false,
+            places: None,
         }
     }
 }
@@ -135,6 +140,8 @@ pub struct Puncture {
     pub history: Vec<Iteration>,
     /// The way back, where it is asked for and the path came to its end.
     pub way_back: Option<WayBack<PuncturePoint>>,
+    /// The puncture at each of so many places of the load as [`PunctureParameters::places`] says.
+    pub places: Vec<LoadedPlace>,
 }
 
 impl Puncture {
@@ -201,11 +208,13 @@ impl PunctureParameters {
         let tilt = self.critical_tilt_deg;
         let (ratio, position) = (self.poisson_ratio, self.load_position);
         let depth = self.depth.unwrap_or(1.0);
+        let places = self.places.unwrap_or(2) as f64;
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
             (position.is_finite(), "load position", position, "a number"),
             (depth > 0.0, "depth", depth, "a length above 0"),
+            (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
         match rules.into_iter().find(|(holds, ..)| !holds) {
@@ -262,6 +271,7 @@ impl Followed {
             scales,
             history,
             way_back,
+            places: Vec::new(),
         }
     }
 }
@@ -314,7 +324,8 @@ impl<'a> Problem<'a> {
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
         let (start, longest) = self.start()?;
-        Ok(self.follow(start, longest, &[], &[])?.puncture(self.parameters.unload))
+        let puncture = self.follow(start, longest, &[], &[])?.puncture(self.parameters.unload);
+        Ok(puncture.with_places(self.loaded_places()?))
     }
 
     /// The system with which the path begins, and the longest row that it may grow to.

@@ -2,6 +2,7 @@
 
 use solver::{Path, Stop};
 
+use crate::contacts::SkinState;
 use crate::record::Skin;
 
 /// The end of a puncture or a bending.
@@ -30,9 +31,7 @@ impl Status {
     pub(crate) fn of<S: Skin>(path: &Path<S>, stop: Stop) -> Self {
         let (skin, end) = (path.system(), &path.point().state);
         match stop {
-            Stop::Reached if skin.interpenetrates(end) => Self::Interpenetration,
-            Stop::Reached if skin.contacts().off_edge(end) => Self::OffEdge,
-            Stop::Reached => Self::Complete,
+            Stop::Reached => Self::audited(skin, end),
             Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
                 if skin.interpenetrates(end) =>
             {
@@ -44,6 +43,17 @@ impl Status {
                 Self::OffEdge
             }
             stop => Self::Stopped(stop),
+        }
+    }
+
+    /// The status of an equilibrium at which a path may end.
+    pub(crate) fn audited<S: Skin>(skin: &S, end: &SkinState) -> Self {
+        if skin.interpenetrates(end) {
+            Self::Interpenetration
+        } else if skin.contacts().off_edge(end) {
+            Self::OffEdge
+        } else {
+            Self::Complete
         }
     }
 }

@@ -226,6 +226,7 @@ impl<S: System> Path<S> {
             guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
         // A guard that is zero and rises has just changed sides, and stays.
+        // Together, or a long chain would take a step of no length for each of its gaps.
         let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
         let changes = std::iter::once(constraint)
             .chain(others)

@@ -73,9 +73,10 @@ pub(crate) enum ParameterKind {
         range: Range,
         field: fn(&mut Case) -> &mut Option<f64>,
     },
-    /// A count, or the word `auto`.
-    CountOrAuto {
+    /// A count, or the word for none.
+    CountOrWord {
         range: CountRange,
+        word: &'static str,
         get: fn(&Case) -> Option<usize>,
         set: fn(&mut Case, Option<usize>),
     },
@@ -110,9 +111,6 @@ pub(crate) struct CountRange {
     pub high: usize,
 }
 
-/// The word of a count that is to be found.
-const AUTO: &str = "auto";
-
 /// The word of a number that is not given. No definition has it.
 const NOT_GIVEN: &str = "not given";
 
@@ -143,6 +141,13 @@ pub enum WrongValue {
     },
 }
 
+impl WrongValue {
+    /// A value that is refused, beside what would be taken.
+    pub fn not_accepted(found: impl fmt::Display, expected: impl Into<String>) -> Self {
+        Self::NotAccepted { found: found.to_string(), expected: expected.into() }
+    }
+}
+
 impl Parameter {
     /// The parameter of that name.
     pub fn named(key: &str) -> Option<&'static Self> {
@@ -166,8 +171,8 @@ impl Parameter {
             }
             ParameterKind::Count { field, .. } => Scalar::Count(*field(&mut case)),
             ParameterKind::Word { words, get, .. } => Scalar::Word(words[get(&case)]),
-            ParameterKind::CountOrAuto { get, .. } => {
-                get(&case).map_or(Scalar::Word(AUTO), Scalar::Count)
+            ParameterKind::CountOrWord { get, word, .. } => {
+                get(&case).map_or(Scalar::Word(word), Scalar::Count)
             }
             ParameterKind::Numbers { get, .. } => get(&case),
         }
@@ -203,10 +208,10 @@ impl Parameter {
                 // `read` takes no other words.
                 set(case, words.iter().position(|known| *known == word).unwrap_or(0));
             }
-            (ParameterKind::CountOrAuto { set, .. }, Scalar::Count(count)) => {
+            (ParameterKind::CountOrWord { set, .. }, Scalar::Count(count)) => {
                 set(case, Some(count));
             }
-            (ParameterKind::CountOrAuto { set, .. }, Scalar::Word(_)) => set(case, None),
+            (ParameterKind::CountOrWord { set, .. }, Scalar::Word(_)) => set(case, None),
             (ParameterKind::Numbers { set, .. }, value) => set(case, value),
             _ => debug_assert!(false, "{} cannot be {value}", self.key),
         }
@@ -226,11 +231,13 @@ impl Parameter {
                 Value::Number(text),
             ) => text.parse().ok().map(Scalar::Number),
             (ParameterKind::Numbers { .. }, Value::List(items)) => list(items).map(Scalar::List),
-            (ParameterKind::Numbers { word: Some(word), .. }, Value::Text(text)) => {
-                (text == word).then_some(Scalar::Word(word))
-            }
             (
-                ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. },
+                ParameterKind::Numbers { word: Some(word), .. }
+                | ParameterKind::CountOrWord { word, .. },
+                Value::Text(text),
+            ) => (text == word).then_some(Scalar::Word(word)),
+            (
+                ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. },
                 Value::Number(text),
             ) => {
                 let decimal = text.parse::<Decimal>().ok();
@@ -239,9 +246,6 @@ impl Parameter {
             // A boolean is one of the two words of a parameter that says whether.
             (ParameterKind::Word { words, .. }, Value::Text(text) | Value::Other(text)) => {
                 words.iter().find(|word| *word == text).map(|word| Scalar::Word(word))
-            }
-            (ParameterKind::CountOrAuto { .. }, Value::Text(text)) => {
-                (text == AUTO).then_some(Scalar::Word(AUTO))
             }
             _ => None,
         };
@@ -259,7 +263,7 @@ impl Parameter {
             | ParameterKind::OptionalNumber { .. }
             | ParameterKind::Numbers { .. }
             | ParameterKind::Word { .. } => Scalar::Number(number.to_f64()),
-            ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. } => {
+            ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. } => {
                 // Whole and in bounds: whoever reads a range has seen both ends and the step.
                 Scalar::Count(number.to_usize().unwrap_or(usize::MAX))
             }
@@ -295,7 +299,7 @@ impl Parameter {
     pub(crate) fn takes_word(&self) -> bool {
         matches!(
             self.kind,
-            ParameterKind::CountOrAuto { .. } | ParameterKind::Numbers { word: Some(_), .. }
+            ParameterKind::CountOrWord { .. } | ParameterKind::Numbers { word: Some(_), .. }
         )
     }
 
@@ -306,7 +310,7 @@ impl Parameter {
 
     /// Whether its numbers are whole.
     pub(crate) fn takes_counts(&self) -> bool {
-        matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrAuto { .. })
+        matches!(self.kind, ParameterKind::Count { .. } | ParameterKind::CountOrWord { .. })
     }
 
     /// The error of a value that [`Self::read`] refuses.
@@ -338,7 +342,7 @@ impl Parameter {
                 size.contains(number.abs())
             }
             (
-                ParameterKind::Count { range, .. } | ParameterKind::CountOrAuto { range, .. },
+                ParameterKind::Count { range, .. } | ParameterKind::CountOrWord { range, .. },
                 Scalar::Count(count),
             ) => (range.low..=range.high).contains(&count),
             _ => true,
@@ -355,8 +359,8 @@ impl Parameter {
             }
             ParameterKind::Count { range, .. } => format!("a whole number {range}"),
             ParameterKind::Word { words, .. } => any_of(words),
-            ParameterKind::CountOrAuto { range, .. } => {
-                format!("a whole number {range} or \"{AUTO}\"")
+            ParameterKind::CountOrWord { range, word, .. } => {
+                format!("a whole number {range} or \"{word}\"")
             }
             ParameterKind::Numbers { noun, range, word, .. } => {
                 let word = word.map(|word| format!(", or \"{word}\"")).unwrap_or_default();

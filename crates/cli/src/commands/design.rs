@@ -33,6 +33,7 @@ Solves the design exactly as the sweep does. A design given by its lengths need 
 grid; if the grid has further axes, give a value for each with --set designs.KEY=VALUE.
 Writes measures.csv (every value with all its digits), path.csv, events.csv, scales.csv,
 steps.csv (every Newton iteration), the same of bending in flexure_path.csv and so on, and design.toml.
+With puncture.places also places.csv, the force at every place of the load.
 --sensitivity also writes sensitivity.csv, and prints how one per cent of a parameter changes the measures.
 Exit code: 0 done, 1 the design failed, 2 bad input or a disk error.")]
 pub struct Arguments {

@@ -245,6 +245,8 @@ fn solve(case: &Case, to: Option<f64>) -> anyhow::Result<(Puncture, Flexure)> {
     let at: Vec<_> = to.into_iter().map(puncture::At::Displacement).collect();
     let mut puncture =
         puncture::snapshots(&case.design, &substrate, &common, &case.punctured(), &at)?.puncture;
+    let parameters = case.punctured();
+    puncture.places = puncture::loaded_places(&case.design, &substrate, &case.common, &parameters)?;
     if let Some(to) = to {
         let beyond = puncture.path.iter().position(|point| point.displacement > to);
         // One point beyond, so that the line reaches the end.

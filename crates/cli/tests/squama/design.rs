@@ -62,6 +62,22 @@ fn takes_the_load_away_again() {
 }
 
 #[test]
+fn tries_places_of_the_load() {
+    let place = Place::with(FEW);
+    let design = "--gap 0.1 --length 1 --slant 45 --set puncture.places=3";
+    let text = place.prints(&format!("design x.toml {design}"));
+    let weakest = text.lines().find(|line| line.trim_start().starts_with("weakest_status"));
+    assert!(weakest.expect("a status").contains(" complete "), "{text}");
+    let table = place.read("results/few/designs/0004/places.csv");
+    insta::assert_snapshot!(table.lines().next().expect("a header"), @"place,critical_force,critical_displacement,tilt_deg,critical_event,largest_force,status");
+    let status = |row: usize| table.lines().nth(row).and_then(|line| line.split(',').next_back());
+    assert_eq!([1, 2, 3].map(status), [Some("complete"); 3]);
+    place.prints(&format!("plot curves x.toml {design} --out c"));
+    let figure = place.read("c/force-over-place-of-0004.svg");
+    assert!(figure.contains("place on the top"), "{figure}");
+}
+
+#[test]
 fn writes_its_course() {
     let place = Place::with(FEW);
     place.squama("design x.toml --gap 0.1 --length 1 --slant 45").assert().code(0);

@@ -45,7 +45,7 @@ fn searches_and_tolerances_become_workbooks_and_say_what_else_they_are_for() {
             calamine::open_workbook(place.path(book)).expect("a workbook");
         let columns = calamine::Reader::worksheet_range(&mut book, "columns").expect("a sheet");
         assert!(columns.height() > 5);
-        assert!(columns.cells().all(|(.., cell)| cell.to_string() != "no column of squama"));
+        assert!(columns.cells().all(|(.., cell)| *cell != "no column of squama"));
     }
     insta::assert_snapshot!(place.refused("design front"), @"error: front: holds a Pareto front and no single design; put a design of front.csv in [designs] of a definition");
     insta::assert_snapshot!(place.refused("make t --out x.stl"), @"error: t: holds an analysis of designs and none itself; give the definition or the results folder that it was made from");

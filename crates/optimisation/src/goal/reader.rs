@@ -9,11 +9,11 @@ use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
     Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
-    nearest, read_entries,
+    nearest, read_entries, refuse,
 };
 
 use super::bounds::out_of_bounds;
-use super::refusal::{not_accepted, refuse, several};
+use super::refusal::not_accepted;
 use super::section::{GoalSection, Written};
 use super::{DesignGoal, statistics};
 use crate::column::NumberColumn;
@@ -63,7 +63,7 @@ impl DesignGoal {
             Ok(sweep) => sweep,
             Err(error) => {
                 refused.insert(0, error);
-                return Err(several(refused));
+                return Err(InvalidDefinition::several(refused));
             }
         };
         refused.extend(unsearchable(entries, &sweep, &file));
@@ -80,7 +80,7 @@ impl DesignGoal {
             refused.extend(out_of_bounds(&section, &space));
         }
         if !refused.is_empty() {
-            return Err(several(refused));
+            return Err(InvalidDefinition::several(refused));
         }
         let GoalSection {
             objectives,

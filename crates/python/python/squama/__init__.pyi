@@ -156,6 +156,7 @@ class Skin:
         needle_friction: float | Sequence[float] | str | None = None,
         depth_over_t: float | None = None,
         depth_mm: float | None = None,
+        places: int | str | None = None,
         contact_modulus_over_substrate: float | None = None,
         method: str | None = None,
         membrane_length_over_t: float | None = None,
@@ -239,6 +240,8 @@ class Skin:
     def depth_over_t(self) -> float | None: ...
     @property
     def depth_mm(self) -> float | None: ...
+    @property
+    def places(self) -> int | str: ...
     @property
     def contact_modulus_over_substrate(self) -> float: ...
     @property

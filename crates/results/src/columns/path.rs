@@ -1,11 +1,14 @@
 //! The columns of the path tables of one design: paths, events, scales and iterations.
 
 use skin::flexure;
-use skin::puncture::{Fold, Instability, Puncture, PuncturePoint, ScaleState, Snap};
+use skin::puncture::{
+    CriticalEvent, Fold, Instability, LoadedPlace, Puncture, PuncturePoint, ScaleState, Snap,
+};
 use skin::{ContactEvent, Iteration};
 
 use super::column::Column;
 use super::values::{GAP_STRETCH_MAX, GAP_STRETCH_MIN};
+use crate::design::outcome::Outcome;
 
 /// An equilibrium of a puncture and its instability.
 pub type StabilityPoint = (PuncturePoint, Instability);
@@ -189,6 +192,40 @@ pub static SCALES: &[Column<ScaleState>] = &[
     Column::new("rotation_deg", "deg", "counter-clockwise rotation", |s| s.rotation_deg.into()),
     Column::new("reaction", "E_s t^2/(1-nu^2)", "upward reaction of the substrate", |s| {
         s.reaction.into()
+    }),
+];
+
+/// The columns of `places.csv`.
+pub static LOADED_PLACES: &[Column<LoadedPlace>] = &[
+    Column::new(
+        "place",
+        "-",
+        "place of the load: 0 the left corner of the top, 1 the right",
+        |p| p.position.into(),
+    ),
+    Column::new(
+        "critical_force",
+        "E_s L t/(1-nu^2)",
+        "puncture force at which the scale is critically tilted, either way, or a guided needle is through",
+        |p| p.force.into(),
+    ),
+    Column::new("critical_displacement", "t", "downward displacement of the load there", |p| {
+        p.displacement.into()
+    }),
+    Column::new("tilt_deg", "deg", "clockwise tilt of the punctured scale there", |p| {
+        p.tilt_deg.into()
+    }),
+    Column::new("critical_event", "-", "which of the two it was, under a guided needle", |p| {
+        p.critical_event.map(CriticalEvent::name).into()
+    }),
+    Column::new(
+        "largest_force",
+        "E_s L t/(1-nu^2)",
+        "largest puncture force of the path; empty where the load tilts nothing from the first step on",
+        |p| p.borne.into(),
+    ),
+    Column::new("status", "-", "complete, or why there is no critical force", |p| {
+        Outcome::from(p.status).text().into()
     }),
 ];
 

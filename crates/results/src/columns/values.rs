@@ -12,6 +12,7 @@ use super::entry::{
 };
 use super::measured_value::{MeasuredValue, Place, Value};
 use crate::design::design_result::{DesignResult, PunctureResult};
+use crate::design::outcome::Outcome;
 use crate::quantity::Quantity;
 
 /// The force at which the surface first folds over.
@@ -28,6 +29,9 @@ pub const SECANT_STIFFNESS: &str = "secant_stiffness";
 pub const SOUND_FORCE: &str = "sound_force";
 /// The column of the mass of the scales, which needs no solution.
 pub const AREAL_MASS: &str = "areal_mass_kg_m2";
+
+/// The parameter that asks for the weakest place of the load.
+const PLACES: &[&str] = &[key::PLACES];
 
 /// Every measured value, in the order of `designs.csv`.
 pub(crate) static VALUES: &[MeasuredValue] = &[
@@ -318,6 +322,24 @@ pub(crate) static VALUES: &[MeasuredValue] = &[
         "puncture force at the depth that is asked for, or at the critical tilt if that comes first: skins that sink are weak by it",
         |m| &mut m.force_at_depth,
     ).large().first().needing(&[key::DEPTH, key::DEPTH_MM]),
+    force(
+        "weakest_force",
+        Place::Anywhere,
+        "smallest puncture force, over the places of the load that are tried, at which the scale is critically tilted or a guided needle is through",
+        |m| &mut m.weakest.force,
+    ).large().first().needing(PLACES),
+    other(
+        "weakest_place",
+        FORCE,
+        "place of the load with that force: 0 the left corner of the top, 1 the right",
+        |r| measured(r, |m| m.weakest.place),
+    ).then().needing(PLACES),
+    other(
+        "weakest_status",
+        FORCE,
+        "complete, or why a place that may be weaker has no force, and so the weakest is not known",
+        |r| punctured(r, |p| p.weakest.map(Outcome::text)),
+    ).last().needing(PLACES),
     other(
         "friction_work",
         BOTH,

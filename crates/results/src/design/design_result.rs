@@ -69,6 +69,9 @@ pub struct PunctureResult {
     pub iterations: usize,
     /// Estimated relative error of the springs of the substrate.
     pub calibration_error: Option<f64>,
+    /// Whether the weakest place of the load is known, or why not, if it was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weakest: Option<Outcome>,
 }
 
 impl PunctureResult {
@@ -80,6 +83,7 @@ impl PunctureResult {
             points: 0,
             iterations: 0,
             calibration_error: None,
+            weakest: None,
         }
     }
 
@@ -92,12 +96,18 @@ impl PunctureResult {
         };
         let finite_all = VALUES.iter().all(|value| value.is_finite_in_puncture(&mut measures));
         let (outcome, measures) = finite_or(finite_all, puncture.status.into(), measures, few);
+        let weakest = || match puncture::Weakest::of(&puncture.places) {
+            Ok(weakest) if weakest == measures.weakest => Outcome::Complete,
+            Ok(_) => Outcome::NotFinite,
+            Err(status) => status.into(),
+        };
         Self {
             outcome,
             measures,
             points: puncture.path.len(),
             iterations: puncture.history.len(),
             calibration_error: finite(calibration_error),
+            weakest: (!puncture.places.is_empty()).then(weakest),
         }
     }
 }
@@ -172,6 +182,7 @@ mod tests {
             scales,
             history,
             way_back: None,
+            places: vec![],
         }
     }
 

@@ -74,6 +74,17 @@ fn a_depth_has_a_force() {
     assert!(!results::yardsticks("critical_force").contains(&"depth_over_t"));
 }
 
+/// The weakest place is told where places are tried.
+#[test]
+fn places_have_a_weakest() {
+    assert!(!headers("name = 'x'").contains("weakest"));
+    let places = "name = 'x'\n[puncture]\nplaces = 11";
+    assert!(headers(places).contains(",weakest_force,weakest_place,weakest_status,"));
+    let material = "[material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1";
+    assert!(headers(&format!("{places}\n{material}")).contains(",weakest_force_N,"));
+    assert!(results::yardsticks("weakest_force").contains(&"places"));
+}
+
 /// One path has columns for each of several critical tilts, or frictions, behind the others.
 #[test]
 fn several_critical_tilts_have_columns_of_their_own() {

@@ -252,7 +252,12 @@ fn failure(measure: Measure, solved: &SolvedDesign) -> Option<Failure> {
         // Derivatives exist where the measures do.
         Measure::Sensitivity => return None,
         Measure::Puncture => {
-            (result.puncture?.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture))
+            let puncture = result.puncture?;
+            match puncture.weakest {
+                // What is missing is the force at another place of the load, whose path nobody keeps.
+                Some(weakest) if puncture.outcome == Outcome::Complete => (weakest, None),
+                _ => (puncture.outcome, solved.puncture.as_ref().map(PathEnd::of_puncture)),
+            }
         }
         Measure::Flexure => {
             (result.flexure?.outcome, solved.flexure.as_ref().map(PathEnd::of_flexure))

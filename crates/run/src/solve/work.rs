@@ -122,7 +122,8 @@ struct Parts {
 impl Parts {
     fn of(case: &Case, measures: &[Measure]) -> Self {
         let has = |measure| u64::from(measures.contains(&measure));
-        let (punctures, bends) = (has(Measure::Puncture), has(Measure::Flexure));
+        let places = case.puncture.places.unwrap_or(0) as u64;
+        let (punctures, bends) = (has(Measure::Puncture) * (1 + places), has(Measure::Flexure));
         let is_chain = case.flexure.method == Method::Chain;
         let samples = if case.imperfection.is_none() { 0 } else { case.samples.count as u64 };
         let row = case.design.row().ok().filter(|_| bends > 0 && (is_chain || samples > 0));
@@ -186,6 +187,8 @@ mod tests {
         assert_eq!(work_of(&perfect, &Measure::ALL), 3);
         assert_eq!(work_of(&uneven, &Measure::ALL), 3 + 7 * (1 + 50));
         assert_eq!(work_of(&uneven, &[Measure::Puncture]), 2 + 7);
+        let places = case("slant_deg = 0\n[puncture]\nplaces = 11");
+        assert_eq!(work_of(&places, &[Measure::Puncture]), 1 + 12);
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod curves;
 mod designs;
 mod differences;
 mod kinks;
+mod places;
 mod scatter;
 mod tilts;
 mod turns;

@@ -5,7 +5,7 @@ use solver::Path;
 
 use super::fold::Fold;
 use super::system::Chain;
-use super::{Passage, PuncturePoint};
+use super::{Passage, PuncturePoint, Weakest};
 use crate::Remains;
 use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
@@ -79,6 +79,9 @@ pub struct PunctureMeasures {
     /// How a guided needle came through.
     #[serde(default, skip_serializing_if = "Passage::is_none")]
     pub passage: Passage,
+    /// The weakest of several places of the load.
+    #[serde(default, skip_serializing_if = "Weakest::is_none")]
+    pub weakest: Weakest,
 }
 
 impl PunctureMeasures {

@@ -49,13 +49,10 @@ pub fn differentiate(
     let PunctureInput { design, stiffness, common, parameters, .. } = input;
     let rows = Rows::Even(design.row()?);
     let problem = Problem::new(rows, design, stiffness.clone(), common, parameters)?;
-    let (start, longest) = problem.start()?;
-    let mut followed = problem.follow(start, longest, &FOLLOWED, &[])?;
-    let derivatives = match followed.status {
-        Status::Complete => problem.derivatives(&mut followed, variations)?,
-        _ => Vec::new(),
-    };
-    Ok((followed.puncture(parameters.unload), derivatives))
+    let (followed, mut derivatives) = problem.differentiated(variations)?;
+    let puncture = followed.puncture(parameters.unload).with_places(problem.loaded_places()?);
+    derivatives.extend(problem.at_weakest(&puncture.places, variations)?);
+    Ok((puncture, derivatives))
 }
 
 /// The force over the depth of the needle.
@@ -97,6 +94,20 @@ pub fn force_curve(
 }
 
 impl Problem<'_> {
+    /// The path, and the derivatives of its measures if it comes to its end.
+    pub(super) fn differentiated(
+        &self,
+        variations: &[Neighbours<PunctureInput>],
+    ) -> Result<(Followed, Vec<Derivative>), OutOfRange> {
+        let (start, longest) = self.start()?;
+        let mut followed = self.follow(start, longest, &FOLLOWED, &[])?;
+        let derivatives = match followed.status {
+            Status::Complete => self.derivatives(&mut followed, variations)?,
+            _ => Vec::new(),
+        };
+        Ok((followed, derivatives))
+    }
+
     /// The points of the curve at the places that were looked for.
     fn curve(
         &self,

@@ -15,6 +15,7 @@
 //! | `outputs` | what the measures, events and scales mean |
 //! | `ends` | paths beyond the largest force: where the load is back at zero, and where all turns back |
 //! | `tilts` | measures at tilts on the way, against paths that end there |
+//! | `places` | the weakest of several places of the load, against punctures with the load there |
 //! | `rubbing` | friction between scales: independent programs, steps, work |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 //! | `widest` | random ones in the widest ranges of a definition |
@@ -26,6 +27,7 @@ mod isolated_scale;
 mod layers;
 mod neo_hookean;
 mod outputs;
+mod places;
 mod robustness;
 mod rows;
 mod rubbing;

@@ -36,12 +36,13 @@ pub enum InvalidDefinition {
 
 impl InvalidDefinition {
     /// Nothing if there are no `errors`; a single one stays as it is.
-    pub(crate) fn of(mut errors: Vec<Self>) -> Result<(), Self> {
-        match errors.len() {
-            0 => Ok(()),
-            1 => Err(errors.swap_remove(0)),
-            _ => Err(Self::Several(errors)),
-        }
+    pub(crate) fn of(errors: Vec<Self>) -> Result<(), Self> {
+        if errors.is_empty() { Ok(()) } else { Err(Self::several(errors)) }
+    }
+
+    /// Errors as one, of which there is at least one.
+    pub fn several(mut errors: Vec<Self>) -> Self {
+        if errors.len() == 1 { errors.swap_remove(0) } else { Self::Several(errors) }
     }
 }
 
@@ -144,12 +145,10 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-pub(crate) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
-    InvalidDefinition::Refused {
-        place: place.clone(),
-        key: key.to_owned(),
-        problem: Box::new(problem.into()),
-    }
+/// A key refused, with the place where it is written.
+pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
+    let (place, key) = (place.clone(), key.to_owned());
+    InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }
 }
 
 /// The message of an error of the system, without its error number.

@@ -246,9 +246,8 @@ impl Reader {
             }
             _ => return Ok(()),
         };
-        let wrong =
-            WrongValue::NotAccepted { found: friction.to_toml(), expected: expected.to_owned() };
-        Err(refuse(place, &parameter.path(), Problem::from(wrong)))
+        let wrong = WrongValue::not_accepted(friction.to_toml(), expected);
+        Err(refuse(place, &parameter.path(), wrong))
     }
 
     /// Every length in mm of scales whose thickness is not given.
@@ -374,9 +373,8 @@ fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
     match &section.value {
         Value::Table(entries) => Ok(entries),
         other => {
-            let (found, key) = (other.to_string(), &section.key);
-            let expected = format!("a section, e.g. [{key}]");
-            Err(refuse(&section.place, key, WrongValue::NotAccepted { found, expected }))
+            let expected = format!("a section, e.g. [{}]", section.key);
+            Err(refuse(&section.place, &section.key, WrongValue::not_accepted(other, expected)))
         }
     }
 }
@@ -412,11 +410,9 @@ fn name_of(value: &Value) -> Result<String, WrongValue> {
         {
             Ok(name.clone())
         }
-        value => Err(WrongValue::NotAccepted {
-            found: value.to_string(),
-            expected:
-                "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"
-                    .to_owned(),
-        }),
+        value => Err(WrongValue::not_accepted(
+            value,
+            "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1",
+        )),
     }
 }

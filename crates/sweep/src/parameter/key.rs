@@ -47,6 +47,9 @@ pub const DEPTH: &str = "depth_over_t";
 /// The same in mm.
 pub const DEPTH_MM: &str = "depth_mm";
 
+/// The places of the load that are tried.
+pub const PLACES: &str = "places";
+
 /// The thickness of the tissue.
 pub const TISSUE: &str = "tissue_thickness_over_t";
 

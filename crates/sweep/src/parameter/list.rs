@@ -22,6 +22,9 @@ const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
 // Scales are rigid but where they touch: softer than what they stand on they would bend.
 const STIFF: Range = Range { low: Included(1.0), high: Included(1e9) };
 
+/// The word of a count that is to be found.
+const AUTO: &str = "auto";
+
 /// The roles of a number that describes the skin and its load, and no more.
 const NUMBER: &[Role] = &[Continuous, Made];
 
@@ -227,7 +230,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "scales in the row",
         roles: &[],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| match c.puncture.scales {
                 RowLength::Auto => None,
@@ -342,6 +346,19 @@ pub static PARAMETERS: &[Parameter] = &[
     },
     in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
     Parameter {
+        key: key::PLACES,
+        section: "puncture",
+        unit: "-",
+        meaning: "places of the load that are tried besides, from the left corner of the top to the right, for weakest_force",
+        roles: &[],
+        kind: ParameterKind::CountOrWord {
+            word: "none",
+            range: CountRange { low: 2, high: 1000 },
+            get: |c| c.puncture.places,
+            set: |c, count| c.puncture.places = count,
+        },
+    },
+    Parameter {
         key: key::CONTACT_OVER_SUBSTRATE,
         section: "puncture",
         unit: "-",
@@ -390,7 +407,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "gaps of the strip, the same number for every design, instead of a length",
         roles: &[InsteadOf(key::MEMBRANE_LENGTH)],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| c.flexure.gaps,
             set: |c, count| c.flexure.gaps = count,
@@ -436,7 +454,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
         roles: &[],
-        kind: ParameterKind::CountOrAuto {
+        kind: ParameterKind::CountOrWord {
+            word: AUTO,
             range: CountRange { low: 1, high: 1000 },
             get: |c| match c.flexure.elements_per_gap {
                 MembraneMesh::Auto => None,

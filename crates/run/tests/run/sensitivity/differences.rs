@@ -128,6 +128,7 @@ pub fn value(result: &DesignResult, name: &str) -> Option<f64> {
         "peak_tilt_deg" => puncture.peak_tilt_deg,
         "load_stability_force" => puncture.load_stability_force,
         "depth_stability_force" => puncture.depth_stability_force,
+        "weakest_force" => puncture.weakest.force,
         "compliance" => flexure.compliance,
         "initial_compliance" => flexure.initial_compliance,
         "first_contact_curvature" => flexure.first_contact_curvature,

@@ -1,0 +1,114 @@
+//! Other places of the load, and the weakest of them.
+
+use approx::assert_relative_eq;
+use skin::puncture::{self, LoadedPlace, Needle, Puncture, PunctureParameters, Weakest};
+use skin::{Base, Common, Design, Status};
+use solver::Stop;
+use substrate::{Calibrations, SubstrateLaw};
+
+use crate::samples::{design, solve_as};
+
+const FREE: Needle = Needle::Free;
+const GUIDED: Needle = Needle::Guided { friction: 0.3 };
+
+fn parameters(needle: Needle, places: usize) -> PunctureParameters {
+    PunctureParameters { needle, places: Some(places), ..PunctureParameters::default() }
+}
+
+fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
+    solve_as(&Calibrations::default(), design, &Common::default(), parameters)
+}
+
+/// Each place has what a puncture with its load there has; the smallest force is that of the weakest, to the last bit.
+#[test]
+fn the_weakest_place_is_that_of_the_smallest_of_whole_punctures() {
+    let known = Calibrations::default();
+    let cases = [
+        (design(0.1, 1.0, 75.0, Base::L), GUIDED, SubstrateLaw::Linear, 0.0, Some(0.3)),
+        (design(0.1, 0.2, 45.0, Base::L), GUIDED, SubstrateLaw::NeoHookean, 0.1, Some(0.6)),
+        (design(0.3, 0.5, 60.0, Base::TwoL), FREE, SubstrateLaw::Linear, 0.1, None),
+        (design(0.1, 0.2, 75.0, Base::L), FREE, SubstrateLaw::NeoHookean, 0.0, Some(1.0)),
+    ];
+    for (design, needle, substrate_law, friction, expected) in cases {
+        let common = Common { friction, ..Common::default() };
+        let tried = PunctureParameters { substrate_law, ..parameters(needle, 11) };
+        let puncture = solve_as(&known, &design, &common, &tried);
+        let mut smallest = f64::INFINITY;
+        for (k, place) in puncture.places.iter().enumerate() {
+            let there =
+                PunctureParameters { load_position: k as f64 / 10.0, places: None, ..tried };
+            let whole = solve_as(&known, &design, &common, &there);
+            assert_eq!((place.position, place.status), (there.load_position, whole.status));
+            assert_eq!(place.force, whole.measures.critical_force);
+            assert_eq!(place.critical_event, whole.measures.passage.critical_event);
+            smallest = smallest.min(place.force.unwrap_or(f64::INFINITY));
+        }
+        let weakest = puncture.measures.weakest;
+        assert_eq!(weakest.force, Some(smallest), "{design:?}");
+        assert!(expected.is_none_or(|place| weakest.place == Some(place)), "{weakest:?}");
+        // The rest is that of the place that the load has anyway.
+        let own = PunctureParameters { places: None, ..tried };
+        let own = solve_as(&known, &design, &common, &own).measures;
+        assert_eq!(
+            puncture::PunctureMeasures { weakest: Weakest::default(), ..puncture.measures },
+            own
+        );
+    }
+}
+
+/// An upright scale is its own mirror image: it tilts to the left under a load on its left, and not at all under one in its middle.
+#[test]
+fn places_of_an_upright_scale_are_mirror_images() {
+    for needle in [FREE, GUIDED] {
+        let upright = design(0.1, 1.0, 0.0, Base::L);
+        let Puncture { places, measures, .. } = solve(&upright, &parameters(needle, 5));
+        for k in 0..2 {
+            let [left, right] = [places[k], places[4 - k]];
+            assert_relative_eq!(left.force.unwrap(), right.force.unwrap(), max_relative = 1e-8);
+            assert_relative_eq!(left.tilt_deg.unwrap(), -10.0, max_relative = 1e-9);
+            assert_relative_eq!(right.tilt_deg.unwrap(), 10.0, max_relative = 1e-9);
+        }
+        assert_eq!((places[2].status, places[2].force), (Status::Untilted, None));
+        // Which of the two corners is the weaker is round-off.
+        assert_eq!(measures.weakest.place, Some(0.0));
+        assert_eq!(measures.weakest.force, places.iter().filter_map(|p| p.force).reduce(f64::min));
+    }
+}
+
+/// A needle without friction that is set down on the very corner on the left of this design is lost there, at a force that is no smaller
+/// than elsewhere by what is known of it: no number stands for it.
+#[test]
+fn a_place_that_may_be_weaker_is_not_passed_over() {
+    let lost = design(0.1, 1.0, 75.0, Base::L);
+    let slippery = parameters(Needle::Guided { friction: 0.0 }, 11);
+    let Puncture { status, places, measures, .. } = solve(&lost, &slippery);
+    assert_eq!((status, measures.weakest), (Status::Complete, Weakest::default()));
+    assert_eq!(Weakest::of(&places), Err(places[0].status));
+    assert!(places[0].force.is_none() && places[1..].iter().all(|place| place.force.is_some()));
+
+    let place = |force, borne, status| LoadedPlace {
+        position: 0.5,
+        status,
+        force,
+        displacement: None,
+        tilt_deg: None,
+        critical_event: None,
+        borne,
+    };
+    let (held, unloaded) = (place(Some(1.0), Some(2.0), Status::Complete), Stop::Unloaded);
+    let stopped = |borne| place(None, borne, Status::Stopped(unloaded));
+    let found = |other| Weakest::of(&[held, other]).map(|weakest| weakest.force);
+    assert_eq!(found(stopped(Some(0.9))), Err(Status::Stopped(unloaded)));
+    assert_eq!(found(stopped(Some(1.1))), Ok(Some(1.0)));
+    assert_eq!(found(place(None, None, Status::Untilted)), Ok(Some(1.0)));
+    assert_eq!(Weakest::of(&[stopped(Some(1.0))]), Err(Status::Stopped(unloaded)));
+    assert_eq!(Weakest::of(&[]), Ok(Weakest::default()));
+}
+
+#[test]
+fn one_place_is_none_to_choose_from() {
+    let design = design(0.1, 1.0, 0.0, Base::L);
+    let springs = substrate::calibrate(&design.footprint(0.5).unwrap()).unwrap();
+    let solved = puncture::solve(&design, &springs, &Common::default(), &parameters(FREE, 1));
+    assert!(solved.unwrap_err().to_string().contains("number of places"));
+}
