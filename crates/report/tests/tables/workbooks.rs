@@ -212,7 +212,7 @@ fn what_is_no_workbook_or_no_table_is_refused() {
             .expect_err("refused");
         error.to_string().replace(&place.path().display().to_string(), "R")
     };
-    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run");
+    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
     fs::write(place.path().join("designs.csv"), "design,coverage\r\n0001,1,2\r\n")
         .expect("writable");
     insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
