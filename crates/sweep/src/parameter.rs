@@ -122,11 +122,8 @@ pub enum WrongValue {
         expected: String,
     },
     /// A key that changes nothing.
-    #[error("has no effect: {reason}")]
-    NoEffect {
-        /// Why not.
-        reason: String,
-    },
+    #[error("has no effect: {0}")]
+    NoEffect(String),
     /// Not what this key takes.
     #[error("{found} is not accepted, expected {expected}")]
     NotAccepted {
