@@ -13,7 +13,7 @@ pub use bodies::overlaps;
 pub use row::PunctureDrawing;
 pub use strip::FlexureDrawing;
 
-use skin::Design;
+use skin::{Contact, Design};
 
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};
@@ -68,10 +68,15 @@ pub fn geometry_label(design: &Design) -> String {
 }
 
 /// Formats a number of contacts in words.
-fn contacts_label(count: usize) -> String {
-    match count {
-        0 => "no contact".to_owned(),
+fn contacts_label(contacts: &[Contact]) -> String {
+    let count = match contacts.len() {
+        0 => return "no contact".to_owned(),
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
+    };
+    match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
+        _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
+        0 => format!("{count}, all stick"),
+        slip => format!("{count}, {slip} slip (rings)"),
     }
 }

@@ -209,7 +209,7 @@ impl<'a> RowSheet<'a> {
             short(state.displacement),
             short(state.force),
             state.tilt_deg + 0.0,
-            contacts_label(state.contacts.len())
+            contacts_label(&state.contacts)
         )
     }
 

@@ -161,7 +161,7 @@ fn caption(state: &StripSnapshot) -> String {
         short(state.curvature),
         short(state.moment),
         format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
-        contacts_label(state.contacts.len())
+        contacts_label(&state.contacts)
     )
 }
 
