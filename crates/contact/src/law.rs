@@ -96,6 +96,7 @@ impl ContactLaw {
         let n = self.exponent.recip();
         let ratio = force / self.force;
         let value = self.length * ratio.abs().powf(n).copysign(ratio);
+        // From the value, so that one power is taken instead of two.
         let slope = if ratio.abs() > SMALLEST_FORCE {
             n * value / force
         } else {

@@ -10,6 +10,9 @@ use sweep::Case;
 /// Scales on either side of the middle one that are drawn of a strip.
 const BESIDE: usize = 6;
 
+/// Place of a contact, and whether it slips (nothing is known of that without friction).
+type PlacedContact = (f64, f64, Option<bool>);
+
 /// A row of scales on its way to the critical tilt.
 #[derive(Clone, Debug, Serialize)]
 pub struct PuncturedRow {
@@ -24,7 +27,7 @@ pub struct PuncturedRow {
     /// Number, displacement and rotation (counter-clockwise) of every scale of that state.
     pub scales: Vec<[f64; 4]>,
     /// Every closed contact of that state, from the punctured scale at rest.
-    pub contacts: Vec<[f64; 2]>,
+    pub contacts: Vec<PlacedContact>,
     /// Place of the load on the top of the punctured scale: 0 the left corner, 1 the right one.
     pub load_position: f64,
 }
@@ -43,7 +46,7 @@ pub struct BentStrip {
     /// The axis of the membrane in the gaps between them.
     pub membrane: Vec<Vec<[f64; 2]>>,
     /// The closed contacts between them.
-    pub contacts: Vec<[f64; 2]>,
+    pub contacts: Vec<PlacedContact>,
 }
 
 impl PuncturedRow {
@@ -89,11 +92,13 @@ fn scales(state: &RowSnapshot) -> impl Iterator<Item = [f64; 4]> {
 }
 
 /// The contacts of a row: the solver counts lengths from the first scale that it solves for, a drawing from the punctured one.
-fn contacts(case: &Case, state: &RowSnapshot) -> Vec<[f64; 2]> {
+fn contacts(case: &Case, state: &RowSnapshot) -> Vec<PlacedContact> {
     let first = state.scales.first().map_or(0.0, |scale| scale.scale as f64);
     let pitch = case.design.row().map_or(0.0, |row| row.pitch());
-    let placed =
-        |contact: &Contact| [contact.point[0] + first * pitch, contact.point[1]].map(rounded);
+    let placed = |contact: &Contact| {
+        let point = [contact.point[0] + first * pitch, contact.point[1]].map(rounded);
+        (point[0], point[1], contact.slips)
+    };
     state.contacts.iter().map(placed).collect()
 }
 
@@ -153,7 +158,10 @@ impl BentStrip {
                 .contacts
                 .iter()
                 .filter(of_shown)
-                .map(|contact| seen(contact.point))
+                .map(|contact| {
+                    let [x, y] = seen(contact.point);
+                    (x, y, contact.slips)
+                })
                 .collect(),
             ..self
         }

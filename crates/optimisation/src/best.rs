@@ -74,6 +74,7 @@ pub(crate) fn starts(
         }
         is_new
     };
+    // The order of merits is kept in both: the first of a region is its best.
     let (firsts, others): (Vec<_>, Vec<_>) = order.into_iter().partition(is_first);
     let mut starts: Vec<Candidate> =
         firsts.into_iter().take(count).map(|(_, candidate)| candidate.clone()).collect();

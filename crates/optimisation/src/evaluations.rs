@@ -53,9 +53,7 @@ impl<'a> Evaluations<'a> {
         stop: &'a AtomicBool,
     ) -> Result<Self, OptimisationError> {
         let journal = journal::begin(folder, goal.to_toml(), program, start)?;
-        let measures: Vec<Measure> = goal.space.sweep().measures().to_vec();
-        let measures: Vec<Measure> =
-            measures.into_iter().filter(|measure| *measure != Measure::Sensitivity).collect();
+        let measures = goal.space.sweep().plain_measures();
         let all = [measures.as_slice(), &[Measure::Sensitivity]].concat();
         Ok(Self {
             space: &goal.space,
@@ -83,6 +81,7 @@ impl<'a> Evaluations<'a> {
     fn unscaled(&self, point: &SpacePoint) -> SpacePoint {
         let mut unscaled = point.clone();
         for j in self.scaling_intervals() {
+            // Any share would do, as long as it is always the same.
             unscaled.shares[j] = 0.0;
         }
         unscaled
@@ -139,6 +138,7 @@ impl<'a> Evaluations<'a> {
         case: &Case,
         evaluator: &Evaluator,
     ) -> Result<Arc<DesignResult>, Halt> {
+        // A result with derivatives and one without are two: derivatives cost more, and many looks do without.
         let key = EvaluationKey { differentiated, sample, point: PointKey::of(point) };
         if let Some(known) = self.journal().records().solved.get(&key) {
             return Ok(Arc::clone(known));
@@ -156,11 +156,10 @@ impl<'a> Evaluations<'a> {
         // Few of the parameters vary, and every result is kept to the end.
         result.sensitivity.shrink_to_fit();
         let SpacePoint { shares, chosen } = point.clone();
-        let result = Arc::new(result);
-        let line =
-            SolvedLine { differentiated, sample, shares, chosen, result: Arc::clone(&result) };
-        self.journal().append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
-        Ok(result)
+        let line = SolvedLine { differentiated, sample, shares, chosen, result };
+        let mut journal = self.journal();
+        journal.append(JournalLine::Solved(Box::new(line))).map_err(Halt::Output)?;
+        Ok(Arc::clone(&journal.records().solved[&key]))
     }
 
     /// The values by which `judge` judges `count` samples of the design at `point`, from number `first` on, solved in parallel.
@@ -174,6 +173,7 @@ impl<'a> Evaluations<'a> {
         count: usize,
         judge: &SampleJudge,
     ) -> Result<Arc<Samples>, Halt> {
+        // The point as it is, not unscaled: samples of a scaled design are other samples.
         let key = (PointKey::of(point), first, count);
         if let Some(known) = self.journal().records().sampled.get(&key) {
             return Ok(Arc::clone(known));
@@ -186,10 +186,10 @@ impl<'a> Evaluations<'a> {
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;
         let SpacePoint { shares, chosen } = point.clone();
-        let values = Arc::new(Samples(values));
-        let line = SamplesLine { first, shares, chosen, values: Arc::clone(&values) };
-        self.journal().append(JournalLine::Samples(line)).map_err(Halt::Output)?;
-        Ok(values)
+        let line = SamplesLine { first, shares, chosen, values: Samples(values) };
+        let mut journal = self.journal();
+        journal.append(JournalLine::Samples(line)).map_err(Halt::Output)?;
+        Ok(Arc::clone(&journal.records().sampled[&key]))
     }
 
     /// Refuses to go on once the process is asked to end.

@@ -43,6 +43,7 @@ fn corners(space: &DesignSpace, most: usize) -> Vec<SpacePoint> {
 /// The point of the space that coordinates from 0 to 1 stand for.
 fn split(space: &DesignSpace, unit: &[f64]) -> SpacePoint {
     let (shares, rest) = unit.split_at(space.intervals().len());
+    // A share just below 1 may come to the whole count by rounding.
     let index = |(share, count): (&f64, usize)| ((share * count as f64) as usize).min(count - 1);
     let counts = space.choices().iter().map(|choice| choice.values.len());
     SpacePoint { shares: shares.to_vec(), chosen: rest.iter().zip(counts).map(index).collect() }
@@ -72,6 +73,7 @@ impl Sequence {
 
 /// The root above 1 of `φ^(n+1) = φ + 1`.
 fn ratio(dimensions: usize) -> f64 {
+    // Each round leaves less than half of the error: the derivative of the root is below 1/2. 64 come to round-off.
     let root = 1.0 / (dimensions as f64 + 1.0);
     (0..64).fold(2.0, |ratio: f64, _| (1.0 + ratio).powf(root))
 }

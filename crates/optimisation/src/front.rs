@@ -71,6 +71,7 @@ fn between(
     let turned: Vec<Vec<f64>> =
         designs.iter().filter_map(|design| turned(search, &design.candidate)).collect();
     let (Some(first), Some(last)) = (turned.first(), turned.last()) else { return Vec::new() };
+    // Only a curve has neighbours with a gap between them: points of a surface have no order.
     if first.len() != 2 {
         return Vec::new();
     }
@@ -108,6 +109,8 @@ impl Spacing {
     /// The value at a share of the way.
     fn at(self, share: f64) -> f64 {
         let [from, to] = self.ends;
+        // Ends are taken as they are: a power or a sum would miss them by rounding, and a floor there would rule out
+        // the design that set it.
         let is_end = share <= 0.0 || share >= 1.0;
         match self.logarithmic {
             _ if is_end => self.ends[usize::from(share >= 1.0)],
@@ -139,12 +142,15 @@ fn improve(
         for start in starts(search, history, target, REGIONS) {
             walk.extend(search.improve(target, &start, Effort::CLIMB)?);
         }
+        // Climbs are cheap, and tell which region is the best; the search to its end costs several times as much, and
+        // is made there alone.
         if let Some(start) = search.best(history.iter().chain(&walk), target).cloned() {
             walk.extend(search.improve(target, &start, Effort { rounds: 2, ..Effort::WHOLE })?);
         }
         search.meter.step();
         Ok(walk)
     };
+    // Noted in the order of the targets, whichever ends first: a search looks at the same designs on every machine.
     let walks: Vec<Vec<Candidate>> = targets.par_iter().map(first).collect::<Result<_, _>>()?;
     let bests: Vec<Option<Candidate>> = targets
         .iter()
@@ -154,6 +160,7 @@ fn improve(
     history.extend(walks.into_iter().flatten());
     let forth = (0..targets.len()).collect::<Vec<_>>();
     let back = forth.iter().rev().copied().collect::<Vec<_>>();
+    // Neither chain sees what the other finds, so that both run at once and no thread's pace shows in the front.
     let chains = [forth, back];
     let chains = chains.par_iter().map(|order| chain(search, targets, &bests, order));
     history.extend(chains.collect::<Result<Vec<_>, _>>()?.into_iter().flatten());
@@ -266,6 +273,8 @@ fn targets(search: &Search<'_>, history: &[Candidate], points: usize) -> Vec<Tar
 fn even(values: &[Vec<f64>], points: usize) -> Vec<Vec<f64>> {
     let end = |k: usize| {
         let better = |a: &&Vec<f64>, b: &&Vec<f64>| {
+            // Of designs alike in one objective the better in the other: a floor at the worse one would only be met
+            // by what is beaten.
             a[k].total_cmp(&b[k]).then(a[1 - k].total_cmp(&b[1 - k]))
         };
         values.iter().max_by(better).map_or(f64::NAN, |value| value[1])

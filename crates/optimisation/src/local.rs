@@ -153,6 +153,7 @@ impl Search<'_> {
                 for k in 0..=STEPS {
                     let mut point = best.point.clone();
                     point.shares[j] = (from + step * f64::from(k)).min(1.0);
+                    // Without derivatives: a scaling only compares values, and all its designs share one solution.
                     let looked = self.look(SearchStage::Gradient, &point, false)?.0;
                     if self.merit(&looked, target).compare(self.merit(&best, target)).is_gt() {
                         best = looked;
@@ -193,6 +194,7 @@ impl Search<'_> {
             best: RefCell::new(start.clone()),
             log: RefCell::default(),
         };
+        // Choices are held by every local search: without intervals there is nothing to move.
         if start.point.shares.is_empty() {
             return Ok(Vec::new());
         }
@@ -201,6 +203,8 @@ impl Search<'_> {
         walk.climb(effort)?;
         for _ in 0..effort.rounds {
             let before = walk.best_merit();
+            // Ridges first: tangents tell the way along them, which polls hardly find, since they know no direction
+            // better than another.
             walk.follow(reach, effort.ridge * variables)?;
             walk.polish(reach, effort.polish * variables)?;
             if !gained(before, walk.best_merit(), self.fineness().gain) {
@@ -223,6 +227,7 @@ fn gained(before: Merit, after: Merit, gain: f64) -> bool {
     match (before, after) {
         (Merit::Met(before), Merit::Met(after)) => after - before > gain * before.abs(),
         (Merit::Short(before), Merit::Short(after)) => before - after > gain * before,
+        // From short to met, or from nothing to short, is a gain whatever its size.
         _ => before != after,
     }
 }
@@ -258,6 +263,8 @@ impl LocalSearch<'_> {
 
     fn note(&self, candidate: &Candidate) {
         let is_known = |other: &Candidate| other.point == candidate.point;
+        // Cost, gradient and limits of one place are asked for one after the other, and each looks at it: it is noted
+        // once.
         if self.log.borrow().iter().rev().take(3).any(is_known) {
             return;
         }

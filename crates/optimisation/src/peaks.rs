@@ -30,6 +30,7 @@ const BISECTIONS: usize = 40;
 /// Points on every peak of coverage that the space has, those first that fall least short of the requirements that are known in closed form.
 pub(crate) fn points_on_peaks(space: &DesignSpace, judge: &Judge, seed: u64) -> Vec<SpacePoint> {
     let number = space.sweep().grid().number(0);
+    // Ordered, so that the same goal has the same points in the same order in every session.
     let mut on_peaks: BTreeMap<u32, Vec<(f64, SpacePoint)>> = BTreeMap::new();
     for point in fill::points(space, POINTS, seed) {
         for interval in 0..point.shares.len() {
@@ -86,6 +87,7 @@ fn spread(mut points: Vec<(f64, SpacePoint)>) -> Vec<SpacePoint> {
     points.sort_by(|(a, _), (b, _)| a.total_cmp(b));
     let mut chosen: Vec<SpacePoint> = Vec::new();
     for (shortfall, point) in points {
+        // In the order of their shortfalls: of two near each other the one that falls short by more is left out.
         if shortfall <= HOPELESS
             && chosen.len() < EACH
             && chosen.iter().all(|other| other.distance(&point) >= APART)

@@ -157,6 +157,7 @@ fn multipliers(columns: &[DVector<f64>], objective: &DVector<f64>) -> Option<Vec
             let matrix = DMatrix::from_columns(&scaled);
             let solved = matrix.clone().svd(true, true).solve(&-objective, 1e-12).ok()?;
             let least = (0..open.len()).min_by(|&a, &b| solved[a].total_cmp(&solved[b]))?;
+            // One at a time: without the limit that pulls most, others may push that pulled with it.
             if solved[least] < 0.0 {
                 open.remove(least);
                 continue;

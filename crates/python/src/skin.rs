@@ -240,15 +240,7 @@ impl Skin {
             let at = [At::Tilt(case.puncture.critical_tilt_deg)];
             let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at);
             let states: Vec<_> = solved.or_failed("drawing")?.at.into_iter().flatten().collect();
-            let drawing = PunctureDrawing {
-                name: NAME,
-                design: &case.design,
-                load_position: case.punctured().load_position,
-                guided: case.puncture.needle.is_guided(),
-                thickness_mm: case.material.thickness_mm,
-                states: &states,
-            };
-            drawing.svg().or_failed("drawing")
+            PunctureDrawing::of(NAME, &case, &states).svg().or_failed("drawing")
         })
     }
 

@@ -5,7 +5,7 @@ use crate::colors::{FAINT, GRID, INK, RED};
 use crate::designs::Designs;
 use crate::label::{Anchor, label, upright, width};
 use crate::palette::{Mark, SlantPalette};
-use crate::svg::{Element, Spot, line};
+use crate::svg::{Element, Spot, line, rect};
 
 /// Size of tick labels, px.
 const TICK: f64 = 11.0;
@@ -32,11 +32,7 @@ impl Area {
 
     /// Draws the border.
     pub(crate) fn border(&self) -> Element {
-        Element::new("rect")
-            .at("x", self.left)
-            .at("y", self.top)
-            .at("width", self.width)
-            .at("height", self.height)
+        rect([self.left, self.top], [self.width, self.height])
             .with("fill", "none")
             .with("stroke", FAINT)
     }
@@ -59,7 +55,17 @@ pub(crate) struct ChartPanel<'a> {
     pub(crate) y_labels: bool,
 }
 
-impl ChartPanel<'_> {
+impl<'a> ChartPanel<'a> {
+    /// A panel without a title, with labels at both axes.
+    pub(crate) fn new(area: Area, x: &'a ChartAxis, y: &'a ChartAxis) -> Self {
+        Self { area, x, y, title: String::new(), x_labels: true, y_labels: true }
+    }
+
+    /// Draws the frame and the names of both axes, that of y `away` px left of it.
+    pub(crate) fn axes(&self, away: f64) -> [Element; 3] {
+        [self.frame(), self.x_name(), self.y_name(away)]
+    }
+
     /// Returns the spot of a point; `None` if it lies outside.
     pub(crate) fn place(&self, x: f64, y: f64) -> Option<Spot> {
         Some([self.across(x)?, self.down(y)?])

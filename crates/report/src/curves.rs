@@ -225,10 +225,9 @@ fn one_panel(
         width: WIDTH - MARGINS[0] - MARGINS[1],
         height: HEIGHT - LEGEND - 6.0 - MARGINS[2],
     };
-    let (x, y, title) = (&x, &y, String::new());
-    let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel::new(area, &x, &y);
     let note = [MARGINS[0], 48.0];
-    let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(56.0)];
+    let mut inside = panel.axes(56.0).to_vec();
     inside.push(label(text.note, note, 12.0, Anchor::Start).with("fill", INK));
     for (k, curve) in curves.iter().enumerate() {
         inside.extend([drawn(&panel, curve), legend(curve, LEGEND + 20.0 * k as f64)]);
@@ -394,7 +393,7 @@ fn energies_of(
     let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
     let (x, y) = axes(text, &points);
     let title = format!("{}:  {}", solved.number, geometry_label(solved.design));
-    let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
+    let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),
         color: color.to_owned(),
@@ -405,5 +404,5 @@ fn energies_of(
         unstable: Vec::new(),
     };
     let curves = energies.iter().map(|energy| drawn(&panel, &curve(energy)));
-    [panel.frame(), panel.x_name(), panel.y_name(58.0)].into_iter().chain(curves).collect()
+    panel.axes(58.0).into_iter().chain(curves).collect()
 }

@@ -13,7 +13,7 @@ pub use bodies::overlaps;
 pub use row::PunctureDrawing;
 pub use strip::FlexureDrawing;
 
-use skin::Design;
+use skin::{Contact, Design};
 
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};
@@ -27,21 +27,6 @@ const MARGIN: f64 = 24.0;
 const HEAD: f64 = 40.0;
 /// Height of the line above a panel, px.
 const CAPTION: f64 = 26.0;
-
-/// States of one design, drawn alike.
-struct Frames {
-    height: f64,
-    /// Caption and contents of each.
-    states: Vec<(String, Vec<Element>)>,
-}
-
-impl Frames {
-    fn new(panels: Vec<DrawingPanel>) -> Self {
-        let height = panels.iter().map(|panel| panel.height).fold(0.0, f64::max);
-        let states = panels.into_iter().map(|panel| (panel.caption, panel.inside)).collect();
-        Self { height, states }
-    }
-}
 
 /// A part of a drawing, drawn from its own upper left corner.
 struct DrawingPanel {
@@ -83,10 +68,15 @@ pub fn geometry_label(design: &Design) -> String {
 }
 
 /// Formats a number of contacts in words.
-fn contacts_label(count: usize) -> String {
-    match count {
-        0 => "no contact".to_owned(),
+fn contacts_label(contacts: &[Contact]) -> String {
+    let count = match contacts.len() {
+        0 => return "no contact".to_owned(),
         1 => "1 contact".to_owned(),
         count => format!("{count} contacts"),
+    };
+    match contacts.iter().filter(|contact| contact.slips == Some(true)).count() {
+        _ if contacts.iter().all(|contact| contact.slips.is_none()) => count,
+        0 => format!("{count}, all stick"),
+        slip => format!("{count}, {slip} slip (rings)"),
     }
 }

@@ -84,12 +84,11 @@ impl FitPanel<'_> {
         draw: impl Fn(&ChartPanel, &dyn Fn(&[[f64; 2]]) -> Vec<Spot>) -> Vec<Element>,
     ) -> Vec<Element> {
         let x = ChartAxis::spanning(&self.axes[0], self.points.iter().map(|point| point[0]));
-        let panel =
-            ChartPanel { area, x: &x, y, title: String::new(), x_labels: true, y_labels: true };
+        let panel = ChartPanel::new(area, &x, y);
         let spots = |points: &[[f64; 2]]| -> Vec<Spot> {
             points.iter().filter_map(|&[x, y]| panel.place(x, y)).collect()
         };
-        let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(58.0)];
+        let mut inside = panel.axes(58.0).to_vec();
         inside.extend(draw(&panel, &spots));
         inside
     }

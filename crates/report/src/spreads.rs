@@ -5,7 +5,7 @@ use crate::chart::{Area, ChartPanel};
 use crate::colors::{INK, RED, map_color};
 use crate::figures::{in_words, sheet};
 use crate::label::{Anchor, label, width};
-use crate::svg::{Element, line};
+use crate::svg::{Element, Spot, line, rect};
 
 const WIDTH: f64 = 760.0;
 const HISTOGRAM_HEIGHT: f64 = 420.0;
@@ -40,9 +40,8 @@ impl Histogram<'_> {
         let y = ChartAxis::spanning("samples", bars.iter().map(|(.., count)| *count));
         let height = HISTOGRAM_HEIGHT - 150.0;
         let area = Area { left: 74.0, top: 90.0, width: WIDTH - 110.0, height };
-        let title = String::new();
-        let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
-        let mut inside = vec![panel.frame(), panel.x_name(), panel.y_name(52.0)];
+        let panel = ChartPanel::new(area, &x, &y);
+        let mut inside = panel.axes(52.0).to_vec();
         inside.extend(bars.iter().filter_map(|bar| Self::bar(&panel, *bar)));
         inside.extend(self.drawn.and_then(|at| marked(&panel, "as drawn", at, INK, 0.0)));
         let bounds = self.bounds.iter().enumerate();
@@ -73,9 +72,8 @@ impl Histogram<'_> {
 
     fn bar(panel: &ChartPanel<'_>, (from, to, count): (f64, f64, f64)) -> Option<Element> {
         let ([left, top], [right, bottom]) = (panel.place(from, count)?, panel.place(to, 0.0)?);
-        let bar = Element::new("rect").at("x", left).at("y", top);
-        let wide = (right - left - 1.0).max(1.0);
-        Some(bar.at("width", wide).at("height", bottom - top).with("fill", map_color(0.45)))
+        let size = [(right - left - 1.0).max(1.0), bottom - top];
+        Some(rect([left, top], size).with("fill", map_color(0.45)))
     }
 }
 
@@ -153,9 +151,8 @@ fn parts(shares: &[(String, f64)], sources: &[&str], y: f64) -> Vec<Element> {
     drawn
 }
 
-fn block([x, y]: [f64; 2], [wide, high]: [f64; 2], color: &str) -> Element {
-    let block = Element::new("rect").at("x", x).at("y", y).at("width", wide).at("height", high);
-    block.with("fill", color).with("stroke", "#fff").at("stroke-width", 0.8)
+fn block(at: Spot, size: [f64; 2], color: &str) -> Element {
+    rect(at, size).with("fill", color).with("stroke", "#fff").at("stroke-width", 0.8)
 }
 
 /// A text that can be read on a bar of any colour.

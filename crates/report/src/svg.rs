@@ -164,6 +164,10 @@ pub(crate) fn through(points: &[Spot], closed: bool) -> String {
     data
 }
 
+pub(crate) fn rect([x, y]: Spot, [width, height]: [f64; 2]) -> Element {
+    Element::new("rect").at("x", x).at("y", y).at("width", width).at("height", height)
+}
+
 pub(crate) fn polygon(points: &[Spot]) -> Element {
     Element::new("path").with("d", through(points, true))
 }

@@ -4,7 +4,7 @@ use results::columns::design_columns;
 use results::{Column, DesignRow};
 use skin::Imperfection;
 use substrate::Coupling;
-use sweep::{Case, Measure, Sweep};
+use sweep::{Case, Sweep};
 
 use crate::solve::evaluator::Evaluator;
 use crate::solve::work::work_of;
@@ -64,8 +64,7 @@ impl GapChange {
         // A ranking asks this of its best designs while somebody waits.
         is_quick(sweep, &case).then_some(())?;
         let meant = case.design.gap;
-        // One evaluator for the three: a gap changes no footprint, so they share their springs.
-        let evaluator = Evaluator::new(&without_derivatives(sweep));
+        let evaluator = Evaluator::new(&sweep.plain_measures());
         let solved = [1.0, PARTS[0], PARTS[1]].map(|part| {
             let mut case = case;
             case.design.gap = part * meant;
@@ -85,10 +84,6 @@ fn measure(column: &Column<DesignRow>, solved: &[DesignRow; 3]) -> Option<Measur
         value: value?,
         changed: [smaller, larger],
     })
-}
-
-fn without_derivatives(sweep: &Sweep) -> Vec<Measure> {
-    sweep.measures().iter().copied().filter(|measure| *measure != Measure::Sensitivity).collect()
 }
 
 /// Whether a design is solved in milliseconds: full coupling calibrates its substrate for much longer.

@@ -12,8 +12,6 @@ mod snapshot;
 mod strip;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod uneven_tests;
 
 use std::collections::HashSet;
 

@@ -58,6 +58,7 @@ impl<S: System> Path<S> {
         let rate = self.condition(from).of(&from.leaving);
         // Only the first one is aimed at: what happens behind it happens with another active set.
         let (constraint, along) = self.first_predicted()?;
+        // What lies beyond the step is for a later one, which predicts it from nearer.
         if along * rate > distance {
             return None;
         }
@@ -139,6 +140,8 @@ impl<S: System> Path<S> {
         let condition = self.condition(from);
         let distance = condition.of(&candidate.state.z) - condition.value;
         let span = distance / condition.of(&from.leaving);
+        // Of these alone the slope at the end is worked out: a guard that would still be positive there is not
+        // expected to dip.
         let falls =
             |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
         let falling: Vec<usize> = (0..after.len()).filter(falls).collect();
@@ -226,6 +229,7 @@ impl<S: System> Path<S> {
             guards[c].abs() <= TOGETHER && guard_slope(&self.system, &state, c, &direction) < 0.0
         };
         // A guard that is zero and rises has just changed sides, and stays.
+        // Together, or a long chain would take a step of no length for each of its gaps.
         let others = (0..guards.len()).filter(|&c| c != constraint && closing(c));
         let changes = std::iter::once(constraint)
             .chain(others)

@@ -162,6 +162,7 @@ impl Newton {
         let residual = &mut self.residual;
         self.solver.factorise(system, state, condition.row_in_tangent(), residual)?;
         let direction = self.direction(system, condition);
+        // A tangent that is nearly singular may have factors all the same: what they give tells.
         if direction.iter().all(|x| x.is_finite()) {
             Ok(direction)
         } else {

@@ -1,7 +1,10 @@
 //! The equilibrium path: an iterator over its points.
 
+mod direction;
+
 use std::sync::Arc;
 
+use self::direction::HIDDEN;
 use crate::event::Event;
 use crate::newton::{Condition, FLOOR, Newton, NewtonFailure};
 use crate::step::Settings;
@@ -13,25 +16,6 @@ use crate::watch;
 /// direction of the path; where it makes up less, because it is about to turn, the arc length does: a step of the control
 /// parameter would there be more than twenty times as long along the path.
 const DRIVES: f64 = 0.05;
-
-/// Cosine of the largest angle (45°) by which the path may turn within a step. Where it seems to turn by more,
-/// Newton's method has come to a part of the path further on, beyond a fold, or the step is too long.
-const STRAIGHT: f64 = 0.7;
-
-/// Cosine of the largest angle (37°) by which the path of all coordinates may turn within a step. Far from the load a row may
-/// buckle either way within a small part of a step, of which the controls show next to nothing.
-const STRAIGHT_IN_ALL: f64 = 0.8;
-
-/// Cosine of the largest angle (3°) between a chord and the mean of the directions at its ends. They agree on an arc up to the
-/// third order of its length; a chord that leads aside, to a path beside this one, has angles of one sign at both ends.
-const SYMMETRIC: f64 = 0.9986;
-
-/// The path is hidden from the controls where all coordinates together move this many times as fast: something gives way far from
-/// the load. The arc length in all of them measures it there.
-const HIDDEN: f64 = 100.0;
-
-/// Below this distance, in scales of the controls, the angle of a step is round-off.
-const SHORT: f64 = 1e-9;
 
 /// An equilibrium of the path.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,6 +133,7 @@ impl<S: System> Path<S> {
     /// Goes on from `point` with another `system`: one that has more unknowns, say. The path goes on in the direction in which
     /// it left `point`, whose state need be an equilibrium of the system to first order only. Returns the system that was left.
     pub fn go_on(&mut self, system: S, mut point: Point<S::Mode>) -> S {
+        // Kept apart: the iterations by which the path goes over to another system belong to no step.
         let history = std::mem::take(&mut self.newton.history);
         self.newton = Newton::new(&system);
         self.coordinates = system.coordinates();
@@ -273,27 +258,6 @@ impl<S: System> Path<S> {
         z[self.control_parameter().index] / self.control_parameter().scale
     }
 
-    /// A direction of unit length in the controls; of less where they hide the path.
-    pub(crate) fn normalised(&self, mut direction: Vec<f64>) -> Vec<f64> {
-        let all = self.coordinates.iter().map(|&index| direction[index].powi(2)).sum::<f64>();
-        let factor = 1.0 / self.in_controls(&direction).max(all.sqrt() / HIDDEN);
-        for x in &mut direction {
-            *x *= factor;
-        }
-        direction
-    }
-
-    /// The length of a direction in the controls.
-    fn in_controls(&self, direction: &[f64]) -> f64 {
-        let controls = self.system.controls().iter();
-        controls.map(|c| (direction[c.index] / c.scale).powi(2)).sum::<f64>().sqrt()
-    }
-
-    /// Whether the controls hide a direction of the path.
-    fn is_hidden(&self, direction: &[f64]) -> bool {
-        self.in_controls(direction) < 1.0 - FLOOR.sqrt()
-    }
-
     /// The measure of distance from `point`, which increases along the path.
     pub(crate) fn condition(&self, point: &Point<S::Mode>) -> Condition {
         let control = self.control_parameter();
@@ -349,69 +313,6 @@ impl<S: System> Path<S> {
         Ok(Candidate { state, direction: self.normalised(direction), event: None, is_positive })
     }
 
-    /// Whether the way to the candidate, or the path there, makes a large angle with the direction
-    /// in which the path left.
-    pub(crate) fn turns_sharply(
-        &self,
-        from: &Point<S::Mode>,
-        candidate: &Candidate<S::Mode>,
-    ) -> bool {
-        if self.is_hidden(&from.leaving) || self.is_hidden(&candidate.direction) {
-            return self.bends(from, candidate);
-        }
-        let mut products = [0.0; 3];
-        for Control { index, scale } in self.system.controls() {
-            let leaving = from.leaving[*index] / scale;
-            let arriving = candidate.direction[*index] / scale;
-            let chord = (candidate.state.z[*index] - from.state.z[*index]) / scale;
-            let terms = [leaving * arriving, leaving * chord, chord * chord];
-            products = std::array::from_fn(|k| products[k] + terms[k]);
-        }
-        let [turn, along, chord] = [products[0], products[1], products[2].sqrt()];
-        chord > SHORT && (turn < STRAIGHT || along < STRAIGHT * chord)
-    }
-
-    /// Whether the candidate, the end of a step, is on another branch: the path has another orientation there, or gets there
-    /// by a bend. Before events are looked for a step may well end on a continuation of the path that turns round.
-    fn strays(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
-        candidate.is_positive != self.is_positive || self.bends(from, candidate)
-    }
-
-    /// Whether the three directions in which the path leaves, goes and arrives make large angles with each other in all
-    /// coordinates: then the candidate is on another branch, or beyond a bend that the step cuts off.
-    fn bends(&self, from: &Point<S::Mode>, candidate: &Candidate<S::Mode>) -> bool {
-        // In one pass: every step of every path asks for this, over all coordinates.
-        let mut products = [[0.0; 3]; 3];
-        for &index in &self.coordinates {
-            let chord = candidate.state.z[index] - from.state.z[index];
-            let ways = [from.leaving[index], candidate.direction[index], chord];
-            for (row, one) in products.iter_mut().zip(ways) {
-                for (product, other) in row.iter_mut().zip(ways) {
-                    *product += one * other;
-                }
-            }
-        }
-        let lengths = [0, 1, 2].map(|k| products[k][k].sqrt());
-        let cosine = |a: usize, b: usize| products[a][b] / (lengths[a] * lengths[b]);
-        let (turn, along) = (cosine(0, 1), cosine(0, 2) + cosine(1, 2));
-        let off_mean = along < SYMMETRIC * (2.0 + 2.0 * turn).sqrt();
-        lengths[2] > SHORT && (turn < STRAIGHT_IN_ALL || off_mean)
-    }
-
-    /// Cosine of the angle between two directions in all coordinates, or in the controls of a system that tells of none.
-    pub(crate) fn cosine(&self, one: &[f64], other: &[f64]) -> f64 {
-        let all = self.coordinates.iter().map(|&index| (index, 1.0));
-        let controls = self.system.controls().iter().map(|c| (c.index, c.scale.powi(-2)));
-        let controls = controls.filter(|_| self.coordinates.is_empty());
-        let [mut product, mut of_one, mut of_other] = [0.0; 3];
-        for (index, weight) in all.chain(controls) {
-            product += weight * one[index] * other[index];
-            of_one += weight * one[index].powi(2);
-            of_other += weight * other[index].powi(2);
-        }
-        product / (of_one * of_other).sqrt()
-    }
-
     /// The next point of the path, or why there is none.
     fn advance(&mut self) -> Result<Point<S::Mode>, Stop> {
         loop {
@@ -438,10 +339,12 @@ impl<S: System> Path<S> {
     fn distance(&self) -> f64 {
         let drive = self.progress(&self.point.leaving);
         let left = self.system.target() - self.progress(&self.point.state.z);
+        // Where the path runs away from its target, or the arc length measures the step, there is nothing to stop at.
         if drive >= DRIVES { self.step.min(left) } else { self.step }
     }
 
     fn shorten(&mut self, distance: f64, stop: Stop) -> Result<(), Stop> {
+        // A third of what was tried, which the target may have made shorter than the step.
         self.step = distance / 3.0;
         if self.step < self.settings.min_step { Err(stop) } else { Ok(()) }
     }
@@ -516,6 +419,7 @@ impl<S: System> Path<S> {
             Some(Event::Changed(changes)) => {
                 let is_positive = self.is_positive;
                 let resolved = self.resolve_event(&mut state, &arriving, changes);
+                // The step is tried again from where the path stands, with the orientation that it has there.
                 resolved.inspect_err(|_| self.is_positive = is_positive)?
             }
             _ => arriving.clone(),

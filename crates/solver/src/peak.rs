@@ -86,6 +86,8 @@ impl<M> Peak<M> {
             best.after.get_or_insert_with(|| Arc::clone(&here));
         }
         let least = self.best.as_ref().map_or(0.0, |best| PROMISING * best.value);
+        // What was promising need not be any more once a larger value was seen; kept, segments would grow with the
+        // path.
         self.kinks.retain(|segment| segment.value >= least);
     }
 

@@ -65,6 +65,7 @@ impl SkylineMatrix {
                 self.add(row, column, -taken);
             }
             let pivot = self.scale_row(row);
+            // A small pivot is none of these: it still has the sign that the count of negative eigenvalues asks for.
             if pivot == 0.0 || !pivot.is_finite() {
                 return Err(SingularMatrix { column: row, size });
             }

@@ -58,6 +58,7 @@ pub fn beside_half_space(poisson_ratio: f64, x: f64) -> Integrals {
     // S and N less 1 − ν, T less 1.
     let common = -kappa * decay * decay - constant * decay;
     let [normal, shear] = [-2.0, 2.0].map(|sign| left * (common + sign * x * decay) / d);
+    // tanh x − 1, without a difference of near numbers.
     let across = -2.0 * decay / (1.0 + decay);
     let incompressible = 1.0 - 2.0 * poisson_ratio;
     let coupled = x * x * decay + 0.5 * incompressible * decay * (kappa + constant);
@@ -115,6 +116,7 @@ const KEPT: usize = 16;
 impl Layer {
     /// Returns the layer of a Poisson's ratio: its integrals depend on no thickness.
     pub fn of(poisson_ratio: f64) -> Arc<Self> {
+        // The layer is made under the lock: a thread that needs the same one waits for it instead of making it again.
         let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
         let known = made.iter().position(|layer| layer.poisson_ratio == poisson_ratio);
         let layer = known.map_or_else(|| Arc::new(Self::new(poisson_ratio)), |at| made.remove(at));
@@ -133,6 +135,7 @@ impl Layer {
             (0..INTERVALS).flat_map(|k| GAUSS.map(|gauss| point(k, gauss))).collect();
         let at = |k: usize| integrals(&points, k as f64 / PER_UNIT as f64);
         let last = FARTHEST * PER_UNIT;
+        // Two more than are kept, for the slope of the last.
         let values: Vec<Integrals> = (0..=last + 2).map(at).collect();
         // Below 0 the integrals go on even, those of J₁ odd.
         let value = |k: usize, steps: isize, part: usize| {

@@ -78,6 +78,7 @@ impl RowStiffness {
     /// # Errors
     /// As [`Self::solve`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+        // A layer adds to the half-space, so that the table serves both.
         let half_space = Self::on_half_space(footprint, coupling)?;
         if !footprint.is_on_layer() {
             return Ok(half_space);
@@ -86,6 +87,7 @@ impl RowStiffness {
             return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
         let stiffer = layered::addition(footprint, footprint, coupling)?;
+        // Neither error knows the sign of the other: they add at worst.
         let error = half_space.error + stiffer.error;
         let mut row = Self { error, ..half_space + stiffer };
         if coupling == Coupling::Full {
@@ -139,6 +141,7 @@ impl RowStiffness {
         let best = extrapolation([CELLS[1], CELLS[2]], [&medium, &fine]);
         let sizes = sizes(&best);
         let estimate = |i: usize| (best[i] - check[i]).abs() + CAUTION * (best[i] - fine[i]).abs();
+        // The worst of all numbers counts for each: a row tells one error.
         let mut error = (0..best.len()).map(|i| estimate(i) / sizes[i]).fold(0.0, f64::max);
         let mut row = Self {
             direct: [best[0], best[1], best[2]],
@@ -149,6 +152,7 @@ impl RowStiffness {
         };
         for n in best[3..].chunks(PER_NEIGHBOUR) {
             error = error.max((n[3] - n[4]).abs() / sizes[6]);
+            // The mean of the two, which a mesh keeps apart by its error: the matrix is symmetric whatever that is.
             let cross = f64::midpoint(n[3], n[4]);
             let direct = [n[0], n[1], n[2]];
             row.neighbours.push(Neighbour { direct, cross, ..Neighbour::default() });

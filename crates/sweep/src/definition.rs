@@ -77,6 +77,13 @@ impl Sweep {
         &self.measures
     }
 
+    /// What is measured, without the derivatives of it.
+    pub fn plain_measures(&self) -> Vec<Measure> {
+        let mut measures = self.measures.clone();
+        measures.retain(|measure| *measure != Measure::Sensitivity);
+        measures
+    }
+
     /// This sweep, which measures sensitivities besides.
     #[must_use]
     pub fn with_sensitivity(mut self) -> Self {

@@ -56,7 +56,7 @@ mod variable;
 mod visible;
 
 pub use case::{Case, Samples};
-pub use definition::invalid::{InvalidDefinition, Problem, reason};
+pub use definition::invalid::{InvalidDefinition, Problem, reason, refuse};
 pub use definition::measure::Measure;
 pub use definition::setting::{InvalidSetting, Setting};
 pub use definition::suggestion::nearest;

@@ -29,7 +29,6 @@ pub struct Analysis<'a> {
     /// Set once the work is to stop.
     pub stop: &'a AtomicBool,
     differentiating: Evaluator,
-    plain: Evaluator,
     sampler: Sampler,
     program: Program,
 }
@@ -101,13 +100,11 @@ impl<'a> Analysis<'a> {
         program: Program,
         stop: &'a AtomicBool,
     ) -> Self {
-        let mut measures = sweep.measures().to_vec();
-        measures.retain(|measure| *measure != Measure::Sensitivity);
-        let plain = Evaluator::new(&measures);
+        let mut measures = sweep.plain_measures();
         let sampler = Sampler::new(&measures, sweep.deviations());
         measures.push(Measure::Sensitivity);
         let differentiating = Evaluator::new(&measures);
-        Self { sweep, requirements, samples, stop, differentiating, plain, sampler, program }
+        Self { sweep, requirements, samples, stop, differentiating, sampler, program }
     }
 
     /// The tolerances of design `index`, from 0. Its samples are taken from `store` as far as they are there, and kept there.
@@ -179,7 +176,8 @@ impl<'a> Analysis<'a> {
         draw::scatter(&mut scattered.case, deviations);
         // Derivatives with respect to single scales cost a solve for each kind of scale.
         let scatters = !scattered.case.imperfection.is_none();
-        let single = if scatters { self.plain.scatter(&nominal.case) } else { Vec::new() };
+        let single =
+            if scatters { self.differentiating.scatter(&nominal.case) } else { Vec::new() };
         let gradients = Gradients { design: &scattered, deviations, single: &single };
         let mut measures = Vec::new();
         for (place, column) in nominal.measured.iter().enumerate() {

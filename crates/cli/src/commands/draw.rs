@@ -120,14 +120,7 @@ impl Drawing<'_> {
         };
         let states = self.puncture_states(&at)?;
         let name = self.design.title();
-        let drawing = drawings::PunctureDrawing {
-            name: &name,
-            design: &case.design,
-            load_position: case.punctured().load_position,
-            guided: case.puncture.needle.is_guided(),
-            thickness_mm: case.material.thickness_mm,
-            states: &states,
-        };
+        let drawing = drawings::PunctureDrawing::of(&name, case, &states);
         if self.arguments.animate {
             let file = self.file("puncture-animation");
             return files.html(&file, &drawing.animation()?);

@@ -12,7 +12,7 @@ use report::Explorer;
 use results::shell_word;
 use sweep::{Sweep, key, read_entries};
 
-use super::figure_file::write;
+use super::figure_file::write_file;
 use super::required::Required;
 use super::source::{Definition, definition_file, require_folder_of, settings};
 use super::{DONE, PROGRAM};
@@ -62,9 +62,7 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         requirements: requirements.iter().map(ToString::to_string).collect(),
         version: PROGRAM.version.to_owned(),
     };
-    let folder = arguments.out.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-    let name = arguments.out.file_name().unwrap_or_default().to_string_lossy();
-    write(&folder, &name, page.html().as_bytes())?;
+    write_file(&arguments.out, page.html().as_bytes())?;
     print(&format!("{}\n", arguments.out.display()))?;
     // A script that writes pages shall open none.
     let is_watched = std::io::stdout().is_terminal();

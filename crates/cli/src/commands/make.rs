@@ -8,7 +8,7 @@ use fabrication::{Format, Patch, Sheet};
 use sweep::Case;
 use tolerance::{Analysis, SampleStore};
 
-use super::figure_file::write;
+use super::figure_file::write_file;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, require_folder_of};
 use super::{DONE, PROGRAM};
@@ -209,9 +209,4 @@ fn tolerances(
         "\nStandard deviations by [tolerance], and where they come from\n{}",
         aligned(&rows)
     ))
-}
-
-fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let folder = file.parent().map_or_else(PathBuf::new, Path::to_path_buf);
-    write(&folder, &file.file_name().unwrap_or_default().to_string_lossy(), bytes)
 }

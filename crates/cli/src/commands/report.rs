@@ -187,14 +187,7 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
-    let drawing = drawings::PunctureDrawing {
-        name: &name,
-        design: &case.design,
-        load_position: case.punctured().load_position,
-        guided: case.puncture.needle.is_guided(),
-        thickness_mm: case.material.thickness_mm,
-        states: &states,
-    };
+    let drawing = drawings::PunctureDrawing::of(&name, &case, &states);
     let path = solved.puncture.path.iter().map(|point| [point.displacement, point.force]);
     Some(PageDesign {
         number: number.to_owned(),

@@ -40,8 +40,7 @@ pub(super) struct SolvedLine {
     /// Indices of the choices.
     pub chosen: Vec<usize>,
     /// The result.
-    #[serde(with = "shared")]
-    pub result: Arc<DesignResult>,
+    pub result: DesignResult,
 }
 
 /// Samples of the design of a point.
@@ -55,28 +54,7 @@ pub(super) struct SamplesLine {
     /// Indices of the choices.
     pub chosen: Vec<usize>,
     /// The values of each sample in the columns that it is judged by.
-    #[serde(with = "shared")]
-    pub values: Arc<Samples>,
-}
-
-/// Values that the journal shares with who asked for them, written as they are.
-mod shared {
-    use std::sync::Arc;
-
-    use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-    pub fn serialize<T: Serialize, S: Serializer>(
-        value: &Arc<T>,
-        to: S,
-    ) -> Result<S::Ok, S::Error> {
-        value.as_ref().serialize(to)
-    }
-
-    pub fn deserialize<'d, T: Deserialize<'d>, D: Deserializer<'d>>(
-        from: D,
-    ) -> Result<Arc<T>, D::Error> {
-        T::deserialize(from).map(Arc::new)
-    }
+    pub values: Samples,
 }
 
 /// Whether a point is solved with the derivatives of its measures, and which point it is, to the last bit.
@@ -126,11 +104,12 @@ impl Records for Known {
             JournalLine::Solved(line) => {
                 let SolvedLine { differentiated, sample, shares, chosen, result } = *line;
                 let point = PointKey::of(&SpacePoint { shares, chosen });
-                self.solved.insert(EvaluationKey { differentiated, sample, point }, result);
+                let key = EvaluationKey { differentiated, sample, point };
+                self.solved.insert(key, Arc::new(result));
             }
             JournalLine::Samples(SamplesLine { first, shares, chosen, values }) => {
                 let point = PointKey::of(&SpacePoint { shares, chosen });
-                self.sampled.insert((point, first, values.0.len()), values);
+                self.sampled.insert((point, first, values.0.len()), Arc::new(values));
             }
         }
         Ok(())

@@ -9,11 +9,11 @@ use results::yardsticks;
 use sweep::toml_source::{KeyValue, KeyValues, Place, Value};
 use sweep::{
     Axis, InvalidDefinition, Problem, Role, Setting, Sweep, Variable, VariableValues, entries,
-    nearest, read_entries,
+    nearest, read_entries, refuse,
 };
 
 use super::bounds::out_of_bounds;
-use super::refusal::{not_accepted, refuse, several};
+use super::refusal::not_accepted;
 use super::section::{GoalSection, Written};
 use super::{DesignGoal, statistics};
 use crate::column::NumberColumn;
@@ -63,7 +63,7 @@ impl DesignGoal {
             Ok(sweep) => sweep,
             Err(error) => {
                 refused.insert(0, error);
-                return Err(several(refused));
+                return Err(InvalidDefinition::several(refused));
             }
         };
         refused.extend(unsearchable(entries, &sweep, &file));
@@ -80,7 +80,7 @@ impl DesignGoal {
             refused.extend(out_of_bounds(&section, &space));
         }
         if !refused.is_empty() {
-            return Err(several(refused));
+            return Err(InvalidDefinition::several(refused));
         }
         let GoalSection {
             objectives,
@@ -143,7 +143,7 @@ fn goal_section(
     }
     if goal.objectives.is_empty() && refused.is_empty() {
         let expected = "at least one objective, e.g. maximize = [\"critical_force\"]";
-        refused.push(refuse(file, "goal", Problem::Missing { expected }));
+        refused.push(refuse(file, "goal", Problem::Missing(expected)));
     }
     goal
 }
@@ -154,7 +154,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     if sweep.variables().is_empty() {
         let expected =
             "a section of at least one variable, e.g. gap_over_t = { from = 0.1, to = 1 }";
-        return vec![refuse(file, "variables", Problem::Missing { expected })];
+        return vec![refuse(file, "variables", Problem::Missing(expected))];
     }
     let place = |section_name: &str, key: &str| {
         let entry = section(entries, section_name).iter().find(|entry| entry.key == key);

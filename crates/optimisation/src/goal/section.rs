@@ -4,10 +4,10 @@ use std::str::FromStr;
 
 use ranking::{Criterion, Goal, Relation, Requirement, Standard};
 use sweep::toml_source::{KeyValue, Place, Value};
-use sweep::{InvalidDefinition, Problem, nearest};
+use sweep::{InvalidDefinition, Problem, nearest, refuse};
 
 use super::fitness_section::FitnessSection;
-use super::refusal::{not_accepted, refuse};
+use super::refusal::not_accepted;
 
 /// Objectives of a goal, at most.
 const MOST_OBJECTIVES: usize = 4;

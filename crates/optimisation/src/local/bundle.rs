@@ -16,7 +16,7 @@
 
 mod model;
 #[cfg(test)]
-mod textbook;
+mod tests;
 
 use std::iter;
 
@@ -135,11 +135,13 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         if let Some((to, gain)) = self.step().filter(|(_, gain)| *gain > NEGLIGIBLE) {
             return self.attempt(to, gain);
         }
+        // A simplex has one corner more than dimensions: fewer tangents leave a direction in which nothing is told.
         let lacking = (self.dimensions() + 1).saturating_sub(self.near(1.0).count());
         if lacking == 0 || self.filled {
             self.shrink(SHRUNK);
             return Ok(());
         }
+        // Once for each ball: places at kinks have no tangents, and would have it filled for ever.
         self.filled = true;
         (0..lacking.min(self.left)).try_for_each(|_| self.fill())
     }
@@ -150,6 +152,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let unit = self.sequence.point(self.drawn);
         let centre = &self.seen[self.centre].place;
         let shifted = centre.iter().zip(unit).map(|(x, u)| x + self.radius * (2.0 * u - 1.0));
+        // A place beyond the cube moves to its face and is not left out, so that the ball gets as many as it lacks.
         let place: Vec<f64> = shifted.map(|x| x.clamp(0.0, 1.0)).collect();
         let merit = self.merit(self.centre);
         if let Some(index) = self.look(place)?
@@ -162,7 +165,9 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
 
     /// Tries the step to a place that is told to gain so much.
     fn attempt(&mut self, to: Vec<f64>, told: f64) -> Result<(), P::Error> {
+        // A step that ends well within the ball has its end from the tangents: a larger ball would not lengthen it.
         let far = distance(&to, &self.seen[self.centre].place) > 0.9 * self.radius;
+        // Where there is no cost there is no tangent that would keep the next step from going there: the ball has to.
         let Some(index) = self.look(to)? else {
             self.shrink(0.5);
             return Ok(());
@@ -175,6 +180,8 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
             return Ok(());
         }
         self.misses += 1;
+        // Each miss has added a tangent. Where as many as make a corner do not help, it is the ball that is too large
+        // for them.
         if self.misses > self.dimensions() {
             self.shrink(0.5);
         }
@@ -199,6 +206,7 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
     /// The places with a tangent within so many radii of the best, the newest first.
     fn near(&self, radii: f64) -> impl Iterator<Item = &Seen> {
         let centre = &self.seen[self.centre].place;
+        // Places that were put on the border of the ball count, whatever rounding has made of their distance.
         let within = radii * self.radius * (1.0 + 1e-9);
         let near = move |seen: &&Seen| distance(&seen.place, centre) <= within;
         let smooth = |seen: &&Seen| seen.pieces.have_tangents();
@@ -211,6 +219,9 @@ impl<P: PiecewiseSmooth> Bundle<'_, P> {
         let (met, worst) = self.merit(self.centre);
         let mut model = Model::new(place, self.radius, worst);
         let kept = KEPT * (self.dimensions() + 1);
+        // From twice as far as the step may go, so that a ball that was halved keeps the tangents it had. The centre
+        // may be older than those that are kept, and is never left out: without it a step could be promised a gain
+        // where there is none.
         let near = self.near(2.0).take(kept).chain([&self.seen[self.centre]]);
         for seen in near {
             if met {
@@ -240,6 +251,7 @@ impl Pieces {
 /// How much better one merit is than another; infinitely, if it alone keeps to the limits.
 fn better((met, value): (bool, f64), (other_met, other): (bool, f64)) -> f64 {
     match (met, other_met) {
+        // No cost is worth a limit: a step to a place that keeps to them is taken whatever was told.
         (true, false) => f64::INFINITY,
         (false, true) => f64::NEG_INFINITY,
         _ => other - value,

@@ -25,7 +25,9 @@ impl LocalSearch<'_> {
     pub(super) fn climb(&self, effort: Effort) -> Result<(), Halt> {
         let mut climbed: Vec<Option<Tooth>> = Vec::new();
         while climbed.len() < effort.pieces {
+            // Asked anew for each climb: the best design may have come to a border, from where another piece goes on.
             let pieces = self.pieces();
+            // No piece twice, or two that share a border would hand the best design to and fro.
             let Some(&piece) = pieces.iter().find(|piece| !climbed.contains(piece)) else { break };
             self.climb_in(piece, effort)?;
             climbed.push(piece);
@@ -68,6 +70,7 @@ impl CostFunction for LocalProblem<'_> {
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
         let looked = self.look(shares)?;
+        // What cannot be judged is worse than anything that can.
         Ok(looked.map_or(f64::INFINITY, |looked| self.cost_of(&looked.worth)))
     }
 }
@@ -105,6 +108,7 @@ impl NonlinearInequalityValues for LocalProblem<'_> {
         &self,
         shares: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Halt>> {
+        // As for the cost: what cannot be judged keeps to no limit.
         let none = || vec![f64::INFINITY; self.limit_count()];
         Ok(self.look(shares)?.map_or_else(none, |looked| self.limits(&looked)))
     }

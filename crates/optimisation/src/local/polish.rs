@@ -16,6 +16,7 @@ impl LocalSearch<'_> {
         loop {
             let start = self.best_shares();
             let before = self.best_merit();
+            // Where nothing can be judged no step is better than another.
             if before == Merit::None {
                 return Ok(());
             }
@@ -58,8 +59,11 @@ impl CostFunction for Barrier<'_> {
     type Error = Halt;
 
     fn cost(&self, shares: &Vec<f64>) -> Result<f64, Halt> {
+        // Without derivatives, which cost more than the value and are of no use at a jump.
         let (candidate, _) = self.walk.at(SearchStage::Polish, shares, false)?;
         Ok(match self.walk.search.merit(&candidate, self.walk.target) {
+            // Nothing is less short than this: the run ends with what meets all, and another one begins for the
+            // objective.
             Merit::Met(_) if self.only_short => 0.0,
             Merit::Met(objective) => -objective,
             Merit::Short(short) if self.only_short => short,

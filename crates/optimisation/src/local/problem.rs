@@ -119,12 +119,15 @@ impl<'a> LocalProblem<'a> {
     /// Ends a climb that does not move any more: at a kink, steps along derivatives become ever smaller.
     fn end_if_stalled(&self, shares: &[f64]) -> Result<(), Halt> {
         let (last, count) = &mut *self.still.borrow_mut();
+        // The cost, the gradient and the limits at one place are no steps.
         if last.as_slice() == shares {
             return Ok(());
         }
+        // The largest of all intervals: a climb that still moves in one has not come to its end.
         let step = last.iter().zip(shares).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         *count = if !last.is_empty() && step < STILL { *count + 1 } else { 0 };
         shares.clone_into(last);
+        // A search along ridges ends by its radius, and in its smallest ball every step is a small one.
         if *count >= STALLED && self.stage == SearchStage::Gradient {
             Err(Halt::Stalled)
         } else {
@@ -152,6 +155,7 @@ impl<'a> LocalProblem<'a> {
     /// How far a design is beyond each limit; not above 0 where it keeps to it.
     pub fn limits(&self, looked: &Looked) -> Vec<f64> {
         let Looked { worth, row, .. } = looked;
+        // In the order in which `limit_gradient` numbers them.
         let room = self.stays_open.then(|| CLEAR - bending_room(&row.nominal.case));
         let borders = self.borders();
         let borders = borders.filter_map(|(tooth, border)| tooth.beyond(border, &row.nominal.case));

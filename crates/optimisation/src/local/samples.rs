@@ -29,6 +29,8 @@ impl SampledPoint<'_> {
                 Use::Requirement(k) => judge.requirements().nth(k),
             };
             let mut rows = Vec::new();
+            // A quantile is a value of one sample, or lies between two: only these are solved with derivatives, not
+            // all.
             for order in self.judge.order_statistics(q, requirement, self.samples) {
                 rows.extend(self.row(order.sample)?.map(|row| (order, row)));
             }

@@ -60,6 +60,7 @@ pub(super) fn confirm(
 ) -> Result<Option<Confirmation>, Halt> {
     let Some(judge) = search.judge.samples() else { return Ok(None) };
     let seen = search.evaluations.samples(point, 1, judge.count, judge)?;
+    // From the first number that the search has not seen: its own samples flatter what it chose by them.
     let first = judge.count as u64 + 1;
     let fresh = search.evaluations.samples(point, first, FRESH, judge)?;
     let all: Vec<Estimate> =

@@ -32,6 +32,8 @@ impl Searches<'_> {
     /// The answer to a goal about samples. The history of the nominal designs is part of it.
     pub fn answer(&self, goal: &DesignGoal, history: &mut Vec<Candidate>) -> Result<Answer, Halt> {
         let Self { nominal, sampled, finer } = self;
+        // A nominal design costs one solution, a sampled one as many as it has samples: nominal ones tell where to
+        // begin.
         let plan = Plan { points: goal.points.min(NOMINAL_POINTS), ..Plan::NOMINAL };
         let first = answer(nominal, history, plan)?;
         let seeds = seeds(nominal, history, &first);
@@ -41,6 +43,7 @@ impl Searches<'_> {
             candidate.verdict = sampled.judge.verdict(&row);
             is_admitted |= sampled.judge.samples().is_some_and(|judge| judge.admits(&row));
         }
+        // Where no nominal design is worth sampling, the answer among these is all that there is.
         if !is_admitted {
             return Ok(first);
         }

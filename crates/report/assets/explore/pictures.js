@@ -29,8 +29,9 @@
   const row = (view, own, poses, kind) => poses.map(({ number, pose }) =>
     svg("polygon", { points: points(view, outline(own, pose)), class: `scale ${kind ?? (number === 0 ? "punctured" : "")}` }));
   const dots = (view, contacts) => contacts.map((contact) => {
-    const [cx, cy] = place(view, contact);
-    return svg("circle", { cx, cy, r: 4, class: "contact" });
+    const [x, y, slips] = contact;
+    const [cx, cy] = place(view, [x, y]);
+    return svg("circle", { cx, cy, r: 4, class: slips ? "contact slips" : "contact" });
   });
   /** The scales that a picture of that width shows, at rest but for those that have `moved`. */
   const poses = (own, view, width, moved = new Map()) => {

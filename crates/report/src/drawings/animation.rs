@@ -2,7 +2,7 @@
 
 use geometry::OutOfRange;
 
-use super::{CAPTION, FlexureDrawing, Frames, MARGIN, PunctureDrawing, WIDTH};
+use super::{CAPTION, DrawingPanel, FlexureDrawing, MARGIN, PunctureDrawing, WIDTH};
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain};
 use crate::svg::{Element, px};
@@ -30,10 +30,10 @@ impl FlexureDrawing<'_> {
     }
 }
 
-fn page(title: &str, frames: Frames) -> String {
-    let height = CAPTION + frames.height + 0.5 * MARGIN;
-    let drawn: Vec<_> =
-        frames.states.into_iter().map(|(caption, body)| frame(&caption, body)).collect();
+fn page(title: &str, frames: Vec<DrawingPanel>) -> String {
+    let highest = frames.iter().map(|frame| frame.height).fold(0.0, f64::max);
+    let height = CAPTION + highest + 0.5 * MARGIN;
+    let drawn: Vec<_> = frames.into_iter().map(frame).collect();
     PAGE.replace("{{title}}", &plain(title))
         .replace("{{width}}", &px(WIDTH))
         .replace("{{height}}", &px(height))
@@ -41,10 +41,10 @@ fn page(title: &str, frames: Frames) -> String {
         .replace("{{frames}}", &drawn.join("\n"))
 }
 
-fn frame(caption: &str, body: Vec<Element>) -> String {
-    let caption = label(caption, [MARGIN, 17.0], 14.0, Anchor::Start).with("fill", INK);
+fn frame(DrawingPanel { caption, inside, .. }: DrawingPanel) -> String {
+    let caption = label(&caption, [MARGIN, 17.0], 14.0, Anchor::Start).with("fill", INK);
     let body = Element::group("body")
         .with("transform", format!("translate(0 {CAPTION})"))
-        .containing(body);
+        .containing(inside);
     Element::group("frame").containing([caption, body]).to_text()
 }

@@ -34,12 +34,17 @@ fn exact(points: &[Spot]) -> String {
     data
 }
 
-/// Returns a halo and a dot at each contact, so that it is seen however small its overlap.
+/// Returns a halo and a dot at each contact, so that it is seen however small its overlap; where it slips the halo is a ring.
 pub(super) fn halos(view: &View, contacts: &[Contact], radius: f64) -> Element {
     let halo = |contact: &Contact| {
         let center = view.place(contact.point);
+        let halo = circle(center, radius);
         [
-            circle(center, radius).with("fill", RED).with("fill-opacity", "0.22"),
+            if contact.slips == Some(true) {
+                halo.with("fill", "none").with("stroke", RED)
+            } else {
+                halo.with("fill", RED).with("fill-opacity", "0.22")
+            },
             circle(center, 0.3 * radius).with("fill", RED),
         ]
     };

@@ -4,16 +4,17 @@ use contact::Pose;
 use geometry::{Corner, OutOfRange, Row, Vec2};
 use skin::Design;
 use skin::puncture::{RowSnapshot, ScaleState};
+use sweep::Case;
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
 use super::scale_bar::scale_bar;
 use super::surface;
 use super::view::View;
-use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
+use super::{DrawingPanel, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
-use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px};
+use crate::svg::{Element, Spot, arrow, circle, line, polygon, polyline, px, rect};
 
 /// The largest scale of a drawing: px for a length of `t`.
 const LARGEST: f64 = 130.0;
@@ -45,7 +46,19 @@ pub struct PunctureDrawing<'a> {
     pub states: &'a [RowSnapshot],
 }
 
-impl PunctureDrawing<'_> {
+impl<'a> PunctureDrawing<'a> {
+    /// The drawing of a design in these states.
+    pub fn of(name: &'a str, case: &'a Case, states: &'a [RowSnapshot]) -> Self {
+        Self {
+            name,
+            design: &case.design,
+            load_position: case.punctured().load_position,
+            guided: case.puncture.needle.is_guided(),
+            thickness_mm: case.material.thickness_mm,
+            states,
+        }
+    }
+
     /// Returns the drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
     ///
     /// # Errors
@@ -63,24 +76,27 @@ impl PunctureDrawing<'_> {
         format!("{}: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
+    pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
         let sheet = RowSheet::new(self)?;
+        // All frames are lifted alike, or the row would jump up and down.
         let free = self.states.iter().map(|state| sheet.free(state)).fold(AIR, f64::min);
-        Ok(Frames::new(self.states.iter().map(|state| sheet.state(state, free)).collect()))
+        Ok(self.states.iter().map(|state| sheet.state(state, free)).collect())
+    }
+
+    /// The load of a state over `E* t²`.
+    fn load(&self, state: &RowSnapshot) -> f64 {
+        state.force * self.design.length
     }
 }
 
 /// The scales, windows and units that all panels of a drawing share.
-struct RowSheet {
+struct RowSheet<'a> {
+    puncture: &'a PunctureDrawing<'a>,
     row: Row,
-    load_position: f64,
-    guided: bool,
-    coverage: f64,
     /// Numbers of the first and the last scale shown.
     first: i64,
     last: i64,
     view: View,
-    thickness_mm: Option<f64>,
     /// The height on paper of the bars of the reactions, px.
     bars: f64,
     height: f64,
@@ -88,11 +104,10 @@ struct RowSheet {
     force: f64,
     /// Largest and smallest reaction, over the load.
     reactions: (f64, f64),
-    length: f64,
 }
 
-impl RowSheet {
-    fn new(puncture: &PunctureDrawing) -> Result<Self, OutOfRange> {
+impl<'a> RowSheet<'a> {
+    fn new(puncture: &'a PunctureDrawing<'a>) -> Result<Self, OutOfRange> {
         let row = puncture.design.row()?;
         let states = puncture.states;
         let (first, last) = window(&row, states);
@@ -108,7 +123,7 @@ impl RowSheet {
         let middle = first as f64 * pitch - a + 0.5 * width;
         let view = View { scale, origin: [0.5 * WIDTH - scale * middle, AIR + scale] };
         let bars = AIR + scale + deepest + 18.0;
-        let load = |state: &RowSnapshot| state.force * puncture.design.length;
+        let load = |state: &RowSnapshot| puncture.load(state);
         let largest = states.iter().map(|s| contacts::largest(&s.contacts).max(load(s)));
         let reactions = states.iter().flat_map(|state| {
             let load = load(state);
@@ -117,19 +132,15 @@ impl RowSheet {
         let reactions =
             reactions.fold((0.0, 0.0), |(high, low): (f64, f64), r| (high.max(r), low.min(r)));
         Ok(Self {
+            puncture,
             row,
-            load_position: puncture.load_position,
-            guided: puncture.guided,
-            coverage: row.coverage(),
             first,
             last,
             view,
-            thickness_mm: puncture.thickness_mm,
             bars,
             height: bars + BARS + 18.0,
             force: LONGEST / largest.fold(f64::MIN_POSITIVE, f64::max),
             reactions,
-            length: puncture.design.length,
         })
     }
 
@@ -148,8 +159,8 @@ impl RowSheet {
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
-        inside.extend(scale_bar(&self.view, self.thickness_mm, within_substrate));
-        let caption = format!("at rest, coverage $λ$ = {:.3}", self.coverage);
+        inside.extend(scale_bar(&self.view, self.puncture.thickness_mm, within_substrate));
+        let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
     }
@@ -178,7 +189,7 @@ impl RowSheet {
             self.contacts(state),
             self.load(state),
             self.tilt(state),
-            self.reactions(&shown, state.force * self.length),
+            self.reactions(&shown, self.puncture.load(state)),
         ];
         let all: Vec<_> = state.scales.iter().map(|s| (s.scale, pose(s))).collect();
         let caption = self.caption(state) + &surface::folds_label(&self.row, &all);
@@ -186,7 +197,7 @@ impl RowSheet {
     }
 
     fn caption(&self, state: &RowSnapshot) -> String {
-        let load = state.force * self.length;
+        let load = self.puncture.load(state);
         let largest = contacts::largest(&state.contacts);
         let force = if largest > 0.0 && load > 0.0 {
             format!(", the largest force {} $F$", short(largest / load))
@@ -198,7 +209,7 @@ impl RowSheet {
             short(state.displacement),
             short(state.force),
             state.tilt_deg + 0.0,
-            contacts_label(state.contacts.len())
+            contacts_label(&state.contacts)
         )
     }
 
@@ -284,7 +295,8 @@ impl RowSheet {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
-        let (pose, at_rest) = (pose(punctured), left + self.load_position * (right - left));
+        let (pose, at_rest) =
+            (pose(punctured), left + self.puncture.load_position * (right - left));
         Some([at_rest, pose.displacement + pose.turn(at_rest)])
     }
 
@@ -293,8 +305,8 @@ impl RowSheet {
         let [at_rest, follows] = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
         let tip = at_rest + Vec2::new(0.0, -state.displacement);
-        let to = self.place(if self.guided { tip } else { follows }.into());
-        let length = (self.force * state.force * self.length).max(9.0);
+        let to = self.place(if self.puncture.guided { tip } else { follows }.into());
+        let length = (self.force * state.force * self.puncture.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
@@ -305,7 +317,7 @@ impl RowSheet {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        let ring = self.set_down(state).filter(|_| self.guided).map(|[_, follows]| {
+        let ring = self.set_down(state).filter(|_| self.puncture.guided).map(|[_, follows]| {
             let ring = circle(self.place(follows.into()), 3.5);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
@@ -340,11 +352,7 @@ impl RowSheet {
         let bar = |state: &&ScaleState| {
             let x = self.place([state.scale as f64 * self.row.pitch(), 0.0])[0];
             let height = if load > 0.0 { unit * state.reaction / load } else { 0.0 };
-            Element::new("rect")
-                .at("x", x - 0.5 * width)
-                .at("y", zero - height.max(0.0))
-                .at("width", width)
-                .at("height", height.abs())
+            rect([x - 0.5 * width, zero - height.max(0.0)], [width, height.abs()])
         };
         let bars = Element::group("bars").with("fill", "#4a7a52").containing(shown.iter().map(bar));
         let tick = |value: f64| {

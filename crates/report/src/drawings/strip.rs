@@ -10,10 +10,10 @@ use super::contacts::{self, LONGEST};
 use super::row::short;
 use super::scale_bar::scale_bar;
 use super::view::{Extent, View};
-use super::{DrawingPanel, Frames, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
+use super::{DrawingPanel, MARGIN, WIDTH, contacts_label, geometry_label, stacked};
 use crate::colors::{FAINT, INK};
 use crate::label::{Anchor, label};
-use crate::svg::{Element, Spot, arrow, polygon, polyline};
+use crate::svg::{Element, Spot, arrow, polygon, polyline, rect};
 
 /// Width of the part that shows one gap enlarged, px.
 const ENLARGED: f64 = 290.0;
@@ -45,18 +45,16 @@ impl FlexureDrawing<'_> {
     /// # Errors
     /// If the design is invalid.
     pub fn svg(&self) -> Result<String, OutOfRange> {
-        let row = self.design.row()?;
-        let panels = self.states.iter().map(|state| self.panel(&row, state)).collect();
-        Ok(stacked(&self.title(), panels))
+        Ok(stacked(&self.title(), self.frames()?))
     }
 
     pub(super) fn title(&self) -> String {
         format!("{}, bending: {}", self.name, geometry_label(self.design))
     }
 
-    pub(super) fn frames(&self) -> Result<Frames, OutOfRange> {
+    pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
         let row = self.design.row()?;
-        Ok(Frames::new(self.states.iter().map(|state| self.panel(&row, state)).collect()))
+        Ok(self.states.iter().map(|state| self.panel(&row, state)).collect())
     }
 
     fn panel(&self, row: &Row, state: &StripSnapshot) -> DrawingPanel {
@@ -143,11 +141,7 @@ impl Enlarged {
 
 /// Returns the border and the name of an enlarged gap whose upper left corner is `frame`.
 fn enlargement(frame: Spot, height: f64) -> [Element; 2] {
-    let border = Element::new("rect")
-        .at("x", frame[0])
-        .at("y", frame[1])
-        .at("width", ENLARGED)
-        .at("height", height)
+    let border = rect(frame, [ENLARGED, height])
         .at("rx", 4.0)
         .with("fill", "#fbfbfb")
         .with("stroke", "#bdbdbd");
@@ -167,7 +161,7 @@ fn caption(state: &StripSnapshot) -> String {
         short(state.curvature),
         short(state.moment),
         format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
-        contacts_label(state.contacts.len())
+        contacts_label(&state.contacts)
     )
 }
 

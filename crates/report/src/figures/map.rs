@@ -10,7 +10,7 @@ use crate::chart::{Area, NAME};
 use crate::colors::{FAINT, INK, RED, map_color};
 use crate::designs::{AxisValues, Designs};
 use crate::label::{Anchor, label, upright};
-use crate::svg::{Element, line};
+use crate::svg::{Element, line, rect};
 
 const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 74.0;
@@ -233,11 +233,7 @@ impl MapSubject<'_> {
         let (left, width) = (WIDTH - RIGHT + 22.0, 16.0);
         let step = height / f64::from(STEPS);
         let cells = (0..STEPS).map(|k| {
-            Element::new("rect")
-                .at("x", left)
-                .at("y", TOP + height - f64::from(k + 1) * step)
-                .at("width", width)
-                .at("height", step + 0.3)
+            rect([left, TOP + height - f64::from(k + 1) * step], [width, step + 0.3])
                 .with("fill", map_color((f64::from(k) + 0.5) / f64::from(STEPS)))
         });
         let ticks = self.scale.ticks(6).into_iter().filter_map(|tick| {
@@ -299,11 +295,7 @@ impl Map<'_> {
                 [self.area.left + i as f64 * width, self.area.bottom() - (j + 1) as f64 * height];
             // A hair wider than its place, so that no seam shows.
             map.add(
-                Element::new("rect")
-                    .at("x", left)
-                    .at("y", top)
-                    .at("width", width + 0.3)
-                    .at("height", height + 0.3)
+                rect([left, top], [width + 0.3, height + 0.3])
                     .with("fill", color)
                     .with("data-design", self.designs.text("design", row)),
             );

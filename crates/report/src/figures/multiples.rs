@@ -52,7 +52,7 @@ pub(crate) fn figure(
         let title = with_value(&(across, &value.to_string()));
         let (x_labels, y_labels) = (k + columns >= values.len(), k % columns == 0);
         let area = area(k, columns);
-        let panel = ChartPanel { area, x: &x, y: &y, title, x_labels, y_labels };
+        let panel = ChartPanel { title, x_labels, y_labels, ..ChartPanel::new(area, &x, &y) };
         inside.push(panel.frame());
         let is_here = |row: &usize| designs.number(across, *row) == Some(value);
         let rows: Vec<usize> = (0..designs.count()).filter(is_here).collect();

@@ -48,9 +48,8 @@ pub(crate) fn figure(
             width: PANEL[0],
             height: PANEL[1],
         };
-        let (x, y, title) = (&axes[i], &axes[j], String::new());
-        let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
-        inside.extend([panel.frame(), panel.x_name(), panel.y_name(48.0)]);
+        let panel = ChartPanel::new(area, &axes[i], &axes[j]);
+        inside.extend(panel.axes(48.0));
         let point = |(row, worth): &(usize, [f64; 4])| {
             let criteria = [worth[i], worth[j]];
             Some(Point { row: *row, criteria, spot: panel.place(criteria[0], criteria[1])? })

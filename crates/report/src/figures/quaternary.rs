@@ -8,7 +8,7 @@ use super::{in_words, of_perfect, sheet};
 use crate::colors::{FAINT, INK, RED, shaded};
 use crate::designs::Designs;
 use crate::label::{Anchor, label};
-use crate::svg::{Element, Spot, circle, line, polygon};
+use crate::svg::{Element, Spot, circle, line, polygon, rect};
 
 const WIDTH: f64 = 1000.0;
 const HEIGHT: f64 = 640.0;
@@ -104,13 +104,8 @@ fn entry(designs: &Designs, region: &Region, color: &str, letter: &str, [x, y]: 
     let share = format!("best for {:.1} % of the weights", 100.0 * region.share);
     let doubt = designs.folded(region.row).then(|| "surface folds".to_owned());
     let share = [share].into_iter().chain(doubt).collect::<Vec<_>>().join(",  ");
-    let rect = Element::new("rect")
-        .at("x", x + 14.0)
-        .at("y", y - 9.0)
-        .at("width", 12.0)
-        .at("height", 18.0)
-        .with("fill", color);
-    let mut swatch = Element::group("swatch").containing([rect]);
+    let swatch = rect([x + 14.0, y - 9.0], [12.0, 18.0]).with("fill", color);
+    let mut swatch = Element::group("swatch").containing([swatch]);
     if designs.folded(region.row) {
         swatch.add(line([x + 12.0, y + 11.0], [x + 28.0, y - 11.0], RED, 1.6));
     }

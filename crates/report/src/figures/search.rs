@@ -48,8 +48,7 @@ impl SearchFigure<'_> {
             ChartAxis::fit(&in_words(self.axes[k]), all)
         };
         let (x, y) = (axis(0), axis(1));
-        let title = String::new();
-        let panel = ChartPanel { area: AREA, x: &x, y: &y, title, x_labels: true, y_labels: true };
+        let panel = ChartPanel::new(AREA, &x, &y);
         let dots = |met: bool| {
             let designs = self.designs.iter().filter(move |design| design.met == met);
             let [x, y] = [0, 1].map(|k| move |place: [f64; 2]| place[k]);
@@ -68,16 +67,9 @@ impl SearchFigure<'_> {
             self.legend
         );
         let legend = label(&text, [AREA.left, 52.0], 12.0, Anchor::Start).with("fill", INK);
-        let inside = vec![
-            legend,
-            panel.frame(),
-            panel.x_name(),
-            panel.y_name(54.0),
-            dots(false),
-            dots(true),
-            line,
-            Element::group("best").containing(ends),
-        ];
+        let mut inside = vec![legend];
+        inside.extend(panel.axes(54.0));
+        inside.extend([dots(false), dots(true), line, Element::group("best").containing(ends)]);
         sheet(WIDTH, HEIGHT, self.title, inside)
     }
 }

@@ -31,8 +31,8 @@ pub(crate) fn figure(name: &str, designs: &Designs) -> String {
         let left = 78.0 + k as f64 * (width + 78.0);
         let area = Area { left, top: 92.0, width, height: HEIGHT - 92.0 - 60.0 };
         let title = title.to_owned();
-        let panel = ChartPanel { area, x: &x, y: &y, title, x_labels: true, y_labels: true };
-        inside.extend([panel.frame(), panel.x_name(), panel.y_name(52.0)]);
+        let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
+        inside.extend(panel.axes(52.0));
         inside.extend(thinned(designs.count(), STIFFNESSES.len()).filter_map(|row| {
             let [force, stiffness] = [&force, &stiffness].map(|name| designs.number(name, row));
             design_mark(

@@ -77,15 +77,14 @@ fn panel(page: &Page, kind: &Kind, labels: [&str; 2], is_log: bool, area: Area) 
     for (name, ticks) in [("x", &across), ("y", &up)] {
         for &high in ticks {
             let (x, y) = (&axis(0, high), &own(high));
-            let title = String::new();
-            let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+            let panel = ChartPanel::new(area, x, y);
             let ticks = if name == "x" { panel.x_ticks() } else { panel.y_ticks() };
             let rung = Element::group("rung").with("data-axis", name);
             drawn.push(rung.with("data-high", high.to_string()).containing(ticks));
         }
     }
     let (x, y) = (&axis(0, 1.0), &own(1.0));
-    let panel = ChartPanel { area, x, y, title: String::new(), x_labels: true, y_labels: true };
+    let panel = ChartPanel::new(area, x, y);
     drawn.extend([panel.border(), panel.x_name(), panel.y_name(56.0)]);
     let curve = |design: &PageDesign| {
         let [width, height] = if is_log { [size(design)[0], 1.0] } else { size(design) };

@@ -84,8 +84,8 @@ impl PageFront {
             let values = grid.numbers(column).chain(self.designs.numbers(column));
             ChartAxis::fit(&axis_label(column), values)
         };
-        let (x, y, title) = (&axis(pair[0]), &axis(pair[1]), String::new());
-        let panel = ChartPanel { area, x, y, title, x_labels: true, y_labels: true };
+        let (x, y) = (&axis(pair[0]), &axis(pair[1]));
+        let panel = ChartPanel::new(area, x, y);
         let spot = |designs: &Designs, row: usize| {
             let [x, y] = pair.map(|column| designs.number(column, row));
             panel.place(x?, y?)

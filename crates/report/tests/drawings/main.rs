@@ -45,6 +45,24 @@ fn drawn(design: &Design, states: &[RowSnapshot], guided: bool) -> String {
     drawing.svg().expect("a drawing")
 }
 
+/// Where scales rub, contacts that slip have rings, and the others discs; the caption counts them.
+#[test]
+fn contacts_that_slip_have_rings() {
+    let design = design(60.0);
+    let springs: Springs =
+        substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
+    let common = Common { friction: 0.2, ..Common::default() };
+    let parameters = PunctureParameters::default();
+    let solved = snapshots(&design, &springs, &common, &parameters, &[At::Tilt(10.0)]);
+    let state = solved.expect("a design").at.remove(0).expect("reached");
+    let slip = state.contacts.iter().filter(|contact| contact.slips == Some(true)).count();
+    let stick = state.contacts.iter().filter(|contact| contact.slips == Some(false)).count();
+    assert!(slip > 0 && stick > 0 && slip + stick == state.contacts.len());
+    let drawn = svg(&design, std::slice::from_ref(&state));
+    assert_eq!(drawn.matches("fill-opacity=\"0.22\"").count(), stick);
+    assert!(drawn.contains(&format!("{} contacts, {slip} slip (rings)", slip + stick)));
+}
+
 /// A needle that is guided stands at one place in all panels, whatever the scale below it does, and a ring goes with the scale.
 #[test]
 fn a_guided_needle_stays_where_it_was_set_down() {

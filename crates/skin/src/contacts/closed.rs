@@ -18,6 +18,8 @@ pub struct Contact {
     pub force: [f64; 2],
     /// Approach `δ` of the scales, over `t`.
     pub approach: f64,
+    /// Whether it slips; `None` without friction.
+    pub slips: Option<bool>,
 }
 
 impl Contacts {
@@ -37,11 +39,12 @@ impl Contacts {
         };
         let [on_corners, on_flush] = self.forces_on_left(state, contact);
         let approach = self.approach(state, contact);
+        let slips = self.rub().then(|| Self::is_slipping(&state.mode, contact));
         [(own, on_corners), (flush, on_flush)].map(|(corner_edge, force)| {
             let corner_edge = corner_edge?;
             let point = self.corner(&state.z, contact, corner_edge).into();
             let left = Self::left(contact);
-            Some(Contact { left, corner_edge, point, force: force.into(), approach })
+            Some(Contact { left, corner_edge, point, force: force.into(), approach, slips })
         })
     }
 

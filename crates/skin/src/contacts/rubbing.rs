@@ -344,6 +344,11 @@ impl Contacts {
         if Self::is_guest(mode, contact) { Self::beside(contact) } else { contact }
     }
 
+    /// Whether a contact slips, or that which bears its friction.
+    pub(super) fn is_slipping(mode: &SkinMode, contact: usize) -> bool {
+        matches!(mode.rubs[Self::host_of(mode, contact)], Rub::Slip { .. })
+    }
+
     /// A contact that bears friction, and the one whose friction it bears besides its own.
     fn borne_by(mode: &SkinMode, host: usize) -> impl Iterator<Item = usize> {
         let guest = Some(Self::beside(host)).filter(|&other| Self::is_guest(mode, other));

@@ -1,5 +1,7 @@
 //! Tests of the assembled system: the balance of energy along a path.
 
+mod uneven;
+
 use contact::Law;
 use solver::{Path, Settings};
 

@@ -33,18 +33,19 @@ pub(crate) fn read(parameter: &'static Parameter, value: &Value) -> Result<Axis,
 pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Scalar>, Problem> {
     if items.is_empty() {
         let expected = format!("a list of at least one value, each {}", parameter.expected());
-        return Err(WrongValue::NotAccepted { found: "[]".to_owned(), expected }.into());
+        return Err(WrongValue::not_accepted("[]", expected).into());
     }
     let mut values = Vec::with_capacity(items.len());
     let mut seen = HashSet::with_capacity(items.len());
     for item in items {
         if let Value::List(_) = item {
-            let expected = "a value for each design, not a list".to_owned();
-            return Err(WrongValue::NotAccepted { found: item.to_string(), expected }.into());
+            return Err(
+                WrongValue::not_accepted(item, "a value for each design, not a list").into()
+            );
         }
         let value = parameter.read(item)?;
         if !seen.insert(value.key()) {
-            return Err(Problem::Twice { value: item.to_string() });
+            return Err(Problem::Twice(item.to_string()));
         }
         values.push(value);
     }

@@ -19,7 +19,7 @@ pub(crate) fn read(entry: &KeyValue) -> Result<Deviation, Problem> {
         return Err(unknown(entry));
     };
     let Value::Table(entries) = &entry.value else {
-        return Err(not_accepted(&entry.value, format!("deviations, {EXAMPLE}")));
+        return Err(WrongValue::not_accepted(&entry.value, format!("deviations, {EXAMPLE}")).into());
     };
     if let Some(other) = entries.iter().find(|entry| !KEYS.contains(&entry.key.as_str())) {
         return Err(wrong(entry, format!("unknown key {}, expected {EXAMPLE}", other.key)));
@@ -52,16 +52,12 @@ fn number(entries: &KeyValues, key: &str) -> Result<Option<f64>, Problem> {
         Value::Number(text) => text.parse().ok().filter(|x: &f64| *x > 0.0 && x.is_finite()),
         _ => None,
     };
-    let expected = || not_accepted(&entry.value, format!("a number above 0 for {key}"));
-    number.map(Some).ok_or_else(expected)
+    let expected = format!("a number above 0 for {key}");
+    number.map(Some).ok_or_else(|| WrongValue::not_accepted(&entry.value, expected).into())
 }
 
 fn wrong(entry: &KeyValue, problem: String) -> Problem {
     Problem::Range { range: entry.value.to_string(), problem }
-}
-
-fn not_accepted(value: &Value, expected: String) -> Problem {
-    WrongValue::NotAccepted { found: value.to_string(), expected }.into()
 }
 
 fn unknown(entry: &KeyValue) -> Problem {

@@ -36,12 +36,13 @@ pub enum InvalidDefinition {
 
 impl InvalidDefinition {
     /// Nothing if there are no `errors`; a single one stays as it is.
-    pub(crate) fn of(mut errors: Vec<Self>) -> Result<(), Self> {
-        match errors.len() {
-            0 => Ok(()),
-            1 => Err(errors.swap_remove(0)),
-            _ => Err(Self::Several(errors)),
-        }
+    pub(crate) fn of(errors: Vec<Self>) -> Result<(), Self> {
+        if errors.is_empty() { Ok(()) } else { Err(Self::several(errors)) }
+    }
+
+    /// Errors as one, of which there is at least one.
+    pub fn several(mut errors: Vec<Self>) -> Self {
+        if errors.len() == 1 { errors.swap_remove(0) } else { Self::Several(errors) }
     }
 }
 
@@ -61,11 +62,8 @@ pub enum Problem {
         hint: String,
     },
     /// A required key is missing.
-    #[error("missing, expected {expected}")]
-    Missing {
-        /// The values that would be right.
-        expected: &'static str,
-    },
+    #[error("missing, expected {0}")]
+    Missing(&'static str),
     /// The value of a parameter.
     #[error(transparent)]
     Value(#[from] WrongValue),
@@ -78,11 +76,8 @@ pub enum Problem {
         problem: String,
     },
     /// A value stands in a list twice.
-    #[error("{value} is in the list twice")]
-    Twice {
-        /// The value.
-        value: String,
-    },
+    #[error("{0} is in the list twice")]
+    Twice(String),
     /// A parameter is set in its section and in the grid.
     #[error("{value} conflicts with {other} at {place}; keep one of the two")]
     Contradiction {
@@ -126,11 +121,8 @@ pub enum Problem {
         expected: String,
     },
     /// A deviation in a unit that only another key gives.
-    #[error("needs {other} to be set")]
-    Needs {
-        /// The other key.
-        other: String,
-    },
+    #[error("needs {0} to be set")]
+    Needs(String),
     /// Steps that no path can follow.
     #[error("{value} must be at most {other}")]
     StepOrder {
@@ -144,12 +136,10 @@ pub enum Problem {
     TooManyDesigns(#[from] TooManyDesigns),
 }
 
-pub(crate) fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
-    InvalidDefinition::Refused {
-        place: place.clone(),
-        key: key.to_owned(),
-        problem: Box::new(problem.into()),
-    }
+/// A key refused, with the place where it is written.
+pub fn refuse(place: &Place, key: &str, problem: impl Into<Problem>) -> InvalidDefinition {
+    let (place, key) = (place.clone(), key.to_owned());
+    InvalidDefinition::Refused { place, key, problem: Box::new(problem.into()) }
 }
 
 /// The message of an error of the system, without its error number.

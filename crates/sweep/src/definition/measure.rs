@@ -59,22 +59,24 @@ impl Measure {
             Value::List(items) if !items.is_empty() => items.as_slice(),
             Value::Text(_) => std::slice::from_ref(value),
             _ => {
-                return Err(
-                    not_accepted(value, format!("a list of at least one of {}", names())).into()
-                );
+                return Err(WrongValue::not_accepted(
+                    value,
+                    format!("a list of at least one of {}", names()),
+                )
+                .into());
             }
         };
         let mut measures = Vec::new();
         for item in items {
             let measure = Self::read(item)?;
             if measures.contains(&measure) {
-                return Err(Problem::Twice { value: item.to_string() });
+                return Err(Problem::Twice(item.to_string()));
             }
             measures.push(measure);
         }
         if measures == [Self::Sensitivity] {
             let expected = "sensitivity together with a measure that has derivatives".to_owned();
-            return Err(not_accepted(value, expected).into());
+            return Err(WrongValue::not_accepted(value, expected).into());
         }
         measures.sort();
         Ok(measures)
@@ -82,22 +84,19 @@ impl Measure {
 
     fn read(value: &Value) -> Result<Self, WrongValue> {
         let Value::Text(text) = value else {
-            return Err(not_accepted(value, names()));
+            return Err(WrongValue::not_accepted(value, names()));
         };
         Self::named(text).ok_or_else(|| {
             match suggestion::nearest(text, &Self::ALL.map(Self::key)) {
-                Some(near) => not_accepted(value, format!("{}; did you mean {near}?", names())),
-                None => not_accepted(value, names()),
+                Some(near) => {
+                    WrongValue::not_accepted(value, format!("{}; did you mean {near}?", names()))
+                }
+                None => WrongValue::not_accepted(value, names()),
             }
         })
     }
 }
 
-fn not_accepted(value: &Value, expected: String) -> WrongValue {
-    WrongValue::NotAccepted { found: value.to_string(), expected }
-}
-
-/// The names of all measures, in words.
 fn names() -> String {
     any_of(&Measure::ALL.map(Measure::key))
 }

@@ -196,7 +196,7 @@ impl Reader {
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
             let needed = deviation.needs().find(|needed| !self.says(needed))?;
-            let problem = Problem::Needs { other: Parameter::named(needed)?.path() };
+            let problem = Problem::Needs(Parameter::named(needed)?.path());
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
             Some(refuse(place, &key, problem))
         })
@@ -246,9 +246,8 @@ impl Reader {
             }
             _ => return Ok(()),
         };
-        let wrong =
-            WrongValue::NotAccepted { found: friction.to_toml(), expected: expected.to_owned() };
-        Err(refuse(place, &parameter.path(), Problem::from(wrong)))
+        let wrong = WrongValue::not_accepted(friction.to_toml(), expected);
+        Err(refuse(place, &parameter.path(), wrong))
     }
 
     /// Every length in mm of scales whose thickness is not given.
@@ -257,7 +256,7 @@ impl Reader {
         let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
         in_mm.map(|(key, _, place)| {
             let other = format!("material.{}", key::THICKNESS);
-            refuse(place, &key, Problem::Needs { other })
+            refuse(place, &key, Problem::Needs(other))
         })
     }
 
@@ -270,7 +269,7 @@ impl Reader {
         let mut needed = Parameter::ratios().filter(|(ratio, _)| matters(ratio));
         match needed.find(|(_, below)| !self.says(below)) {
             Some((_, below)) => {
-                Err(refuse(place, &key, Problem::Needs { other: format!("material.{below}") }))
+                Err(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
             }
             None => Ok(()),
         }
@@ -374,16 +373,15 @@ fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
     match &section.value {
         Value::Table(entries) => Ok(entries),
         other => {
-            let (found, key) = (other.to_string(), &section.key);
-            let expected = format!("a section, e.g. [{key}]");
-            Err(refuse(&section.place, key, WrongValue::NotAccepted { found, expected }))
+            let expected = format!("a section, e.g. [{}]", section.key);
+            Err(refuse(&section.place, &section.key, WrongValue::not_accepted(other, expected)))
         }
     }
 }
 
 fn missing_name(file: &Place) -> InvalidDefinition {
     let expected = "the name of the sweep, e.g. name = \"paper\"";
-    refuse(file, "name", Problem::Missing { expected })
+    refuse(file, "name", Problem::Missing(expected))
 }
 
 /// Whether Windows keeps the name for a device, whatever follows its first dot.
@@ -412,11 +410,9 @@ fn name_of(value: &Value) -> Result<String, WrongValue> {
         {
             Ok(name.clone())
         }
-        value => Err(WrongValue::NotAccepted {
-            found: value.to_string(),
-            expected:
-                "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1"
-                    .to_owned(),
-        }),
+        value => Err(WrongValue::not_accepted(
+            value,
+            "a name for a folder on any system: letters, digits, - _ + . and spaces, a letter or digit first, and no device as con or lpt1",
+        )),
     }
 }

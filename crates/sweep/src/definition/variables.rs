@@ -51,6 +51,6 @@ fn one_of(values: Vec<Scalar>, written: &Value) -> Result<VariableValues, Proble
 }
 
 fn fixed(written: &Value) -> Problem {
-    let expected = "bounds or several values, e.g. { from = 0.1, to = 1 } or [0.5, 1]".to_owned();
-    WrongValue::NotAccepted { found: written.to_string(), expected }.into()
+    let expected = "bounds or several values, e.g. { from = 0.1, to = 1 } or [0.5, 1]";
+    WrongValue::not_accepted(written, expected).into()
 }

@@ -47,6 +47,8 @@ impl<'c> Model<'c> {
         let Some(gradient) = &piece.gradient else { return };
         let along =
             gradient.iter().zip(self.centre.iter().zip(place)).map(|(g, (x, y))| g * (x - y));
+        // Of a piece that is not convex the tangent may lie above what the centre has, and would rule out the centre
+        // itself.
         let value = (piece.value + along.sum::<f64>()).min(here);
         // A skin without a value is beyond its limits without end.
         if !(value.is_finite() && self.worst.is_finite()) {
@@ -65,6 +67,7 @@ impl<'c> Model<'c> {
         let costs = || self.cuts.iter().filter(|(cut, ..)| *cut == Cut::Cost);
         let size = |slope: &[f64]| slope.iter().map(|x| x.abs()).sum::<f64>();
         let scale = costs().map(|(_, slope, _)| size(slope)).fold(0.0, f64::max);
+        // Flat in all tangents: no step promises anything.
         if scale <= 0.0 {
             return None;
         }
@@ -82,6 +85,8 @@ impl<'c> Model<'c> {
         let mut rows = Vec::new();
         let mut right = Vec::new();
         for (cut, slope, limit) in &self.cuts {
+            // Tangents of the cost share one scale, or their order would change; a limit is the same whatever it is
+            // multiplied by.
             let size = match cut {
                 Cut::Cost => scale,
                 Cut::Limit => slope.iter().map(|x| x.abs()).sum(),
@@ -92,6 +97,7 @@ impl<'c> Model<'c> {
                 right.push(limit / size);
             }
         }
+        // The ends of the cube, in radii, where they are nearer than the border of the ball.
         let end = |x: f64| [(-x / self.radius).max(-1.0), ((1.0 - x) / self.radius).min(1.0)];
         let ends: Vec<[f64; 2]> = self.centre.iter().map(|x| end(*x)).collect();
         let program = LinearProgram {

@@ -3,8 +3,8 @@
 use approx::assert_relative_eq;
 use geometry::{Parallelogram, UnevenRow};
 
-use super::problem::FlexureProblem;
-use super::{Flexure, FlexureParameters, MembraneMesh, Method};
+use super::super::problem::FlexureProblem;
+use super::super::{Flexure, FlexureParameters, MembraneMesh, Method};
 use crate::arrangement::Arrangement;
 use crate::{Base, Common, ContactChange, Design, Status};
 
