@@ -19,6 +19,7 @@ pub struct Pose {
 impl Pose {
     /// The pose with displacements `x`, `y` of the node and rotation `rotation`.
     pub fn new(x: f64, y: f64, rotation: f64) -> Self {
+        // Taken once for every vector that turns with the scale.
         let (sin, cos) = rotation.sin_cos();
         Self { displacement: Vec2::new(x, y), rotation, cos, sin }
     }

@@ -178,7 +178,7 @@ fn tables<'e>(entries: &'e KeyValues, name: &str) -> Result<Vec<CurveTable<'e>>,
     let keys = keys.collect::<Option<Vec<_>>>().filter(|keys| !keys.is_empty());
     let keys = keys.ok_or_else(|| {
         let expected = "at least one [[curve]] with a file and its kind";
-        refused(place, "curve", Problem::Missing { expected })
+        refused(place, "curve", Problem::Missing(expected))
     })?;
     Ok(keys.into_iter().map(CurveTable).collect())
 }
@@ -197,7 +197,7 @@ impl CurveTable<'_> {
         let name = format!("curve.{key}");
         match self.entry(key) {
             Some(entry) => not_accepted(&entry.place, &name, &entry.value, expected),
-            None => refused(&self.0[0].place, &name, Problem::Missing { expected }),
+            None => refused(&self.0[0].place, &name, Problem::Missing(expected)),
         }
     }
 

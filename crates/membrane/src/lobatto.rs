@@ -52,6 +52,7 @@ impl Lobatto {
             if i == j { 0.0 } else { 2.0 * legendre[i] / (legendre[j] * (x[i] - x[j])) }
         });
         for i in 0..=n {
+            // Minus the rest, so that a constant has no slope whatever the rounding of the others.
             derivative[(i, i)] = -derivative.row(i).sum();
         }
         let mut stiffness = derivative.transpose() * DMatrix::from_diagonal(&weights) * &derivative;

@@ -49,6 +49,7 @@ pub(crate) fn answer(
     let mut targets: Vec<Target> = Vec::new();
     for objective in 0..search.judge.objectives() {
         let target = Target { objective, floors: Vec::new() };
+        // Many a little, some more, few to the end: a few steps tell which regions are worth the rest.
         let first = starts(search, history, &target, plan.regions);
         search.meter.begin(SearchPart::Climb, first.len() + plan.starts);
         history.extend(improved(search, &target, first, Effort::PROBE)?);
@@ -59,6 +60,7 @@ pub(crate) fn answer(
         history.extend(improved(search, &target, best, Effort::WHOLE)?);
         targets.push(target);
     }
+    // By any objective: without floors all targets ask for the same requirements.
     let is_feasible = |c: &Candidate| matches!(search.merit(c, &targets[0]), Merit::Met(_));
     if !history.iter().any(is_feasible) {
         return Ok(Answer::Infeasible(best(history.iter().map(|c| search.merit(c, &targets[0])))));
@@ -77,6 +79,7 @@ fn improved(
     starts: Vec<Candidate>,
     effort: Effort,
 ) -> Result<Vec<Candidate>, Halt> {
+    // Each knows only its own start, so that what is found does not depend on which ends first.
     let walks = starts.into_par_iter().map(|start| {
         let walk = search.improve(target, &start, effort);
         search.meter.step();

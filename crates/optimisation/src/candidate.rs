@@ -75,6 +75,7 @@ impl Merit {
     pub fn compare(self, other: Self) -> Ordering {
         match (self, other) {
             (Self::Met(a), Self::Met(b)) => a.total_cmp(&b),
+            // Turned: the smaller shortfall is the better.
             (Self::Short(a), Self::Short(b)) => b.total_cmp(&a),
             (a, b) => a.class().cmp(&b.class()),
         }

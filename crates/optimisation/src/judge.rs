@@ -138,6 +138,7 @@ impl Judge {
             (_, samples) => self.worth(row, samples.unwrap_or(&no_samples)),
         };
         match worth {
+            // Only of a design that meets all else: one that falls short still tells a search the way, folded or not.
             Ok(worth) if worth.met && self.wants_sound() && has_folded(row) => Judgement::Folded,
             Ok(worth) => Judgement::Judged(worth),
             Err(column) => Judgement::Missing(column),
@@ -152,6 +153,7 @@ impl Judge {
             return Judgement::Missing(bounds.all[missing].column.name().to_owned());
         }
         let margin = bounds.margin(values.iter().copied());
+        // As of a design with samples: whoever falls short otherwise is told by how much.
         if margin >= 0.0 && self.wants_sound() && has_folded(row) {
             return Judgement::Folded;
         }

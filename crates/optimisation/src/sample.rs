@@ -52,6 +52,7 @@ impl UsedStatistic {
             Statistic::Quantile { share, .. } => Some(share.min(1.0 - share)),
             Statistic::Yield => None,
         };
+        // By the quantile farthest out: who counts on the worst 5 % wants their surfaces open, too.
         let least = others.iter().filter_map(share).reduce(f64::min)?;
         let (ending, share) = QUANTILES.into_iter().find(|(_, share)| *share >= least - 1e-9)?;
         let statistic = Statistic::Quantile { column: column.to_owned(), share };
@@ -87,6 +88,7 @@ impl SampleJudge {
     /// The number that a sample is put in order by for statistic `q`: its value, or its margin.
     fn key(&self, q: usize, values: &[Option<f64>]) -> f64 {
         let used = &self.statistics[q];
+        // A sample without a value stands where it harms most: it may not make a quantile better than it is.
         let worst = if used.large { f64::NEG_INFINITY } else { f64::INFINITY };
         let value = || values[self.bounds.all.len() + q].unwrap_or(worst);
         if used.is_yield() { self.margin(values) } else { value() }
@@ -121,6 +123,7 @@ impl SampleJudge {
         }
         let sorted: Vec<f64> = self.sorted(q, samples).into_iter().map(|(key, _)| key).collect();
         let met = met(&sorted);
+        // Less than a step in both cases, so that a yield of one sample more is always the better.
         let part = match (sorted.len() - met).checked_sub(1) {
             Some(next) => 1.0 / (1.0 - sorted[next]),
             None => 1.0 - 1.0 / (1.0 + sorted[0]),

@@ -85,7 +85,9 @@ pub fn optimise(
         count: options.threads,
         reason: error.to_string(),
     })?;
+    // In a pool of its own: as many threads as were asked for, whatever the rest of the process uses.
     let found = pool.install(|| find(goal, &evaluations, options.meter));
+    // Also of a search that was asked to stop: what it has solved is what the next one goes on from.
     evaluations.sync()?;
     match found {
         Ok(found) => {
@@ -105,6 +107,7 @@ fn find(
 ) -> Result<Found, Halt> {
     meter.expect(expected(goal));
     let points = fill::points(&goal.space, goal.samples, goal.seed);
+    // Solved before there is a judge: the fitness is rescaled over these.
     let rows = sample_rows(evaluations, &points, meter)?;
     let rescaled = ends(goal, rows);
     let judges =

@@ -56,6 +56,7 @@ impl Slopes {
     /// The one slope; `None` at a kink.
     pub fn smooth(self) -> Option<f64> {
         let (left, right) = (self.left.or(self.right)?, self.right.or(self.left)?);
+        // Both sides come from differences of their own, and agree to their rounding alone where there is no kink.
         let size = left.abs().max(right.abs());
         ((left - right).abs() <= 1e-6 * size).then_some(left)
     }

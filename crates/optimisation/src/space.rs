@@ -43,6 +43,7 @@ impl Interval {
     /// The value at a share of the interval; exactly its ends at 0 and 1.
     pub fn value(&self, share: f64) -> f64 {
         let value = self.from + share * (self.to - self.from);
+        // The sum may miss the end by its last digit, and tables would show it: 60 is meant, not 59.99999999999999.
         if share >= 1.0 { self.to } else { value.clamp(self.from, self.to) }
     }
 
@@ -55,6 +56,7 @@ impl Interval {
 impl SpacePoint {
     /// The largest difference to another point in any interval; infinite if their choices differ.
     pub(crate) fn distance(&self, other: &Self) -> f64 {
+        // Choices have no order, and so no distance: a search does not step from one to another.
         if self.chosen != other.chosen {
             return f64::INFINITY;
         }

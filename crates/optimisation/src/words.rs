@@ -146,6 +146,7 @@ fn verb(objective: &Criterion) -> &'static str {
 /// A power of ten that is a small change of a value of that size.
 fn step(size: f64) -> f64 {
     let size = if size == 0.0 { 1.0 } else { size.abs() };
+    // So small that a price, which is a derivative, holds for it.
     10_f64.powi(size.log10().floor() as i32 - 1)
 }
 
@@ -163,6 +164,7 @@ fn amount_of(value: f64, objective: &Criterion) -> String {
 
 /// A number to three digits.
 fn rounded(value: f64) -> String {
+    // Through decimal text: what is multiplied by powers of ten has digits of its own behind the third.
     format!("{value:.2e}").parse().map_or_else(|_| value.to_string(), number::text)
 }
 

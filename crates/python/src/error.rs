@@ -76,7 +76,7 @@ fn explained(problem: &Problem) -> (Option<String>, String) {
             WrongValue::OutOfRange { found, expected }
             | WrongValue::NotAccepted { found, expected },
         ) => (Some(found.clone()), expected.clone()),
-        Problem::Value(WrongValue::NoEffect { reason }) => (None, reason.clone()),
+        Problem::Value(WrongValue::NoEffect(reason)) => (None, reason.clone()),
         Problem::Unknown { value, hint } => (Some(value.clone()), hint.clone()),
         other => (None, other.to_string()),
     }

@@ -9,6 +9,7 @@ type Quadruple = [f64; 4];
 
 /// Marks which of `points`, each with `count` criteria, no other dominates.
 pub(crate) fn front_of(points: &[Criteria], count: usize) -> Vec<bool> {
+    // The sweep below has room for four coordinates.
     if count > 4 {
         return sifted(points);
     }
@@ -124,6 +125,7 @@ fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
         }
         candidate.beaten |= best.up_to(candidate.third) >= candidate.fourth;
     }
+    // Only what was raised is taken back: to clear the whole tree would cost as much as all points in every part.
     earlier[..above].iter().for_each(|candidate| best.clear(candidate.third));
 }
 

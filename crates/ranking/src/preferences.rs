@@ -41,17 +41,11 @@ pub enum InvalidPreferences {
     #[error(transparent)]
     Weights(#[from] InvalidWeights),
     /// There are no criteria, or too many.
-    #[error("{found} criteria, expected 1 to {MOST_CRITERIA}")]
-    Count {
-        /// The number of criteria.
-        found: usize,
-    },
+    #[error("{0} criteria, expected 1 to {MOST_CRITERIA}")]
+    Count(usize),
     /// A criterion stands there twice.
-    #[error("{column} is a criterion twice")]
-    Twice {
-        /// The column.
-        column: String,
-    },
+    #[error("{0} is a criterion twice")]
+    Twice(String),
     /// The file cannot be read, or is not as squama rank wrote it.
     #[error(transparent)]
     File(#[from] InvalidFolder),
@@ -93,13 +87,13 @@ impl Preferences {
     ) -> Result<Self, InvalidPreferences> {
         let found = criteria.len();
         if !(1..=MOST_CRITERIA).contains(&found) {
-            return Err(InvalidPreferences::Count { found });
+            return Err(InvalidPreferences::Count(found));
         }
         let is_twice = |(c, criterion): &(usize, &Criterion)| {
             criteria[..*c].iter().any(|other| other.column == criterion.column)
         };
         if let Some((_, twice)) = criteria.iter().enumerate().find(is_twice) {
-            return Err(InvalidPreferences::Twice { column: twice.column.clone().into_owned() });
+            return Err(InvalidPreferences::Twice(twice.column.clone().into_owned()));
         }
         let weights = weights.unwrap_or(Weights::equal(found));
         let found = weights.values().len();

@@ -27,17 +27,11 @@ const SUM_TOLERANCE: f64 = 1e-9;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum InvalidWeights {
     /// One of them is no number.
-    #[error("\"{found}\" is not accepted, expected a number of at least 0")]
-    NotANumber {
-        /// The text.
-        found: String,
-    },
+    #[error("\"{0}\" is not accepted, expected a number of at least 0")]
+    NotANumber(String),
     /// One of them is negative or not finite.
-    #[error("{} is out of range, expected a number of at least 0", number::text(*found))]
-    OutOfRange {
-        /// The weight.
-        found: f64,
-    },
+    #[error("{} is out of range, expected a number of at least 0", number::text(*.0))]
+    OutOfRange(f64),
     /// There are fewer or more than criteria.
     #[error("{found} weights, expected {}: {criteria}", criteria.split(", ").count())]
     Count {
@@ -47,11 +41,8 @@ pub enum InvalidWeights {
         criteria: String,
     },
     /// There are none, or more than criteria may be.
-    #[error("{found} weights, expected 1 to {MOST_CRITERIA}")]
-    Most {
-        /// The number of weights.
-        found: usize,
-    },
+    #[error("{0} weights, expected 1 to {MOST_CRITERIA}")]
+    Most(usize),
     /// All of them are 0.
     #[error("at least one weight must be positive")]
     Nothing,
@@ -89,11 +80,11 @@ impl Weights {
     pub fn new(weights: &[f64]) -> Result<Self, InvalidWeights> {
         let is_right = |weight: &f64| weight.is_finite() && *weight >= 0.0;
         if let Some(&found) = weights.iter().find(|weight| !is_right(weight)) {
-            return Err(InvalidWeights::OutOfRange { found });
+            return Err(InvalidWeights::OutOfRange(found));
         }
         let count = weights.len();
         if !(1..=MOST_CRITERIA).contains(&count) {
-            return Err(InvalidWeights::Most { found: count });
+            return Err(InvalidWeights::Most(count));
         }
         let sum = weights.iter().sum::<f64>();
         if sum <= 0.0 {
@@ -138,7 +129,7 @@ impl FromStr for Weights {
 
     fn from_str(text: &str) -> Result<Self, InvalidWeights> {
         let read = |part: &str| {
-            let error = || InvalidWeights::NotANumber { found: part.trim().to_owned() };
+            let error = || InvalidWeights::NotANumber(part.trim().to_owned());
             part.trim().parse::<f64>().map_err(|_| error())
         };
         let weights: Vec<f64> = text.split(',').map(read).collect::<Result<_, _>>()?;

@@ -37,6 +37,15 @@ pub struct Exported {
     pub tables: Vec<(String, u32)>,
 }
 
+/// A table that a search, a tolerance or a fit writes, with name, unit and meaning of its columns.
+#[derive(Clone, Debug)]
+pub struct OtherTable {
+    /// Its file.
+    pub file: &'static str,
+    /// Its columns.
+    pub columns: Vec<(String, &'static str, &'static str)>,
+}
+
 /// Tables that do not become a workbook.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
@@ -47,7 +56,7 @@ pub enum ExportError {
     #[error(transparent)]
     Preferences(#[from] InvalidPreferences),
     /// The folder has no table of designs.
-    #[error("{}: holds no designs.csv, expected the folder of a run", folder.display())]
+    #[error("{}: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit", folder.display())]
     NoDesigns {
         /// The folder.
         folder: PathBuf,
@@ -81,7 +90,7 @@ pub enum ExportError {
 }
 
 /// Writes every table in the folder `results` to the workbook `file`: a summary, a sheet for each table, with a chart where it
-/// is that of a measure, and one that explains the columns.
+/// is that of a measure, and one that explains the columns; of what is no run the `others` that are there, without a summary.
 ///
 /// Numbers are numbers, with the digits that a person needs shown and all of them held, and everything else is text; a
 /// design number is a number that shows its leading zeros. What failed is red, and the values that a table is about have a scale of colours.
@@ -89,17 +98,23 @@ pub enum ExportError {
 /// # Errors
 /// If there are no tables, one of them cannot be read or is longer than a sheet, or the disk does
 /// not take the workbook.
-pub fn export(results: &VerifiedFolder, file: &Path) -> Result<Exported, ExportError> {
+pub fn export(
+    results: &VerifiedFolder,
+    others: &[OtherTable],
+    file: &Path,
+) -> Result<Exported, ExportError> {
     let name = file.file_name().filter(|_| has_extension(file)).and_then(|name| name.to_str());
     let name = name.ok_or_else(|| ExportError::NoWorkbook { file: file.to_owned() })?;
-    if !results.holds(RunFolder::DESIGNS) {
+    let mut others = others.to_vec();
+    others.retain(|table| results.holds(table.file));
+    if !results.holds(RunFolder::DESIGNS) && others.is_empty() {
         return Err(ExportError::NoDesigns { folder: results.path().to_owned() });
     }
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
     let folder = &RunFolder::new(folder.unwrap_or(Path::new(".")));
     folder.make()?;
     // The writer of workbooks panics if the disk does not take the rows that it puts aside.
-    let written = catch_unwind(AssertUnwindSafe(|| write(results, folder, name)));
+    let written = catch_unwind(AssertUnwindSafe(|| write(results, &others, folder, name)));
     written.unwrap_or_else(|panic| Err(unwritable(folder, name, &said(&*panic))))
 }
 
@@ -109,6 +124,7 @@ fn has_extension(file: &Path) -> bool {
 
 fn write(
     results: &VerifiedFolder,
+    others: &[OtherTable],
     folder: &RunFolder,
     name: &str,
 ) -> Result<Exported, ExportError> {
@@ -122,7 +138,9 @@ fn write(
     workbook.set_tempdir(folder.path()).map_err(failed)?;
     let mut guide = Guide::new(&mut workbook).map_err(failed)?;
     let (mut tables, mut pages, mut best) = (Vec::new(), Vec::new(), BestValues::default());
-    for file in results.tables() {
+    let is_run = results.holds(RunFolder::DESIGNS);
+    let all = others.iter().map(|table| table.file.to_owned());
+    for file in results.tables().into_iter().chain(all) {
         let table = file.trim_end_matches(".csv").to_owned();
         let path = results.path().join(&file);
         let (profiles, values) = look_over((&path, results.file(&file)?))?;
@@ -130,15 +148,20 @@ fn write(
             best = values;
         }
         let sheet = Sheet::new(&mut workbook, &table, &profiles).map_err(failed)?;
-        let (page, rows) = copy((&path, results.file(&file)?), sheet, &mut guide, &failed)?;
+        let other = others.iter().find(|other| other.file == file);
+        let own = other.map_or(&[][..], |other| &other.columns);
+        let file = (path.as_path(), results.file(&file)?);
+        let (page, rows) = copy(file, sheet, (&mut guide, own), &failed)?;
         pages.push(page);
         tables.push((table, rows));
     }
     if let Some(held) = results.shortfall() {
         guide.note(&format!("made from {held}")).map_err(failed)?;
     }
-    let facts = SummaryFacts::read(results)?;
-    workbook.push_worksheet(summary(results, &best, &facts).map_err(failed)?);
+    if is_run {
+        let facts = SummaryFacts::read(results)?;
+        workbook.push_worksheet(summary(results, &best, &facts).map_err(failed)?);
+    }
     for page in pages {
         workbook.push_worksheet(page);
     }
@@ -181,7 +204,7 @@ struct TableProfile {
 fn copy(
     (path, file): (&Path, File),
     mut sheet: Sheet,
-    guide: &mut Guide,
+    (guide, own): (&mut Guide, &[(String, &'static str, &'static str)]),
     failed: &dyn Fn(XlsxError) -> ExportError,
 ) -> Result<(Worksheet, u32), ExportError> {
     let unreadable = |reason| ExportError::Unreadable { file: path.to_owned(), reason };
@@ -194,7 +217,7 @@ fn copy(
         }
         sheet.add(&row).map_err(failed)?;
     }
-    guide.explain(sheet.table(), &header).map_err(failed)?;
+    guide.explain(sheet.table(), own, &header).map_err(failed)?;
     let rows = sheet.rows();
     Ok((sheet.finish().map_err(failed)?, rows))
 }

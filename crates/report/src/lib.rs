@@ -63,7 +63,7 @@ pub use curves::{DesignCurves, MeasuredCurves, curves};
 pub use designs::Designs;
 pub use explore::Explorer;
 #[cfg(feature = "xlsx")]
-pub use export::{ExportError, Exported, export};
+pub use export::{ExportError, Exported, OtherTable, export};
 pub use facts::facts;
 pub use figures::{Figure, InvalidMap, MapRequest, SearchFigure, SearchedDesign, figures, map};
 pub use fits::{FitPanel, fit_figure};

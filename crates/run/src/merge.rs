@@ -145,7 +145,7 @@ fn open(folders: &[PathBuf], out: &RunFolder) -> Result<Vec<ShardResults>, Merge
     for folder in folders.iter().filter(|folder| !same(folder)).map(RunFolder::new) {
         // A shard that is still being solved would be merged short of its last designs, and nobody would notice.
         if store::in_use(&folder.journal()) {
-            return Err(JournalError::InUse { folder: folder.path().to_owned() }.into());
+            return Err(JournalError::InUse(folder.path().to_owned()).into());
         }
         let archive = Archive::open(&folder)?;
         // A copy that was cut short looks like a shard with less to do.

@@ -98,6 +98,7 @@ fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
     };
     let numbers =
         |design: &Design| [design.gap, design.length, design.slant_deg, base(design), design.width];
+    // A zero is added to each below: of −0 the bits differ, and the same design would have other samples.
     let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {
@@ -171,6 +172,7 @@ impl Sample {
         stream: Stream,
         last: &Parallelogram,
     ) -> Option<(Parallelogram, f64)> {
+        // Both before either is judged: a draw that is refused takes as many numbers as one that stands.
         let (for_gap, for_slant) = (normal(random), normal(random));
         let gap = self.gap(for_gap);
         let scale = self.slanted(for_slant)?;
@@ -183,6 +185,7 @@ impl Sample {
 
     /// (I1).
     fn gap(&self, z: f64) -> f64 {
+        // Lognormal: no gap is drawn below zero, and their mean is that of the design.
         let variance = self.imperfection.gap_cv.powi(2).ln_1p();
         self.design.gap * (variance.sqrt() * z - 0.5 * variance).exp()
     }
@@ -197,6 +200,7 @@ impl Sample {
 
     fn random(&self, stream: Stream) -> ChaCha8Rng {
         let mut random = ChaCha8Rng::from_seed(self.key);
+        // A stream for each side, so that a row that grows to one side keeps what was drawn for the other.
         random.set_stream(stream as u64);
         random
     }

@@ -354,6 +354,7 @@ impl<'a> Problem<'a> {
     fn whole(&self) -> Option<Layout> {
         match self.parameters.scales {
             RowLength::Scales(scales) => {
+                // Of an even number one more stands on the right.
                 let left = (scales - 1) / 2;
                 let (needle, pair) = (self.needle_unknowns(), pair_constraints(&self.law));
                 Some(Layout { left, right: scales - 1 - left, needle, pair })

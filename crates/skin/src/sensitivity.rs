@@ -115,6 +115,7 @@ pub(crate) fn derivatives<S: Skin>(
     settings: &Settings,
 ) -> Vec<Derivative> {
     let mut derivatives = Vec::new();
+    // One factorisation serves all that is measured at a place.
     for MeasuredPoint { place, quantities } in merged(spots) {
         let here = place.and_then(|place| Linearisation::new(system, place).ok());
         let Some(here) = here else { continue };

@@ -37,6 +37,8 @@ impl Bracket {
     pub fn narrow(&mut self, place: f64, value: f64) {
         let end = usize::from(value * self.ends[1].1 >= 0.0);
         self.ends[end] = (place, value);
+        // An end that stays is worth half as much to the next secant, or that would come nearer to it from one side
+        // only.
         if self.last.is_none_or(|last| last == end) {
             self.ends[1 - end].1 *= 0.5;
         }

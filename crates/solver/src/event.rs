@@ -58,6 +58,7 @@ impl<S: System> Path<S> {
         let rate = self.condition(from).of(&from.leaving);
         // Only the first one is aimed at: what happens behind it happens with another active set.
         let (constraint, along) = self.first_predicted()?;
+        // What lies beyond the step is for a later one, which predicts it from nearer.
         if along * rate > distance {
             return None;
         }
@@ -139,6 +140,8 @@ impl<S: System> Path<S> {
         let condition = self.condition(from);
         let distance = condition.of(&candidate.state.z) - condition.value;
         let span = distance / condition.of(&from.leaving);
+        // Of these alone the slope at the end is worked out: a guard that would still be positive there is not
+        // expected to dip.
         let falls =
             |c: &usize| self.guards[*c] > FLOOR && self.guards[*c] + self.slopes[*c] * span < 0.0;
         let falling: Vec<usize> = (0..after.len()).filter(falls).collect();

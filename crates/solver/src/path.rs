@@ -422,6 +422,7 @@ impl<S: System> Path<S> {
             Some(Event::Changed(changes)) => {
                 let is_positive = self.is_positive;
                 let resolved = self.resolve_event(&mut state, &arriving, changes);
+                // The step is tried again from where the path stands, with the orientation that it has there.
                 resolved.inspect_err(|_| self.is_positive = is_positive)?
             }
             _ => arriving.clone(),

@@ -9,11 +9,8 @@ use crate::header::FORMAT;
 #[derive(Debug, thiserror::Error)]
 pub enum JournalError {
     /// There are results already.
-    #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", folder.display())]
-    Exists {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: already holds results; use --resume to continue from them, or --fresh to discard them", .0.display())]
+    Exists(PathBuf),
     /// There are the results of another command.
     #[error("{}: holds the results of {what}; choose another folder with --out DIR", folder.display())]
     Holds {
@@ -31,23 +28,14 @@ pub enum JournalError {
         file: String,
     },
     /// There is none.
-    #[error("{}: holds no journal, expected the folder of a run", folder.display())]
-    Missing {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: holds no journal, expected the folder of a run", .0.display())]
+    Missing(PathBuf),
     /// Another process writes it.
-    #[error("{}: another squama is writing there; wait until it ends", folder.display())]
-    InUse {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: another squama is writing there; wait until it ends", .0.display())]
+    InUse(PathBuf),
     /// Something else stands in the place of the journal.
-    #[error("{}: is not a regular file, expected a journal that squama writes", path.display())]
-    NoFile {
-        /// The path of the journal.
-        path: PathBuf,
-    },
+    #[error("{}: is not a regular file, expected a journal that squama writes", .0.display())]
+    NoFile(PathBuf),
     /// A line was changed and sealed again.
     #[error("{}: design {design} is not what the tables beside it say, though its line is sealed: somebody has changed it; put back the journal as it was, or solve everything again with --fresh", path.display())]
     Edited {

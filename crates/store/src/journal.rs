@@ -67,7 +67,7 @@ impl<R: Records> Journal<R> {
         }
         match intact::<R>(path)? {
             Some((records, _)) if start == Start::New && !records.is_empty() => {
-                Err(JournalError::Exists { folder: folder(path) })
+                Err(JournalError::Exists(folder(path)))
             }
             Some((records, length)) if start == Start::Resume => {
                 records.header().require(&header, path, GO_ON)?;
@@ -86,7 +86,7 @@ impl<R: Records> Journal<R> {
     /// # Errors
     /// If there is none, or it is in use or damaged.
     pub fn resume(path: &Path) -> Result<Self, JournalError> {
-        let missing = || JournalError::Missing { folder: folder(path) };
+        let missing = || JournalError::Missing(folder(path));
         if !path.exists() {
             return Err(missing());
         }
@@ -199,7 +199,7 @@ pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
 fn lock(path: &Path) -> Result<File, JournalError> {
     // What a link points to is not ours to write.
     if path.is_symlink() {
-        return Err(JournalError::NoFile { path: path.to_owned() });
+        return Err(JournalError::NoFile(path.to_owned()));
     }
     require_file(path)?;
     let file = OpenOptions::new().read(true).append(true).create(true).open(path);
@@ -207,7 +207,7 @@ fn lock(path: &Path) -> Result<File, JournalError> {
     if locked(&file).map_err(|error| OutputError::file(path, &error))? {
         Ok(file)
     } else {
-        Err(JournalError::InUse { folder: folder(path) })
+        Err(JournalError::InUse(folder(path)))
     }
 }
 

@@ -109,7 +109,7 @@ fn unreadable(path: &Path, error: &io::Error) -> JournalError {
 /// Refuses a pipe, a device or a folder in place of a journal: opening one may never return.
 pub(crate) fn require_file(path: &Path) -> Result<(), JournalError> {
     match path.metadata() {
-        Ok(metadata) if !metadata.is_file() => Err(JournalError::NoFile { path: path.to_owned() }),
+        Ok(metadata) if !metadata.is_file() => Err(JournalError::NoFile(path.to_owned())),
         _ => Ok(()),
     }
 }

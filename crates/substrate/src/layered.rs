@@ -43,6 +43,7 @@ pub(crate) fn addition(
     }
     let neighbours = if coupling == Coupling::Full { NEIGHBOURS } else { 1 };
     let on = |n: usize| added(footprint, near, neighbours, n);
+    // Two meshes and no third: the step of the extrapolation itself stands for the error.
     let [coarse, fine] = [on(CELLS[0])?, on(CELLS[1])?];
     let best = extrapolation(CELLS, [&coarse.numbers, &fine.numbers]);
     let [x, y, turn] = fine.sizes;
@@ -75,6 +76,7 @@ pub(crate) fn slopes(
     let [gap, width, _, thickness] = footprint.numbers();
     let along = |number: usize, step: f64| {
         let at = |step: f64| addition(&footprint.moved(number, step), footprint, coupling);
+        // Of the second order, at two solutions a number: what a layer adds is smoother than what it is added to.
         Ok(at(step)? * (0.5 / step) + at(-step)? * (-0.5 / step))
     };
     Ok([

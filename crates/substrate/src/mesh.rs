@@ -102,6 +102,7 @@ impl Mesh {
         let facing = gap.min(free);
         let neighbour = |k: usize| {
             let before = (k - 1) as f64 * footprint.pitch_over_a();
+            // The last neighbour has nothing beyond it, and a free edge's layer.
             let outer = if k == neighbours { free } else { facing };
             GradedAxis::graded([1.0 + gap + before, 3.0 + gap + before], [facing, outer], n)
         };
@@ -149,7 +150,9 @@ impl Grading {
             let (value, slope) = self.mapped(angle);
             *(if value < target { &mut low } else { &mut high }) = angle;
             let step = angle - (value - target) / slope;
+            // A step out of the bracket is no better than its middle.
             let next = if step > low && step < high { step } else { f64::midpoint(low, high) };
+            // Relative to the nearer end, from which the place is measured: small cells there keep their digits.
             let settled = (next - angle).abs() <= 4.0 * f64::EPSILON * angle.min(PI - angle);
             angle = next;
             if settled {

@@ -78,6 +78,7 @@ impl RowStiffness {
     /// # Errors
     /// As [`Self::solve`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
+        // A layer adds to the half-space, so that the table serves both.
         let half_space = Self::on_half_space(footprint, coupling)?;
         if !footprint.is_on_layer() {
             return Ok(half_space);
@@ -86,6 +87,7 @@ impl RowStiffness {
             return Err(Unresolved { footprint: *footprint, cells: 0 });
         }
         let stiffer = layered::addition(footprint, footprint, coupling)?;
+        // Neither error knows the sign of the other: they add at worst.
         let error = half_space.error + stiffer.error;
         let mut row = Self { error, ..half_space + stiffer };
         if coupling == Coupling::Full {

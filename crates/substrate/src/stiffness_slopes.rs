@@ -28,6 +28,7 @@ impl StiffnessSlopes {
     /// As [`RowStiffness::of`].
     pub fn of(footprint: &Footprint, coupling: Coupling) -> Result<Self, Unresolved> {
         let stiffness = RowStiffness::of(footprint, coupling)?;
+        // Polynomials are differentiated as they are: differences of them would lose digits.
         let [by_gap, by_width, by_poisson_ratio] = match table::row(footprint, coupling) {
             Some(row) => [1, 2, 3].map(|k| RowStiffness::from_table(&row, k)),
             None => differences(footprint, coupling)?,

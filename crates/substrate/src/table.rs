@@ -98,6 +98,7 @@ impl Mul for Differentiated {
 /// neighbour (S9). `None` out of the range of the table.
 pub(crate) fn row(footprint: &Footprint, coupling: Coupling) -> Option<Vec<Differentiated>> {
     let mut reader = Reader::at(footprint)?;
+    // Each call takes the next polynomial of the file: the order of these lines is its format.
     let [ln_y, ln_turn, y_ratio, turn_ratio] = [(); 4].map(|()| reader.surface(NEAREST));
     let [ln_x, x_ratio] = [(); 2].map(|()| reader.solid(NEAREST));
     let alpha = [ln_x, ln_y, ln_turn].map(Differentiated::exp);

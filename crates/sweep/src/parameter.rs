@@ -48,7 +48,6 @@ impl PartialEq for Parameter {
 #[derive(Debug)]
 pub(crate) enum ParameterKind {
     Number {
-        noun: &'static str,
         range: Range,
         field: fn(&mut Case) -> &mut f64,
     },
@@ -63,13 +62,11 @@ pub(crate) enum ParameterKind {
     },
     /// A number whose sign tells the sense of a rotation: within bounds but for the sign.
     SignedNumber {
-        noun: &'static str,
         size: Range,
         field: fn(&mut Case) -> &mut f64,
     },
     /// A number that need not be given.
     OptionalNumber {
-        noun: &'static str,
         range: Range,
         field: fn(&mut Case) -> &mut Option<f64>,
     },
@@ -82,7 +79,6 @@ pub(crate) enum ParameterKind {
     },
     /// A number or a short list of them, ascending, or the word.
     Numbers {
-        noun: &'static str,
         range: Range,
         word: Option<&'static str>,
         get: fn(&Case) -> Scalar,
@@ -91,13 +87,13 @@ pub(crate) enum ParameterKind {
 }
 
 /// Bounds of a number.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Range {
     pub low: Bound,
     pub high: Bound,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Bound {
     Included(f64),
     Excluded(f64),
@@ -126,11 +122,8 @@ pub enum WrongValue {
         expected: String,
     },
     /// A key that changes nothing.
-    #[error("has no effect: {reason}")]
-    NoEffect {
-        /// Why not.
-        reason: String,
-    },
+    #[error("has no effect: {0}")]
+    NoEffect(String),
     /// Not what this key takes.
     #[error("{found} is not accepted, expected {expected}")]
     NotAccepted {
@@ -352,23 +345,34 @@ impl Parameter {
     /// The values that the parameter takes, in words.
     pub fn expected(&self) -> String {
         match &self.kind {
-            ParameterKind::Number { noun, range, .. }
-            | ParameterKind::OptionalNumber { noun, range, .. } => format!("{noun} {range}"),
-            ParameterKind::SignedNumber { noun, size, .. } => {
-                format!("{noun} {size}, or its negative")
+            ParameterKind::Number { range, .. } | ParameterKind::OptionalNumber { range, .. } => {
+                self.numbers(*range)
+            }
+            ParameterKind::SignedNumber { size, .. } => {
+                format!("{}, or its negative", self.numbers(*size))
             }
             ParameterKind::Count { range, .. } => format!("a whole number {range}"),
             ParameterKind::Word { words, .. } => any_of(words),
             ParameterKind::CountOrWord { range, word, .. } => {
                 format!("a whole number {range} or \"{word}\"")
             }
-            ParameterKind::Numbers { noun, range, word, .. } => {
+            ParameterKind::Numbers { range, word, .. } => {
                 let word = word.map(|word| format!(", or \"{word}\"")).unwrap_or_default();
-                format!(
-                    "{noun} {range}, or a list of up to {MOST_NUMBERS} in ascending order{word}"
-                )
+                let numbers = self.numbers(*range);
+                format!("{numbers}, or a list of up to {MOST_NUMBERS} in ascending order{word}")
             }
         }
+    }
+
+    /// Its numbers within bounds, in words.
+    fn numbers(&self, range: Range) -> String {
+        let noun = match self.unit {
+            "t" | "mm" => "a length",
+            "deg" => "an angle",
+            _ if range == list::FRACTION => "a fraction",
+            _ => "a number",
+        };
+        format!("{noun} {range}")
     }
 }
 
@@ -396,6 +400,11 @@ fn tidy(value: Scalar) -> Scalar {
 }
 
 impl Range {
+    /// Numbers from one to another, both included.
+    pub const fn closed(low: f64, high: f64) -> Self {
+        Self { low: Included(low), high: Included(high) }
+    }
+
     fn contains(&self, number: f64) -> bool {
         let above = match self.low {
             Included(low) => number >= low,

@@ -3,7 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use optimisation::{DesignGoal, FRONT, GOAL, HISTORY, OPTIMUM, history_columns, optimum_columns};
+use report::OtherTable;
+use results::{Column, VerifiedFolder};
+use tolerance::{INDEX_COLUMNS, SOURCE_COLUMNS, TOLERANCE_COLUMNS, YIELD_COLUMNS};
 
+use super::fit::{ESTIMATES, FILES, POINTS};
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, derived};
 use crate::print::{aligned, counted, print, shortfall};
@@ -13,12 +18,14 @@ use crate::print::{aligned, counted, print, shortfall};
 #[command(after_help = "\
 Examples:
   squama export results/paper --xlsx paper.xlsx
+  squama export results/glove/tolerance --xlsx tolerance.xlsx
 
-The workbook has a sheet for each table of the folder, and one that explains the columns. The same
+The workbook has a sheet for each table of the folder, and one that explains the columns. The folder may also be that of
+a search (squama optimise), a tolerance, a sensitivity or a fit. The same
 tables always give the same bytes. A sheet holds at most 1,048,575 rows.
 Exit code: 0 done, 2 bad input or a disk error.")]
 pub struct Arguments {
-    /// Results folder of a run, or its definition
+    /// Results folder of a run, a search or an analysis, or the definition of a run
     #[arg(value_name = "RESULTS")]
     pub results: PathBuf,
 
@@ -35,8 +42,14 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     // A disk that is full is told of in an error, and not by whatever panics over it.
     std::panic::set_hook(Box::new(|_| ()));
     require_folder_of("--xlsx", &arguments.xlsx)?;
-    let results = verified_folder(&arguments.results, arguments.partial.completeness())?;
-    let exported = report::export(&results, &arguments.xlsx)?;
+    let (path, completeness) = (&arguments.results, arguments.partial.completeness());
+    let is_other = OTHERS.iter().any(|table| path.join(table).is_file());
+    let results = if is_other {
+        VerifiedFolder::open(path, completeness)?
+    } else {
+        verified_folder(path, completeness)?
+    };
+    let exported = report::export(&results, &others(&results)?, &arguments.xlsx)?;
     let (folder, name) = (arguments.xlsx.parent(), arguments.xlsx.file_name());
     let name = name.unwrap_or_default().to_string_lossy();
     derived::note(&results, "workbook", folder.unwrap_or(Path::new("")), &[name])?;
@@ -45,4 +58,48 @@ pub fn export(arguments: &Arguments) -> anyhow::Result<u8> {
     let from = shortfall(&results);
     print(&format!("{}\n{from}{}", arguments.xlsx.display(), aligned(&rows)))?;
     Ok(DONE)
+}
+
+/// The tables of what is no run.
+const OTHERS: [&str; 9] = [
+    OPTIMUM,
+    FRONT,
+    HISTORY,
+    "tolerance.csv",
+    "tolerance_sources.csv",
+    "yield.csv",
+    "sobol.csv",
+    FILES[0],
+    FILES[1],
+];
+
+/// The same with their columns. Those of a search follow from its goal.
+fn others(results: &VerifiedFolder) -> anyhow::Result<Vec<OtherTable>> {
+    let [of_best, of_history] = if results.holds(GOAL) {
+        let name = results.path().join(GOAL).display().to_string();
+        let goal = DesignGoal::parse(&results.text(GOAL)?, &name, &[])?;
+        [explained(&optimum_columns(&goal)), explained(&history_columns(&goal))]
+    } else {
+        [Vec::new(), Vec::new()]
+    };
+    let columns = [
+        of_best.clone(),
+        of_best,
+        of_history,
+        explained(TOLERANCE_COLUMNS),
+        explained(SOURCE_COLUMNS),
+        explained(YIELD_COLUMNS),
+        explained(INDEX_COLUMNS),
+        explained(ESTIMATES),
+        explained(POINTS),
+    ];
+    Ok(OTHERS
+        .into_iter()
+        .zip(columns)
+        .map(|(file, columns)| OtherTable { file, columns })
+        .collect())
+}
+
+fn explained<R>(columns: &[Column<R>]) -> Vec<(String, &'static str, &'static str)> {
+    columns.iter().map(|column| (column.name.to_string(), column.unit, column.meaning)).collect()
 }

@@ -65,7 +65,7 @@ pub struct Arguments {
 }
 
 /// Files that it writes.
-const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
+pub(super) const FILES: [&str; 4] = ["fit.csv", "residuals.csv", "residuals.svg", "fitted.toml"];
 
 /// What is said when the first signal has come.
 const ENDING: &str = "ending after the skin in hand, without an answer";
@@ -126,7 +126,7 @@ fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
 const AS_SOUGHT: &str = "as unit says";
 
 /// The columns of `fit.csv`.
-static ESTIMATES: &[Column<Estimate>] = &[
+pub(super) static ESTIMATES: &[Column<Estimate>] = &[
     Column::new("sought", "-", "key of a parameter, or offset of a curve", |e| {
         e.unknown.name.clone().into()
     }),
@@ -141,12 +141,12 @@ static ESTIMATES: &[Column<Estimate>] = &[
 ];
 
 /// A row of `residuals.csv`: the file, and place, measured and fitted value.
-type Point = (String, [f64; 3]);
+pub(super) type Point = (String, [f64; 3]);
 
 const AS_CURVE: &str = "mm and N, 1/mm and N mm, or none, as the curve";
 
 /// The columns of `residuals.csv`.
-static POINTS: &[Column<Point>] = &[
+pub(super) static POINTS: &[Column<Point>] = &[
     Column::new("curve", "-", "file of the measured curve", |(file, _)| file.clone().into()),
     Column::new("x", AS_CURVE, "displacement or curvature", |(_, point)| point[0].into()),
     Column::new("measured", AS_CURVE, "measured force or moment", |(_, point)| point[1].into()),

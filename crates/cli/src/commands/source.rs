@@ -73,10 +73,19 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     if !record.is_file() && optimum.is_file() {
         return Ok(optimum);
     }
+    let holds = |table: &str| path.join(table).is_file();
+    let folder = path.display();
+    ensure!(
+        !holds("front.csv"),
+        "{folder}: holds a Pareto front and no single design; put a design of front.csv in [designs] of a definition"
+    );
+    ensure!(
+        !holds("tolerance.csv") && !holds("sobol.csv"),
+        "{folder}: holds an analysis of designs and none itself; give the definition or the results folder that it was made from"
+    );
     ensure!(
         record.is_file(),
-        "{}: holds no {}, expected a definition in TOML or a results folder",
-        path.display(),
+        "{folder}: holds no {}, expected a definition in TOML or a results folder",
         RunFolder::RUN_INFO
     );
     verify_record(&record)?;
@@ -118,6 +127,15 @@ fn refuse_folder_of_runs(path: &Path) -> anyhow::Result<()> {
         runs.filter_map(|run| Some(run.file_name()?.to_string_lossy().into_owned())).collect();
     names.sort();
     let folder = path.display();
+    ensure!(
+        !path.join("history.csv").is_file(),
+        "{folder}: holds a search; squama export takes it, and squama report RESULTS --front {folder} shows it beside the designs of a sweep; its own figures stand in it"
+    );
+    let is_analysis = ["tolerance.csv", "sobol.csv", "fit.csv"].map(|table| path.join(table));
+    ensure!(
+        !is_analysis.iter().any(|table| table.is_file()),
+        "{folder}: holds an analysis; squama export takes it, and its own figures stand in it"
+    );
     ensure!(names.is_empty(), "{folder} holds no run; the runs in it are {}", names.join(", "));
     Ok(())
 }

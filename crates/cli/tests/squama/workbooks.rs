@@ -21,9 +21,42 @@ fn a_run_becomes_a_workbook() {
 }
 
 #[test]
+fn searches_and_tolerances_become_workbooks_and_say_what_else_they_are_for() {
+    let place = Place::with(
+        "name = 'x'\nmeasures = 'coverage'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+         slant_deg = { from = 0, to = 60 }\n[designs]\nlength_over_t = 1\n[goal]\n\
+         maximize = ['coverage', 'gap_over_t']\nsamples = 16\npoints = 4\n",
+    );
+    place.prints("optimise x.toml --out front -q");
+    let text = place.prints("export front --xlsx f.xlsx");
+    assert!(text.contains("  front") && text.contains("  history"), "{text}");
+    let design = "name = 'y'\nmeasures = 'coverage'\ndesigns = { gap_over_t = 0.2, length_over_t = 1, slant_deg = 45 }\n\
+                  tolerance.gap_over_t = { batch_sd = 0.02 }\n";
+    std::fs::write(place.path("y.toml"), design).expect("writable");
+    place.prints("tolerance y.toml --samples 20 --out t -q");
+    insta::assert_snapshot!(place.prints("export t --xlsx t.xlsx"), @r"
+    t.xlsx
+      tolerance          1 row
+      tolerance_sources  1 row
+    ");
+    // Every column has its meaning, those of the tables alone, too.
+    for book in ["f.xlsx", "t.xlsx"] {
+        let mut book: calamine::Xlsx<_> =
+            calamine::open_workbook(place.path(book)).expect("a workbook");
+        let columns = calamine::Reader::worksheet_range(&mut book, "columns").expect("a sheet");
+        assert!(columns.height() > 5);
+        assert!(columns.cells().all(|(.., cell)| *cell != "no column of squama"));
+    }
+    insta::assert_snapshot!(place.refused("design front"), @"error: front: holds a Pareto front and no single design; put a design of front.csv in [designs] of a definition");
+    insta::assert_snapshot!(place.refused("make t --out x.stl"), @"error: t: holds an analysis of designs and none itself; give the definition or the results folder that it was made from");
+    insta::assert_snapshot!(place.refused("report front"), @"error: front: holds a search; squama export takes it, and squama report RESULTS --front front shows it beside the designs of a sweep; its own figures stand in it");
+    insta::assert_snapshot!(place.refused("plot t"), @"error: t: holds an analysis; squama export takes it, and its own figures stand in it");
+}
+
+#[test]
 fn a_folder_without_a_run_is_refused() {
     let place = Place::with(FEW);
-    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run");
+    insta::assert_snapshot!(place.refused("export . --xlsx x.xlsx"), @"error: .: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
     insta::assert_snapshot!(place.refused("export . --xlsx x.csv"), @"error: x.csv: a workbook needs a name that ends in .xlsx");
     assert_eq!(place.list("."), "x.toml");
 }

@@ -143,7 +143,7 @@ fn goal_section(
     }
     if goal.objectives.is_empty() && refused.is_empty() {
         let expected = "at least one objective, e.g. maximize = [\"critical_force\"]";
-        refused.push(refuse(file, "goal", Problem::Missing { expected }));
+        refused.push(refuse(file, "goal", Problem::Missing(expected)));
     }
     goal
 }
@@ -154,7 +154,7 @@ fn unsearchable(entries: &KeyValues, sweep: &Sweep, file: &Place) -> Vec<Invalid
     if sweep.variables().is_empty() {
         let expected =
             "a section of at least one variable, e.g. gap_over_t = { from = 0.1, to = 1 }";
-        return vec![refuse(file, "variables", Problem::Missing { expected })];
+        return vec![refuse(file, "variables", Problem::Missing(expected))];
     }
     let place = |section_name: &str, key: &str| {
         let entry = section(entries, section_name).iter().find(|entry| entry.key == key);

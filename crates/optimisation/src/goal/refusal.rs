@@ -15,5 +15,5 @@ pub(super) fn not_accepted(
 }
 
 pub(super) fn no_effect(place: &Place, key: &str, reason: &str) -> InvalidDefinition {
-    refuse(place, key, WrongValue::NoEffect { reason: reason.to_owned() })
+    refuse(place, key, WrongValue::NoEffect(reason.to_owned()))
 }

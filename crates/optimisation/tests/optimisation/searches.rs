@@ -29,6 +29,26 @@ pub(crate) fn goal(text: &str) -> DesignGoal {
         .expect("a goal")
 }
 
+/// A level of a standard is a requirement like any other, with the standard named beside it.
+#[test]
+fn a_goal_may_protect_to_a_level() {
+    let text = "name = 'x'\nmeasures = 'puncture'\n[variables]\ngap_over_t = { from = 0.1, to = 1 }\n\
+                [designs]\nlength_over_t = 1\nslant_deg = 45\n\
+                [material]\nthickness_mm = 1\nsubstrate_modulus_MPa = 1\n[goal]\nmaximize = 'gap_over_t'\n";
+    let read =
+        |level: &str| DesignGoal::parse(&format!("{text}protects = '{level}'"), "x.toml", &[]);
+    let goal = read("needle 2").expect("a goal");
+    let required: Vec<_> = goal.requirements.iter().map(ToString::to_string).collect();
+    assert_eq!(required, ["critical_force_N >= 4"]);
+    assert_eq!(goal.standards.iter().map(|standard| standard.name).collect::<Vec<_>>(), ["needle"]);
+    let wrong = read("needle 9").expect_err("no such level").to_string();
+    assert!(
+        wrong.starts_with("x.toml:13: goal.protects: ")
+            && wrong.contains("'needle 1' to 'needle 5'"),
+        "{wrong}"
+    );
+}
+
 fn found(goal: &DesignGoal) -> Found {
     let folder = tempfile::tempdir().expect("a folder");
     found_in(folder.path(), goal, 1, Start::New)

@@ -215,12 +215,19 @@ impl Guide {
         Ok(Self { page, row: 0 })
     }
 
-    /// Explains the columns of a table.
-    pub fn explain(&mut self, table: &str, header: &StringRecord) -> Result<(), XlsxError> {
+    /// Explains the columns of a table, some of which are its `own`.
+    pub fn explain(
+        &mut self,
+        table: &str,
+        own: &[(String, &'static str, &'static str)],
+        header: &StringRecord,
+    ) -> Result<(), XlsxError> {
         let unknown = Explanation { unit: "-", meaning: "no column of squama" };
         for name in header {
             self.row += 1;
-            let explained = Explanation::of(table, name).unwrap_or(unknown);
+            let own = own.iter().find(|column| column.0 == name);
+            let own = own.map(|&(_, unit, meaning)| Explanation { unit, meaning });
+            let explained = own.or_else(|| Explanation::of(table, name)).unwrap_or(unknown);
             for (place, text) in (0..).zip([table, name, explained.unit, explained.meaning]) {
                 self.page.write_string(self.row, place, text)?;
             }

@@ -41,7 +41,7 @@ fn opened(results: &Path) -> VerifiedFolder {
 
 fn exported(results: &Path) -> std::path::PathBuf {
     let file = results.join("x.xlsx");
-    report::export(&opened(results), &file).expect("a workbook");
+    report::export(&opened(results), &[], &file).expect("a workbook");
     file
 }
 
@@ -208,11 +208,11 @@ fn zip_text(workbook: &Path, name: &str) -> String {
 fn what_is_no_workbook_or_no_table_is_refused() {
     let place = tempfile::tempdir().expect("a folder");
     let refused = |name: &str| {
-        let error =
-            report::export(&opened(place.path()), &place.path().join(name)).expect_err("refused");
+        let error = report::export(&opened(place.path()), &[], &place.path().join(name))
+            .expect_err("refused");
         error.to_string().replace(&place.path().display().to_string(), "R")
     };
-    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run");
+    insta::assert_snapshot!(refused("x.xlsx"), @"R: holds no designs.csv, expected the folder of a run, a search, a tolerance or a fit");
     fs::write(place.path().join("designs.csv"), "design,coverage\r\n0001,1,2\r\n")
         .expect("writable");
     insta::assert_snapshot!(refused("x.xlsx"), @"R/designs.csv: cannot be read (line 2 has 3 cells, the first one 2), expected a table that squama writes");
@@ -232,7 +232,7 @@ fn a_table_longer_than_a_sheet_is_refused() {
     assert_eq!(sheet(&file, "designs").len(), 1_048_576);
     let before = fs::read(&file).expect("a workbook");
     fs::write(place.path().join("designs.csv"), longest + "1\r\n").expect("writable");
-    let error = report::export(&opened(place.path()), &file).expect_err("refused").to_string();
+    let error = report::export(&opened(place.path()), &[], &file).expect_err("refused").to_string();
     let error = error.replace(&place.path().display().to_string(), "R");
     insta::assert_snapshot!(error, @"R/designs.csv: has more than 1048575 rows, expected at most as many, because a sheet of Excel takes no more; export a smaller run, e.g. one with --sample 1048575");
     assert!(fs::read(&file).expect("a workbook") == before, "the old one stays");

@@ -43,6 +43,7 @@ impl<'f> Claim<'f> {
     pub fn take(folder: &'f RunFolder, maker: Maker) -> Result<Self, OutputError> {
         folder.make()?;
         let lock = lock_folder(folder.path())?;
+        // Asked under the lock, although a command may have asked before: somebody may have written since.
         Self::check(folder, maker)?;
         Self::release(folder, maker);
         let names = FileEntry::products(maker).map(|file| (file.name.to_owned(), String::new()));

@@ -37,11 +37,8 @@ pub struct VerifiedFolder {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum InvalidFolder {
     /// A journal, and nothing that says what its tables are.
-    #[error("{}: holds a journal but no contents.toml, which a run writes last; {} writes the tables of the designs that are solved", folder.display(), mend(folder))]
-    Unfinished {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: holds a journal but no contents.toml, which a run writes last; {} writes the tables of the designs that are solved", .0.display(), mend(.0))]
+    Unfinished(PathBuf),
     /// The statement of the contents was damaged.
     #[error("{}: was changed after squama wrote it ({problem}); {} writes it again", folder.join(RunFolder::CONTENTS).display(), mend(folder))]
     Contents {
@@ -67,11 +64,8 @@ pub enum InvalidFolder {
         file: String,
     },
     /// The record of a run was changed.
-    #[error("{}: was edited; copy it under another name to use it as a definition; {} writes it again", folder.join(RunFolder::RUN_INFO).display(), mend(folder))]
-    Record {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: was edited; copy it under another name to use it as a definition; {} writes it again", .0.join(RunFolder::RUN_INFO).display(), mend(.0))]
+    Record(PathBuf),
     /// A table of a ranking that did not come to its end, or of other tables.
     #[error("{}: {problem}; squama rank {} writes it again", folder.join(file).display(), shell_word(&folder.display().to_string()))]
     Ranking {
@@ -119,11 +113,8 @@ pub enum InvalidFolder {
         designs: u64,
     },
     /// The journal goes on beyond the tables.
-    #[error("{}: the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables", folder.display(), mend(folder))]
-    Behind {
-        /// The folder.
-        folder: PathBuf,
-    },
+    #[error("{}: the journal has more designs than the tables, because a run is going on or was ended before it wrote them; {} writes them, --partial uses the designs of the tables", .0.display(), mend(.0))]
+    Behind(PathBuf),
 }
 
 /// The command that writes tables and contents of a folder again, from its journal.
@@ -164,7 +155,7 @@ impl VerifiedFolder {
 
     /// The message if the journal goes on beyond the tables.
     pub fn behind(&self) -> Option<InvalidFolder> {
-        self.behind.then(|| InvalidFolder::Behind { folder: self.path().to_owned() })
+        self.behind.then(|| InvalidFolder::Behind(self.path().to_owned()))
     }
 
     /// The path of the folder.
@@ -324,7 +315,7 @@ pub fn verify_record(path: &Path) -> Result<(), InvalidFolder> {
     if found == expected {
         return Ok(());
     }
-    Err(InvalidFolder::Record { folder: folder.to_owned() })
+    Err(InvalidFolder::Record(folder.to_owned()))
 }
 
 /// The contents of `folder`; `None` if it holds tables alone.
@@ -337,7 +328,7 @@ fn read(folder: &RunFolder) -> Result<Option<Contents>, InvalidFolder> {
         },
         Err(error) if error.kind() == ErrorKind::NotFound => {
             let unfinished = folder.journal().exists();
-            if unfinished { Err(InvalidFolder::Unfinished { folder: path() }) } else { Ok(None) }
+            if unfinished { Err(InvalidFolder::Unfinished(path())) } else { Ok(None) }
         }
         Err(error) => Err(InvalidFolder::Contents { folder: path(), problem: reason(&error) }),
     }

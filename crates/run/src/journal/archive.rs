@@ -103,7 +103,7 @@ impl Archive {
     pub fn open(folder: &RunFolder) -> Result<Self, JournalError> {
         let path = folder.journal();
         // Also if the first line is torn: nothing was solved then.
-        let missing = || JournalError::Missing { folder: folder.path().to_owned() };
+        let missing = || JournalError::Missing(folder.path().to_owned());
         if !path.exists() {
             return Err(missing());
         }

@@ -126,6 +126,7 @@ impl<'a> FlexureProblem<'a> {
 
     /// The strip with this resolution.
     pub(crate) fn strip(&self, resolution: Resolution) -> Result<Strip, OutOfRange> {
+        // Gaps that are alike share one membrane.
         let unlike = match &self.row {
             Arrangement::Even(_) => 1,
             Arrangement::Uneven(_) => self.solved,

@@ -91,6 +91,7 @@ fn folds(
             (place, (fold, point))
         })
         .collect();
+    // Gaps were looked at one by one, and the path meets their folds in an order of its own.
     places.sort_by(|a, b| a.0.total_cmp(&b.0));
     places.into_iter().map(|(_, fold)| fold).collect()
 }
@@ -140,6 +141,7 @@ impl Crossing {
         let mut near = (0.0, from.clone());
         for _ in 0..EVALUATIONS {
             let place = bracket.secant();
+            // From the last equilibrium that was found, which is the nearest that is known.
             let Some(point) = path.between_from(from, to, place, &near.1) else { break };
             let stretch = path.system().gap_stretch(&point.state, self.pair);
             near = (place, point);

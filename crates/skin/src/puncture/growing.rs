@@ -58,6 +58,7 @@ impl<'a> GrowingPath<'a> {
     /// # Errors
     /// If the scales of a longer row cannot be made.
     pub(super) fn next(&mut self) -> Result<Option<Segment>, OutOfRange> {
+        // Before the step, where the last one came near an end: so few steps are taken twice.
         let reach = std::mem::replace(&mut self.reach, [Reach::Short; 2]);
         self.lengthen(&self.path.point_shared(), reach)?;
         while self.has_room {

@@ -92,6 +92,7 @@ impl SnapWatch {
         to: &SkinPoint,
         events_before: usize,
     ) {
+        // Until a snap has landed the needle is not on this part of the path, and meets no turn of it.
         if self.open_snap().is_none()
             && let Some(turned) = turning_point(path, from, to)
         {
@@ -167,6 +168,7 @@ fn turning_point(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Op
     };
     let leaving = rate(path, from, &from.leaving);
     let arriving = rate(path, to, &to.arriving);
+    // At a kink the depth falls from the point itself on: elsewhere the step before would have shown it.
     if leaving < 0.0 {
         return Some(from.clone());
     }

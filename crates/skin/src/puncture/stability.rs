@@ -49,6 +49,7 @@ impl Chain {
         };
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
+        // A force among the unknowns is a multiplier, which brings a negative eigenvalue of its own and no motion.
         let held_together = factors.negative_eigenvalues().checked_sub(forces)?;
         let load = held_together + self.contacts.ridges(state);
         let held = |compliance: f64| load.saturating_sub(usize::from(compliance < 0.0));

@@ -55,6 +55,7 @@ impl PathAnchor {
             Self::Target => direction[control.index] / control.scale,
             Self::Guard(constraint) => guard_slope(system, state, constraint, direction),
             Self::Marker(number) => {
+                // Of a marker a system tells the value alone.
                 let at = |step: f64| system.marker(&state.moved(step, direction), number);
                 (at(ALONG) - at(-ALONG)) / (2.0 * ALONG)
             }

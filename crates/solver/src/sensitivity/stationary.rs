@@ -50,6 +50,7 @@ impl<M: Clone> AnchoredPoint<M> {
         }
         for _ in 0..MOST_SECANTS {
             let step = -here.1 * (here.0 - last.0) / (here.1 - last.1);
+            // So far away it would be another extremum than the one that was asked for.
             if !step.is_finite() || step.abs() > FARTHEST {
                 return None;
             }

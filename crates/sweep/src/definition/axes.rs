@@ -45,7 +45,7 @@ pub(crate) fn read_list(parameter: &Parameter, items: &[Value]) -> Result<Vec<Sc
         }
         let value = parameter.read(item)?;
         if !seen.insert(value.key()) {
-            return Err(Problem::Twice { value: item.to_string() });
+            return Err(Problem::Twice(item.to_string()));
         }
         values.push(value);
     }

@@ -62,11 +62,8 @@ pub enum Problem {
         hint: String,
     },
     /// A required key is missing.
-    #[error("missing, expected {expected}")]
-    Missing {
-        /// The values that would be right.
-        expected: &'static str,
-    },
+    #[error("missing, expected {0}")]
+    Missing(&'static str),
     /// The value of a parameter.
     #[error(transparent)]
     Value(#[from] WrongValue),
@@ -79,11 +76,8 @@ pub enum Problem {
         problem: String,
     },
     /// A value stands in a list twice.
-    #[error("{value} is in the list twice")]
-    Twice {
-        /// The value.
-        value: String,
-    },
+    #[error("{0} is in the list twice")]
+    Twice(String),
     /// A parameter is set in its section and in the grid.
     #[error("{value} conflicts with {other} at {place}; keep one of the two")]
     Contradiction {
@@ -127,11 +121,8 @@ pub enum Problem {
         expected: String,
     },
     /// A deviation in a unit that only another key gives.
-    #[error("needs {other} to be set")]
-    Needs {
-        /// The other key.
-        other: String,
-    },
+    #[error("needs {0} to be set")]
+    Needs(String),
     /// Steps that no path can follow.
     #[error("{value} must be at most {other}")]
     StepOrder {

@@ -70,7 +70,7 @@ impl Measure {
         for item in items {
             let measure = Self::read(item)?;
             if measures.contains(&measure) {
-                return Err(Problem::Twice { value: item.to_string() });
+                return Err(Problem::Twice(item.to_string()));
             }
             measures.push(measure);
         }

@@ -196,7 +196,7 @@ impl Reader {
     fn deviations_without_unit(&self) -> impl Iterator<Item = InvalidDefinition> {
         self.deviations.iter().filter_map(|(deviation, place)| {
             let needed = deviation.needs().find(|needed| !self.says(needed))?;
-            let problem = Problem::Needs { other: Parameter::named(needed)?.path() };
+            let problem = Problem::Needs(Parameter::named(needed)?.path());
             let key = format!("{}.{}", suggestion::TOLERANCE, deviation.key());
             Some(refuse(place, &key, problem))
         })
@@ -256,7 +256,7 @@ impl Reader {
         let in_mm = self.written().filter(move |(_, parameter, _)| unknown && parameter.is_in_mm());
         in_mm.map(|(key, _, place)| {
             let other = format!("material.{}", key::THICKNESS);
-            refuse(place, &key, Problem::Needs { other })
+            refuse(place, &key, Problem::Needs(other))
         })
     }
 
@@ -269,7 +269,7 @@ impl Reader {
         let mut needed = Parameter::ratios().filter(|(ratio, _)| matters(ratio));
         match needed.find(|(_, below)| !self.says(below)) {
             Some((_, below)) => {
-                Err(refuse(place, &key, Problem::Needs { other: format!("material.{below}") }))
+                Err(refuse(place, &key, Problem::Needs(format!("material.{below}"))))
             }
             None => Ok(()),
         }
@@ -381,7 +381,7 @@ fn table(section: &KeyValue) -> Result<&KeyValues, InvalidDefinition> {
 
 fn missing_name(file: &Place) -> InvalidDefinition {
     let expected = "the name of the sweep, e.g. name = \"paper\"";
-    refuse(file, "name", Problem::Missing { expected })
+    refuse(file, "name", Problem::Missing(expected))
 }
 
 /// Whether Windows keeps the name for a device, whatever follows its first dot.

@@ -7,20 +7,23 @@ use substrate::{Coupling, SubstrateLaw};
 
 use crate::case::Case;
 use crate::parameter::Bound::{Excluded, Included};
+use crate::parameter::ParameterKind::{
+    Count, CountOrWord, Number, Numbers, OptionalNumber, SignedNumber, Word,
+};
 use crate::parameter::Role::{
     Continuous, EndsBending, EndsPuncture, Geometry, InMm, InsteadOf, Made, MovesSprings,
     Scattered, UnitOfBending,
 };
-use crate::parameter::{CountRange, Parameter, ParameterKind, Range, Role, Scalar, key};
+use crate::parameter::{CountRange, Parameter, Range, Role, Scalar, key};
 
 // Beyond these ranges differences of lengths and of stiffnesses are round-off, and what a path does is that of its digits.
-const LENGTH: Range = Range { low: Included(1e-3), high: Included(1e3) };
-const POSITIVE: Range = Range { low: Included(1e-6), high: Included(1e9) };
+const LENGTH: Range = Range::closed(1e-3, 1e3);
+const POSITIVE: Range = Range::closed(1e-6, 1e9);
 // A length in mm is held to bounds where it is divided by the thickness.
-const ANY: Range = Range { low: Included(-1e9), high: Included(1e9) };
-const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
+const ANY: Range = Range::closed(-1e9, 1e9);
+pub(super) const FRACTION: Range = Range { low: Excluded(0.0), high: Included(1.0) };
 // Scales are rigid but where they touch: softer than what they stand on they would bend.
-const STIFF: Range = Range { low: Included(1.0), high: Included(1e9) };
+const STIFF: Range = Range::closed(1.0, 1e9);
 
 /// The word of a count that is to be found.
 const AUTO: &str = "auto";
@@ -40,7 +43,7 @@ macro_rules! in_mm {
                 "_over_t in mm, instead of that; with thickness_mm in [material]"
             ),
             roles: $roles,
-            kind: ParameterKind::OptionalNumber { noun: "a length", range: $range, field: $field },
+            kind: OptionalNumber { range: $range, field: $field },
         }
     };
 }
@@ -54,11 +57,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "gap d between neighbouring bases",
         roles: &[Geometry, Continuous, Made, Scattered, MovesSprings],
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.design.gap,
-        },
+        kind: Number { range: LENGTH, field: |c| &mut c.design.gap },
     },
     in_mm!("gap", "designs", POSITIVE, &[InMm(key::GAP), Made, Scattered, MovesSprings], |c| {
         &mut c.in_mm.gap
@@ -69,11 +68,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "length L of a scale",
         roles: &[Geometry, Continuous, Made, MovesSprings],
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.design.length,
-        },
+        kind: Number { range: LENGTH, field: |c| &mut c.design.length },
     },
     in_mm!("length", "designs", POSITIVE, &[InMm(key::LENGTH), Made, MovesSprings], |c| &mut c
         .in_mm
@@ -84,11 +79,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "mm",
         meaning: "base and gap of a scale in mm, instead of its gap or, beside a gap, of its length; with thickness_mm in [material]",
         roles: &[InMm(key::GAP), Made, MovesSprings],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: POSITIVE,
-            field: |c| &mut c.in_mm.pitch,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.in_mm.pitch },
     },
     Parameter {
         key: key::SLANT,
@@ -96,8 +87,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "deg",
         meaning: "slant of the scales from the vertical, to the right",
         roles: &[Geometry, Continuous, Made, Scattered],
-        kind: ParameterKind::Number {
-            noun: "an angle",
+        kind: Number {
             range: Range { low: Included(0.0), high: Excluded(90.0) },
             field: |c| &mut c.design.slant_deg,
         },
@@ -108,7 +98,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "length of the base of a scale, L or 2L",
         roles: &[MovesSprings],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["L", "2L"],
             get: |c| usize::from(c.design.base == Base::TwoL),
             set: |c, word| c.design.base = [Base::L, Base::TwoL][word],
@@ -120,11 +110,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "out-of-plane width b of the scales",
         roles: &[Continuous, Made, MovesSprings],
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.design.width,
-        },
+        kind: Number { range: LENGTH, field: |c| &mut c.design.width },
     },
     in_mm!("width", "scale", POSITIVE, &[InMm(key::WIDTH), Made, MovesSprings], |c| &mut c
         .in_mm
@@ -135,11 +121,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "Poisson's ratio of the substrate",
         roles: &[Continuous, Made, MovesSprings],
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: Range { low: Included(0.0), high: Included(0.5) },
-            field: |c| &mut c.puncture.poisson_ratio,
-        },
+        kind: Number { range: Range::closed(0.0, 0.5), field: |c| &mut c.puncture.poisson_ratio },
     },
     Parameter {
         key: key::TISSUE,
@@ -147,11 +129,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "thickness of the substrate on a rigid base, as of tissue on bone; of a half-space unless it is given",
         roles: &[Continuous, Made, MovesSprings],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.tissue_thickness,
-        },
+        kind: OptionalNumber { range: LENGTH, field: |c| &mut c.tissue_thickness },
     },
     in_mm!(
         "tissue_thickness",
@@ -166,7 +144,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "neighbours that the substrate couples a scale with, the nearest or all that matter",
         roles: &[MovesSprings],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["nearest", "full"],
             get: |c| usize::from(c.coupling == Coupling::Full),
             set: |c, word| c.coupling = [Coupling::Nearest, Coupling::Full][word],
@@ -178,7 +156,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "how the substrate answers where the gap between two bases is stretched or pressed: by linear springs, or as rubber, which cannot fold over",
         roles: &[],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["linear", "neo-hookean"],
             get: |c| usize::from(c.puncture.substrate_law == SubstrateLaw::NeoHookean),
             set: |c, word| {
@@ -192,11 +170,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "prefactor C1 of the contact law",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: Range { low: Included(1e-3), high: Included(1e3) },
-            field: |c| &mut c.common.law.c1,
-        },
+        kind: Number { range: Range::closed(1e-3, 1e3), field: |c| &mut c.common.law.c1 },
     },
     Parameter {
         key: "c2",
@@ -204,10 +178,9 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "exponent C2 of the contact law",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
+        kind: Number {
             // A flat end has an exponent of 1, a sphere of 1.5; at larger ones contacts begin without any stiffness.
-            range: Range { low: Included(0.05), high: Included(1.5) },
+            range: Range::closed(0.05, 1.5),
             field: |c| &mut c.common.law.c2,
         },
     },
@@ -217,10 +190,9 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "coefficient of friction between two scales",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
+        kind: Number {
             // Rubber on a rough surface has about 2.
-            range: Range { low: Included(0.0), high: Included(2.0) },
+            range: Range::closed(0.0, 2.0),
             field: |c| &mut c.common.friction,
         },
     },
@@ -230,7 +202,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "scales in the row",
         roles: &[],
-        kind: ParameterKind::CountOrWord {
+        kind: CountOrWord {
             word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| match c.puncture.scales {
@@ -248,11 +220,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: Range { low: Included(0.0), high: Included(1.0) },
-            field: |c| &mut c.puncture.load_position,
-        },
+        kind: Number { range: Range::closed(0.0, 1.0), field: |c| &mut c.puncture.load_position },
     },
     Parameter {
         key: key::LOAD_INSET,
@@ -260,11 +228,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position",
         roles: &[InsteadOf(key::LOAD_POSITION)],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: Range { low: Included(0.0), high: Included(1e6) },
-            field: |c| &mut c.load_inset,
-        },
+        kind: OptionalNumber { range: Range::closed(0.0, 1e6), field: |c| &mut c.load_inset },
     },
     in_mm!("load_inset", "puncture", ANY, &[InMm(key::LOAD_INSET)], |c| &mut c.in_mm.load_inset),
     Parameter {
@@ -273,7 +237,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale",
         roles: &[EndsPuncture],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["free", "guided"],
             get: |c| usize::from(c.puncture.needle.is_guided()),
             set: |c, word| {
@@ -288,7 +252,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "whether the load is taken away again at the end of the puncture",
         roles: &[],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["false", "true"],
             get: |c| usize::from(c.puncture.unload),
             set: |c, word| c.puncture.unload = word == 1,
@@ -300,8 +264,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "deg",
         meaning: "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each",
         roles: &[Continuous, EndsPuncture],
-        kind: ParameterKind::Numbers {
-            noun: "an angle",
+        kind: Numbers {
             range: Range { low: Excluded(0.0), high: Excluded(90.0) },
             word: None,
             get: |c| match c.puncture.tilts_deg {
@@ -320,10 +283,9 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given",
         roles: &[Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
-        kind: ParameterKind::Numbers {
-            noun: "a number",
+        kind: Numbers {
             // Of 1000 the arctangent is 89.94°; of 1e16 it is 90°, to the last digit.
-            range: Range { low: Included(0.0), high: Included(1e3) },
+            range: Range::closed(0.0, 1e3),
             word: Some("none"),
             get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
             set: |c, friction| {
@@ -338,11 +300,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "depth of the punctured point at which the force is measured besides, in force_at_depth",
         roles: &[],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.puncture.depth,
-        },
+        kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.depth },
     },
     in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
     Parameter {
@@ -351,7 +309,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "places of the load that are tried besides, from the left corner of the top to the right, for weakest_force",
         roles: &[],
-        kind: ParameterKind::CountOrWord {
+        kind: CountOrWord {
             word: "none",
             range: CountRange { low: 2, high: 1000 },
             get: |c| c.puncture.places,
@@ -364,11 +322,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: STIFF,
-            field: |c| &mut c.puncture.contact_modulus_over_substrate,
-        },
+        kind: Number { range: STIFF, field: |c| &mut c.puncture.contact_modulus_over_substrate },
     },
     Parameter {
         key: "method",
@@ -376,7 +330,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "what is bent: one gap, since all deform alike, or the chain of all",
         roles: &[],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["unit-cell", "chain"],
             get: |c| usize::from(c.flexure.method == Method::Chain),
             set: |c, word| c.flexure.method = [Method::UnitCell, Method::Chain][word],
@@ -388,11 +342,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "length of the membrane; a chain and imperfect strips round it to whole gaps",
         roles: &[Continuous, Made, EndsBending],
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.flexure.membrane_length,
-        },
+        kind: Number { range: LENGTH, field: |c| &mut c.flexure.membrane_length },
     },
     in_mm!(
         "membrane_length",
@@ -407,7 +357,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "gaps of the strip, the same number for every design, instead of a length",
         roles: &[InsteadOf(key::MEMBRANE_LENGTH)],
-        kind: ParameterKind::CountOrWord {
+        kind: CountOrWord {
             word: AUTO,
             range: CountRange { low: 1, high: 1_000_000 },
             get: |c| c.flexure.gaps,
@@ -420,11 +370,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "thickness h of the membrane",
         roles: &[Continuous, Made, UnitOfBending],
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: LENGTH,
-            field: |c| &mut c.flexure.membrane_thickness,
-        },
+        kind: Number { range: LENGTH, field: |c| &mut c.flexure.membrane_thickness },
     },
     in_mm!(
         "membrane_thickness",
@@ -439,9 +385,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "t",
         meaning: "depth of the axis of the membrane below the bases of the scales",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a length",
-            range: Range { low: Included(-1e3), high: Included(1e3) },
+        kind: Number {
+            range: Range::closed(-1e3, 1e3),
             field: |c| &mut c.flexure.membrane_axis_offset,
         },
     },
@@ -454,7 +399,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "beam elements of the membrane between two scales, or as fine as the measures need",
         roles: &[],
-        kind: ParameterKind::CountOrWord {
+        kind: CountOrWord {
             word: AUTO,
             range: CountRange { low: 1, high: 1000 },
             get: |c| match c.flexure.elements_per_gap {
@@ -473,7 +418,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "whether the moment is taken away again at the end of bending",
         roles: &[],
-        kind: ParameterKind::Word {
+        kind: Word {
             words: &["false", "true"],
             get: |c| usize::from(c.flexure.unload),
             set: |c, word| c.flexure.unload = word == 1,
@@ -485,8 +430,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "deg",
         meaning: "rotation of each end at which bending ends; below zero, bending the other way, scales outside",
         roles: &[Continuous, Made, EndsBending],
-        kind: ParameterKind::SignedNumber {
-            noun: "an angle",
+        kind: SignedNumber {
             size: Range { low: Excluded(0.0), high: Included(180.0) },
             field: |c| &mut c.flexure.max_end_rotation_deg,
         },
@@ -497,11 +441,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "modulus of the scales in contact, E_ct, over that of the membrane, E_m",
         roles: NUMBER,
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: STIFF,
-            field: |c| &mut c.flexure.contact_modulus_over_membrane,
-        },
+        kind: Number { range: STIFF, field: |c| &mut c.flexure.contact_modulus_over_membrane },
     },
     Parameter {
         key: "gap_cv",
@@ -509,11 +449,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "coefficient of variation of the gaps of imperfect rows",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "a number",
-            range: Range { low: Included(0.0), high: Included(1.0) },
-            field: |c| &mut c.imperfection.gap_cv,
-        },
+        kind: Number { range: Range::closed(0.0, 1.0), field: |c| &mut c.imperfection.gap_cv },
     },
     Parameter {
         key: "slant_sd_deg",
@@ -521,9 +457,8 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "deg",
         meaning: "standard deviation of the slants of imperfect rows",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "an angle",
-            range: Range { low: Included(0.0), high: Included(30.0) },
+        kind: Number {
+            range: Range::closed(0.0, 30.0),
             field: |c| &mut c.imperfection.slant_sd_deg,
         },
     },
@@ -533,7 +468,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "imperfect rows that are solved, if gaps or slants scatter",
         roles: &[],
-        kind: ParameterKind::Count {
+        kind: Count {
             range: CountRange { low: 1, high: 1_000_000 },
             field: |c| &mut c.samples.count,
         },
@@ -544,7 +479,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "seed of the random gaps and slants",
         roles: &[],
-        kind: ParameterKind::Count {
+        kind: Count {
             range: CountRange { low: 0, high: 1_000_000_000 },
             field: |c| &mut c.samples.seed,
         },
@@ -555,11 +490,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "first step, as a fraction of the whole path",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "a fraction",
-            range: FRACTION,
-            field: |c| &mut c.common.solver.first_step,
-        },
+        kind: Number { range: FRACTION, field: |c| &mut c.common.solver.first_step },
     },
     Parameter {
         key: "max_step",
@@ -567,11 +498,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "largest step, as a fraction of the whole path",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "a fraction",
-            range: FRACTION,
-            field: |c| &mut c.common.solver.max_step,
-        },
+        kind: Number { range: FRACTION, field: |c| &mut c.common.solver.max_step },
     },
     Parameter {
         key: "min_step",
@@ -579,11 +506,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "smallest step, as a fraction of the whole path, below which the path stops",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "a fraction",
-            range: FRACTION,
-            field: |c| &mut c.common.solver.min_step,
-        },
+        kind: Number { range: FRACTION, field: |c| &mut c.common.solver.min_step },
     },
     Parameter {
         key: "tolerance",
@@ -591,8 +514,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "largest scaled residual of an equilibrium",
         roles: &[],
-        kind: ParameterKind::Number {
-            noun: "a number",
+        kind: Number {
             range: Range { low: Excluded(0.0), high: Included(0.01) },
             field: |c| &mut c.common.solver.tolerance,
         },
@@ -603,7 +525,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "Newton iterations after which a step is cut to a third",
         roles: &[],
-        kind: ParameterKind::Count {
+        kind: Count {
             range: CountRange { low: 1, high: 1000 },
             field: |c| &mut c.common.solver.max_iterations,
         },
@@ -614,7 +536,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "-",
         meaning: "equilibria after which the path stops",
         roles: &[],
-        kind: ParameterKind::Count {
+        kind: Count {
             range: CountRange { low: 2, high: 1_000_000_000 },
             field: |c| &mut c.common.solver.max_points,
         },
@@ -625,11 +547,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "mm",
         meaning: "thickness t of the scales",
         roles: &[Made],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a length",
-            range: POSITIVE,
-            field: |c| &mut c.material.thickness_mm,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.material.thickness_mm },
     },
     Parameter {
         key: key::SUBSTRATE_MODULUS,
@@ -637,11 +555,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "MPa",
         meaning: "modulus E_s of the substrate",
         roles: &[Made],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a number",
-            range: POSITIVE,
-            field: |c| &mut c.material.substrate_modulus_mpa,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.material.substrate_modulus_mpa },
     },
     Parameter {
         key: key::MEMBRANE_MODULUS,
@@ -649,11 +563,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "MPa",
         meaning: "modulus E_m of the membrane",
         roles: &[Made],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a number",
-            range: POSITIVE,
-            field: |c| &mut c.material.membrane_modulus_mpa,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.material.membrane_modulus_mpa },
     },
     Parameter {
         key: key::SCALE_MODULUS,
@@ -661,11 +571,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "MPa",
         meaning: "modulus E_ct of the scales in contact, in the place of its ratios to the other two",
         roles: &[Made],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a number",
-            range: POSITIVE,
-            field: |c| &mut c.material.scale_modulus_mpa,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.material.scale_modulus_mpa },
     },
     Parameter {
         key: key::DENSITY,
@@ -673,11 +579,7 @@ pub static PARAMETERS: &[Parameter] = &[
         unit: "kg/m^3",
         meaning: "density of the scales",
         roles: &[Made],
-        kind: ParameterKind::OptionalNumber {
-            noun: "a number",
-            range: POSITIVE,
-            field: |c| &mut c.material.scale_density_kg_m3,
-        },
+        kind: OptionalNumber { range: POSITIVE, field: |c| &mut c.material.scale_density_kg_m3 },
     },
 ];
 

@@ -60,7 +60,7 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     let count = design.samples.iter().filter(folds).count();
     let samples = counted(count as u64, "sample");
     let line = format!(
-        "  (!) {samples}: the surface folds; --require '{GAP_STRETCH_MIN} >= 0' counts those that end so as failed requirements\n"
+        "  (!) {samples}: the surface folds; --require '{GAP_STRETCH_MIN} > 0' counts those that end so as failed requirements\n"
     );
     (count > 0).then_some(line)
 }
