@@ -138,7 +138,7 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// As [`write`], by the path of the file.
+/// As [`write()`], by the path of the file.
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
     write(folder, &file.file_name().unwrap_or_default().to_string_lossy(), bytes)
