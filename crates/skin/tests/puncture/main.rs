@@ -21,6 +21,7 @@
 //! | `widest` | random ones in the widest ranges of a definition |
 
 mod ends;
+mod enumerated;
 mod first_contact;
 mod folds;
 mod isolated_scale;

@@ -1,0 +1,299 @@
+//! Pairs of scales that rub, by a solver of their own: small steps of the tilt, and in each every contact is tried open, stuck, and
+//! slipping either way, until one pattern keeps all its conditions.
+//!
+//! Where slipping begins or ends within a step, anchors are off by a part of the step: forces come closer as steps get shorter.
+
+use nalgebra::{DMatrix, DVector, Vector2};
+use skin::puncture::{At, PunctureParameters, snapshots};
+use skin::{Base, Common, Design};
+use substrate::{Calibrations, Springs};
+
+use crate::samples::{design, on_row, springs};
+
+type V = Vector2<f64>;
+
+/// How a contact stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Stand {
+    Open,
+    Stick,
+    Slip(f64),
+    /// Closed, with its friction borne by the one that sticks: two contacts on parallel edges slide together or not at all, and how they
+    /// share their friction while they stick nothing tells.
+    Borne,
+}
+
+const STANDS: [Stand; 5] =
+    [Stand::Open, Stand::Stick, Stand::Slip(1.0), Stand::Slip(-1.0), Stand::Borne];
+
+/// A corner of one scale against an edge of the other.
+struct Touch {
+    corner: (usize, V),
+    edge: (usize, V),
+    /// At rest: outward normal and direction of the edge.
+    normal: V,
+    tangent: V,
+}
+
+/// Two scales on their springs, the left one loaded.
+struct Pair {
+    stiffness: DMatrix<f64>,
+    arm: V,
+    pitch: f64,
+    touches: Vec<Touch>,
+    /// `λ₀`, `L` and `C₂` of the contact law, and the friction.
+    law: [f64; 3],
+    friction: f64,
+}
+
+/// Displacements and rotations of both scales, the load, and `λ` and `T` of each contact.
+type Unknowns = DVector<f64>;
+
+const LOAD: usize = 6;
+
+fn turned(by: f64, v: V) -> V {
+    let (sin, cos) = by.sin_cos();
+    V::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y)
+}
+
+fn quarter(v: V) -> V {
+    V::new(-v.y, v.x)
+}
+
+impl Pair {
+    fn new(
+        design: &Design,
+        springs: &Springs,
+        parameters: &PunctureParameters,
+        common: &Common,
+    ) -> Self {
+        let (a, shift) = (design.half_base(), design.slant_deg.to_radians().tan());
+        let mut stiffness = DMatrix::zeros(6, 6);
+        for k in 0..3 {
+            let length = if k == 2 { a.powi(3) } else { a };
+            for scale in 0..2 {
+                stiffness[(3 * scale + k, 3 * scale + k)] = length * springs.direct[k];
+                stiffness[(3 * scale + k, 3 * (1 - scale) + k)] = -length * springs.coupling[k];
+            }
+        }
+        let (bottom, top) =
+            ([V::new(-a, 0.0), V::new(a, 0.0)], [V::new(shift - a, 1.0), V::new(shift + a, 1.0)]);
+        let up = V::new(shift, 1.0).normalize();
+        // The right edge of the left scale looks to the right, the left edge of the right one to the left.
+        let (right, left) = (-quarter(up), quarter(up));
+        let touch = |corner, edge, normal| Touch { corner, edge, normal, tangent: up };
+        let touches = vec![
+            touch((0, top[1]), (1, bottom[0]), left),
+            touch((1, top[0]), (0, bottom[1]), right),
+            touch((1, bottom[0]), (0, bottom[1]), right),
+            touch((0, bottom[1]), (1, bottom[0]), left),
+        ];
+        let modulus =
+            parameters.contact_modulus_over_substrate * (1.0 - parameters.poisson_ratio.powi(2));
+        let law =
+            [common.law.c1 * design.length * design.width * modulus, design.length, common.law.c2];
+        let pitch = 2.0 * a + design.gap;
+        Self { stiffness, arm: top[1], pitch, touches, law, friction: common.friction }
+    }
+
+    fn place(&self, z: &Unknowns, (scale, arm): (usize, V)) -> V {
+        V::new(scale as f64 * self.pitch + z[3 * scale], z[3 * scale + 1])
+            + turned(z[3 * scale + 2], arm)
+    }
+
+    /// Gap and way of a contact, or rather `(P − E)·v` for a direction of the edge, with its derivatives.
+    fn along(&self, z: &Unknowns, touch: &Touch, direction: V) -> (f64, DVector<f64>) {
+        let (corner, edge) = (touch.corner, touch.edge);
+        let v = turned(z[3 * edge.0 + 2], direction);
+        let between = self.place(z, corner) - self.place(z, edge);
+        let mut slopes = DVector::zeros(6);
+        for ((scale, arm), sign) in [(corner, 1.0), (edge, -1.0)] {
+            let turning = quarter(turned(z[3 * scale + 2], arm));
+            slopes[3 * scale] += sign * v.x;
+            slopes[3 * scale + 1] += sign * v.y;
+            slopes[3 * scale + 2] += sign * turning.dot(&v);
+        }
+        slopes[3 * edge.0 + 2] += between.dot(&quarter(v));
+        (between.dot(&v), slopes)
+    }
+
+    fn way(&self, z: &Unknowns, touch: usize) -> f64 {
+        let touch = &self.touches[touch];
+        self.along(z, touch, touch.tangent).0
+    }
+
+    fn approach(&self, force: f64) -> f64 {
+        let [unit, length, exponent] = self.law;
+        length * (force / unit).abs().powf(1.0 / exponent).copysign(force)
+    }
+
+    fn residual(&self, z: &Unknowns, tilt: f64, stands: &[Stand], anchors: &[f64]) -> DVector<f64> {
+        let mut r = DVector::zeros(z.len());
+        let mut balance = &self.stiffness * z.rows(0, 6);
+        let arm = turned(z[2], self.arm);
+        balance[1] += z[LOAD];
+        balance[2] += arm.x * z[LOAD];
+        for (k, (touch, stand)) in self.touches.iter().zip(stands).enumerate() {
+            let (at, traction) = (LOAD + 1 + 2 * k, LOAD + 2 + 2 * k);
+            let (gap, by_gap) = self.along(z, touch, touch.normal);
+            let (way, by_way) = self.along(z, touch, touch.tangent);
+            if *stand == Stand::Open {
+                (r[at], r[traction]) = (z[at], z[traction]);
+                continue;
+            }
+            balance -= by_gap * z[at] + by_way * z[traction];
+            r[at] = gap + self.approach(z[at]);
+            r[traction] = match stand {
+                Stand::Slip(sign) => z[traction] + sign * self.friction * z[at],
+                Stand::Borne => z[traction],
+                _ => way - anchors[k],
+            };
+        }
+        r.rows_mut(0, 6).copy_from(&balance);
+        r[LOAD] = z[2] + tilt;
+        r
+    }
+
+    fn solve(
+        &self,
+        from: &Unknowns,
+        tilt: f64,
+        stands: &[Stand],
+        anchors: &[f64],
+    ) -> Option<Unknowns> {
+        let mut z = from.clone();
+        for _ in 0..30 {
+            let r = self.residual(&z, tilt, stands, anchors);
+            if r.amax() < 1e-12 {
+                return Some(z);
+            }
+            let columns: Vec<_> = (0..z.len())
+                .map(|k| {
+                    let at = |by: f64| {
+                        let mut moved = z.clone();
+                        moved[k] += by;
+                        self.residual(&moved, tilt, stands, anchors)
+                    };
+                    (at(1e-6) - at(-1e-6)) / 2e-6
+                })
+                .collect();
+            z -= DMatrix::from_columns(&columns).lu().solve(&r)?;
+        }
+        None
+    }
+
+    /// Whether a state keeps the conditions of its pattern.
+    fn holds(&self, from: &Unknowns, to: &Unknowns, stands: &[Stand]) -> bool {
+        let borne = stands.iter().enumerate().filter(|(_, stand)| **stand == Stand::Borne);
+        let borne: f64 = borne.map(|(k, _)| to[LOAD + 1 + 2 * k]).sum();
+        stands.iter().enumerate().all(|(k, stand)| {
+            let touch = &self.touches[k];
+            let (push, traction) = (to[LOAD + 1 + 2 * k], to[LOAD + 2 + 2 * k]);
+            let (way, before) = (self.way(to, k), self.way(from, k));
+            let is_on_edge = way > 0.0 && way < touch.tangent.y.recip();
+            match stand {
+                Stand::Open => !is_on_edge || self.along(to, touch, touch.normal).0 >= 0.0,
+                Stand::Stick => {
+                    let bears = push + borne;
+                    push >= 0.0 && is_on_edge && traction.abs() <= self.friction * bears
+                }
+                Stand::Borne => push >= 0.0 && is_on_edge && stands.contains(&Stand::Stick),
+                Stand::Slip(sign) => push >= 0.0 && is_on_edge && sign * (way - before) >= 0.0,
+            }
+        })
+    }
+
+    /// The load at the tilts, and the patterns that the path went through.
+    fn loads(&self, tilts: &[f64], steps: usize) -> (Vec<f64>, Vec<Vec<Stand>>) {
+        let count = self.touches.len();
+        let mut z = Unknowns::zeros(LOAD + 1 + 2 * count);
+        let mut stands = vec![Stand::Open; count];
+        let (mut loads, mut seen) = (Vec::new(), vec![stands.clone()]);
+        let end = *tilts.last().unwrap();
+        for step in 1..=steps {
+            let tilt = end * step as f64 / steps as f64;
+            let anchors: Vec<_> = (0..count).map(|k| self.way(&z, k)).collect();
+            let attempt = |stands: &[Stand]| {
+                let to = self.solve(&z, tilt, stands, &anchors)?;
+                self.holds(&z, &to, stands).then_some(to)
+            };
+            let valid = (0..STANDS.len().pow(count as u32)).filter_map(|number| {
+                let digit = |k: usize| number / STANDS.len().pow(k as u32) % STANDS.len();
+                let pattern: Vec<_> = (0..count).map(|k| STANDS[digit(k)]).collect();
+                Some((attempt(&pattern)?, pattern))
+            });
+            let found = match attempt(&stands) {
+                Some(to) => Some((to, stands.clone())),
+                None => valid.into_iter().next(),
+            };
+            let (to, pattern) = found.unwrap_or_else(|| panic!("no pattern at {tilt}: {stands:?}"));
+            if pattern != stands {
+                seen.push(pattern.clone());
+            }
+            (z, stands) = (to, pattern);
+            if tilts.iter().any(|at| (at - tilt).abs() < 1e-9) {
+                loads.push(z[LOAD]);
+            }
+        }
+        (loads, seen)
+    }
+}
+
+/// The largest difference of the loads from those of the solver, and the patterns.
+fn difference(design: &Design, friction: f64, steps: usize) -> (f64, Vec<Vec<Stand>>) {
+    let parameters = on_row(2);
+    let common = Common { friction, ..Common::default() };
+    let springs = springs(design, &parameters, &Calibrations::default());
+    let tilts = [2.0, 4.0, 6.0, 8.0, 10.0];
+    let ours = snapshots(design, &springs, &common, &parameters, &tilts.map(At::Tilt)).unwrap();
+    let pair = Pair::new(design, &springs, &parameters, &common);
+    let (loads, seen) = pair.loads(&tilts.map(f64::to_radians), steps);
+    assert_eq!(loads.len(), tilts.len());
+    let off =
+        ours.at.iter().zip(&loads).map(|(state, load)| {
+            (state.as_ref().unwrap().force * design.length / load - 1.0).abs()
+        });
+    let off = off.fold(0.0, f64::max);
+    println!("{design:?} friction {friction}: {off:e}, {seen:?}");
+    (off, seen)
+}
+
+fn closed(seen: &[Vec<Stand>]) -> usize {
+    let count = |pattern: &Vec<Stand>| pattern.iter().filter(|s| **s != Stand::Open).count();
+    seen.iter().map(count).max().unwrap()
+}
+
+fn sticks(seen: &[Vec<Stand>]) -> bool {
+    seen.iter().flatten().any(|stand| *stand == Stand::Stick)
+}
+
+#[test]
+fn one_contact_and_two_that_slip_are_those_of_enumerated_patterns() {
+    for (gap, length, slant_deg, friction, contacts) in [
+        (0.1, 1.0, 0.0, 0.0, 1),
+        (0.1, 1.0, 0.0, 0.3, 1),
+        (0.1, 1.0, 0.0, 1.5, 1),
+        (0.2, 1.5, 30.0, 0.6, 1),
+        (0.1, 1.0, 45.0, 0.1, 2),
+        (0.1, 0.5, 60.0, 0.3, 2),
+        (0.05, 0.7, 30.0, 0.4, 2),
+    ] {
+        let (off, seen) = difference(&design(gap, length, slant_deg, Base::L), friction, 500);
+        assert!(off < 1e-10, "{off:e}");
+        assert_eq!((closed(&seen), sticks(&seen)), (contacts, false));
+    }
+}
+
+#[test]
+fn two_contacts_that_stick_are_those_of_enumerated_patterns() {
+    for (gap, length, slant_deg, friction) in [
+        (0.05, 1.0, 60.0, 0.5),
+        (0.1, 1.0, 65.0, 0.4),
+        (0.2, 2.0, 65.0, 0.5),
+        (0.3, 1.0, 70.0, 0.4),
+    ] {
+        let (off, seen) = difference(&design(gap, length, slant_deg, Base::L), friction, 4000);
+        assert!(off < 4e-5, "{off:e}");
+        assert!(sticks(&seen));
+    }
+}
