@@ -166,7 +166,7 @@ impl<'a> FlexureProblem<'a> {
         }
     }
 
-    fn bend(
+    pub(super) fn bend(
         &self,
         resolution: Resolution,
         functions: &[PathFunction<Strip>],

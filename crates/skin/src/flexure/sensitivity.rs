@@ -132,7 +132,7 @@ impl FlexureProblem<'_> {
         let (sticking, free): (Vec<_>, Vec<_>) = spots.into_iter().partition(sticks);
         let unknown = missing(strip, &sticking, variations.len());
         let mut derivatives = derivatives(strip, free, &strips?, &self.common.solver);
-        derivatives.extend(unknown);
+        derivatives.extend(differences(unknown, variations, resolution)?);
         if bent.record.touching().is_none() {
             self.mark_touching(&mut derivatives, variations)?;
         }
@@ -195,6 +195,53 @@ impl FlexureProblem<'_> {
             spot(strain, quantity("membrane_strain_max", |s, state, _, _| s.largest_strain(state))),
         ]
     }
+}
+
+/// Fills derivatives that are not known, of places where something sticks, with those of whole solutions on either side: how the anchor of
+/// a contact that sticks moves with a parameter is not known in bending.
+fn differences(
+    mut unknown: Vec<Derivative>,
+    variations: &[Neighbours<FlexureInput>],
+    resolution: Resolution,
+) -> Result<Vec<Derivative>, OutOfRange> {
+    let Some(last) = unknown.iter().map(|derivative| derivative.parameter).max() else {
+        return Ok(unknown);
+    };
+    for (parameter, variation) in variations.iter().enumerate().take(last + 1) {
+        let (below, above) =
+            (measured(&variation.below, resolution)?, measured(&variation.above, resolution)?);
+        for derivative in unknown.iter_mut().filter(|of| of.parameter == parameter) {
+            let slope = |nearby: &[(&str, f64)], sign: f64| {
+                let (_, value) = nearby.iter().find(|(of, _)| *of == derivative.measure)?;
+                Some(sign * (value - derivative.value) / variation.step)
+            };
+            (derivative.left, derivative.right) = (slope(&below, -1.0), slope(&above, 1.0));
+            derivative.kink =
+                Some("something sticks: from whole solutions on either side".to_owned());
+        }
+    }
+    Ok(unknown)
+}
+
+/// The measures of a strip that is bent with this resolution; none where the path does not come to its end.
+fn measured(
+    input: &FlexureInput,
+    resolution: Resolution,
+) -> Result<Vec<(&'static str, f64)>, OutOfRange> {
+    let FlexureInput { design, common, parameters } = input;
+    let problem = FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?;
+    let mut bent = problem.bend(resolution, &FOLLOWED, &[])?;
+    if bent.status != Status::Complete {
+        return Ok(Vec::new());
+    }
+    let spots = problem.spots(&bent.record, &mut bent.path);
+    let strip = bent.path.system();
+    let of_spot = |spot: &MeasuredPoint<Strip>| {
+        let value =
+            |place| spot.quantities.iter().map(|of| (of.measure, of.at(strip, place))).collect();
+        spot.place.as_ref().map_or_else(Vec::new, value)
+    };
+    Ok(spots.iter().flat_map(of_spot).collect())
 }
 
 fn quantity(

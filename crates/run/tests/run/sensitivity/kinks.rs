@@ -165,3 +165,28 @@ fn where_scales_first_touch_at_the_end_of_bending_the_compliance_jumps() {
         }
     }
 }
+
+/// Where contacts of a strip stick, derivatives are differences of whole solutions, and say so.
+#[test]
+fn a_strip_that_sticks_has_the_derivatives_of_whole_solutions() {
+    let text = "name = 'x'\n[designs]\ngap_over_t = 0.3\nlength_over_t = 1\nslant_deg = 75\n[contact]\nfriction = 0.5";
+    let case = Sweep::parse(text, "x.toml", &[]).unwrap().grid().case(0);
+    let moment = |case: &Case| {
+        let solved = Evaluator::new(&[Measure::Flexure]).solve(designs::number(), case);
+        solved.flexure.unwrap().measures.max_moment.unwrap()
+    };
+    let mut compared = 0;
+    for derivative in derivatives(&case).iter().filter(|of| of.measure == "max_moment") {
+        assert!(derivative.kink.as_ref().is_some_and(|kink| kink.starts_with("something sticks")));
+        let parameter = Parameter::named(derivative.parameter).unwrap();
+        let step = 1e-4 * parameter.size(&case).unwrap();
+        let at = |by: f64| moment(&parameter.moved(&case, by).unwrap());
+        let slope = (at(step) - at(-step)) / (2.0 * step);
+        for side in [derivative.left, derivative.right] {
+            let off = (side.unwrap() - slope).abs() * step / (1e-4 * derivative.value);
+            assert!(off < 1e-3, "{}: {off:e}", derivative.parameter);
+        }
+        compared += 1;
+    }
+    assert!(compared >= 8, "{compared}");
+}
