@@ -192,11 +192,12 @@ impl Sweep {
     /// The parameters that all designs share, with their values. The length of a strip is none if its gaps are given, and
     /// the critical tilt none if the friction of the needle is.
     pub fn shared(&self) -> impl Iterator<Item = (&'static Parameter, Scalar)> {
-        let shared = |parameter: &&Parameter| {
+        let alone: Vec<_> = PARAMETERS.iter().filter(|other| self.gives_alone(other)).collect();
+        let shared = move |parameter: &&Parameter| {
             self.grid.axis(parameter.key).is_none()
                 && parameter.is_given(self.grid.base())
                 && !parameter.follows(self.grid.base())
-                && !parameter.others_in(self.grid.base()).any(|other| self.gives_alone(other))
+                && !alone.iter().any(|other| parameter.is_said_by(other, self.grid.base()))
         };
         PARAMETERS.iter().filter(shared).map(|p| (p, p.get(self.grid.base())))
     }

@@ -1,5 +1,7 @@
 //! What parameters are to a skin: whoever treats some of them in a way of their own asks for their role, not for their names.
 
+use std::sync::LazyLock;
+
 use super::{PARAMETERS, Parameter, key};
 use crate::case::Case;
 
@@ -47,25 +49,45 @@ impl Parameter {
         PARAMETERS.iter().filter(move |other| is_same(other) || self.excludes(other))
     }
 
-    /// The same in a case: under a guided needle tilt and friction are two things, and beside a gap the pitch says a length.
+    /// The same in a case.
     pub(crate) fn others_in(&self, case: &Case) -> impl Iterator<Item = &'static Self> {
+        PARAMETERS.iter().filter(|other| self.is_said_by(other, case))
+    }
+
+    /// Whether another parameter says the same in a case: under a guided needle tilt and friction are two things, and beside a gap the
+    /// pitch says a length.
+    pub(crate) fn is_said_by(&self, other: &Self, case: &Case) -> bool {
         let origin = |parameter: &Self| {
             let says_length = parameter.key == key::PITCH && case.in_mm.pitch_says_length;
             if says_length { key::LENGTH } else { parameter.origin() }
         };
-        let is_needle = self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
-        let of = origin(self);
-        let is_same = move |p: &Self| !is_needle && p.key != self.key && origin(p) == of;
-        PARAMETERS.iter().filter(move |p| is_same(p) || self.excludes(p))
+        let is_needle = || self.origin() == key::CRITICAL_TILT && case.puncture.needle.is_guided();
+        let is_same = other.key != self.key && origin(other) == origin(self) && !is_needle();
+        is_same || self.excludes(other)
     }
 
     /// The key of the parameter that this one stands for, in another way or unit; its own, if it stands for none.
     fn origin(&self) -> &'static str {
-        let stands_for = self.roles.iter().find_map(|role| match role {
-            Role::InsteadOf(key) | Role::InMm(key) => Self::named(key),
-            _ => None,
+        // A definition asks for this thousands of times, and finding a parameter by its key takes as long as all else that is asked.
+        static ORIGINS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
+            let next = |key: &&'static str| Parameter::named(key)?.stands_for();
+            let origin = |p: &Parameter| std::iter::successors(p.stands_for(), next).last();
+            PARAMETERS.iter().filter_map(|p| Some((p.key, origin(p)?))).collect()
         });
-        stands_for.map_or(self.key, Self::origin)
+        match self.stands_for() {
+            Some(of) => {
+                ORIGINS.iter().find(|(key, _)| *key == self.key).map_or(of, |found| found.1)
+            }
+            None => self.key,
+        }
+    }
+
+    /// The key of the parameter that this one says in another way or unit.
+    fn stands_for(&self) -> Option<&'static str> {
+        self.roles.iter().find_map(|role| match role {
+            Role::InsteadOf(key) | Role::InMm(key) => Some(*key),
+            _ => None,
+        })
     }
 
     /// The parameter that may be given instead of this one.
