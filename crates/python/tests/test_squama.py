@@ -193,6 +193,20 @@ def test_errors_and_results_pickle():
     same(pickle.loads(pickle.dumps(squama.solve_many([SKIN]))), squama.solve_many([SKIN]))
 
 
+def test_ways_back_and_places_are_tables():
+    result = SKIN.replace(friction=0.1, unload="true", unbend="true", places=3).solve()
+    for back, path, load, left in (
+        ("way_back", "path", "force", result["remaining_displacement"]),
+        ("flexure_way_back", "flexure_path", "moment", result["remaining_curvature"]),
+    ):
+        back, path = getattr(result, back), getattr(result, path)
+        assert set(back) <= set(path) and abs(back[load][-1]) < 1e-9 * path[load][-1]
+        assert back[load][0] == pytest.approx(path[load][-1], rel=1e-12)
+        assert back[next(name for name in back if name in ("displacement", "curvature"))][-1] == pytest.approx(left)
+    assert min(result.places["critical_force"]) == result["weakest_force"] and result.steps.rows > 0
+    assert SKIN.solve().way_back.rows == 0
+
+
 def stopped():
     """A skin whose path stops early."""
     return SKIN.replace(max_points=2)
