@@ -51,7 +51,7 @@ impl<'a> Task<'a> {
         let grid = self.grid();
         let number = grid.number(index);
         let solve = || self.evaluator.solve_metered(number, &grid.case(index), self.work);
-        let solved = self.work.told(&number.to_string(), solve);
+        let solved = self.work.told(&format!("design {number}"), solve);
         let mut result = solved.row.result;
         result.settings.clone_from(&self.settings);
         let at = self.clock.elapsed();
