@@ -144,7 +144,7 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
-        let mut result = evaluator.solve(self.number(0), case).row.result;
+        let mut result = evaluator.row(self.number(0), case).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);

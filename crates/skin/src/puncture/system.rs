@@ -145,6 +145,8 @@ pub(crate) struct Chain {
     /// Numbers of the constraints that only grow.
     growing: Vec<usize>,
     pub(super) controls: Vec<Control>,
+    /// [`Common::whole_path`](crate::Common::whole_path).
+    pub(super) whole_path: bool,
     /// Blocks of the tangent, where scales feel their nearest neighbours alone.
     blocks: Option<Blocks>,
     units: Vec<f64>,
@@ -216,6 +218,7 @@ impl Chain {
             needle,
             constraints,
             controls,
+            whole_path: true,
             units: layout.units(direct),
         }
     }
