@@ -240,8 +240,7 @@ impl Newton {
 
     /// The direction along which the left-hand side of the condition grows by 1.
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
-        let mut direction = vec![0.0; system.size()];
-        self.solver.solve_unit(system.load(), &mut direction);
+        let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {
             let growth = condition.of(&direction);
             for x in &mut direction {
