@@ -157,6 +157,7 @@ impl BlockMatrix {
     }
 
     /// The part in which an entry stands; row and column by their places.
+    #[inline]
     fn part(&self, row: usize, column: usize) -> Part {
         debug_assert!(
             self.is_coupled(row, column),
@@ -173,6 +174,7 @@ impl BlockMatrix {
     }
 
     /// Where an entry stands among the values; row and column by their places.
+    #[inline]
     fn index(&self, row: usize, column: usize) -> usize {
         match self.part(row, column) {
             Part::Within => self.within[row].wrapping_add(column),

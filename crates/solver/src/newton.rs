@@ -192,14 +192,16 @@ impl Newton {
         guards
     }
 
-    /// Replaces `slopes` by how fast the guards change along a direction.
+    /// Replaces `guards` by those of a state, and `slopes` by how fast they change along a direction.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,
         direction: &[f64],
+        guards: &mut Vec<f64>,
         slopes: &mut Vec<f64>,
     ) {
-        system.condition_slopes(state, direction, slopes);
+        system.condition_slopes(state, direction, guards, slopes);
+        replace_active(system, state, &state.z, guards);
         replace_active(system, state, direction, slopes);
     }
 

@@ -442,9 +442,16 @@ impl System for Chain {
         }
     }
 
-    fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
-        self.contacts.condition_slopes(state, direction, slopes);
+    fn condition_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        values: &mut Vec<f64>,
+        slopes: &mut Vec<f64>,
+    ) {
+        self.contacts.condition_slopes(state, direction, values, slopes);
         if let Some(needle) = &self.needle {
+            self.needle_conditions(needle, state, values);
             self.needle_slopes(needle, state, direction, slopes);
         }
     }
