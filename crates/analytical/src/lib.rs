@@ -8,6 +8,7 @@
 //! | [`elastica`] | the inextensible cantilever under a transverse tip load, by elliptic integrals, and a strip rolled up |
 //! | [`frames`] | limit loads of a toggle and of Lee's frame |
 //! | [`half_space`] | rigid rectangles and point loads on an elastic half-space |
+//! | [`rotating_plates`] | the bending of a beam with thin plates on torsional roots, which rub |
 //! | [`strips`] | rigid strips on a half-plane: the limit of long rectangles |
 //! | [`isolated_scale`] | the puncture of a scale without neighbours |
 //! | [`linear_chain`] | a row of scales coupled by the substrate, before the first contact |
@@ -26,5 +27,6 @@ pub mod frames;
 pub mod half_space;
 pub mod isolated_scale;
 pub mod linear_chain;
+pub mod rotating_plates;
 pub mod strips;
 pub mod upright_blocks;

@@ -1,11 +1,10 @@
 //! A solved skin, of which Python takes what it asks for.
 
+use std::collections::HashMap;
+
 use pyo3::prelude::*;
-use results::columns::{
-    BentScale, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, PunctureEvent, SCALES, design_columns,
-    flexure_path_columns, measure_of, path_columns,
-};
-use results::{Column, DERIVATIVE_COLUMNS, DesignRow, SolvedDesign};
+use results::columns::{design_columns, measure_of};
+use results::{Column, DesignRow, PathTable, SolvedDesign, path_tables};
 
 use crate::skin::Skin;
 use crate::value::{NamedCells, PythonCell, table};
@@ -39,42 +38,13 @@ impl Solved {
         design_columns(&self.skin.get().sweep).iter().skip(1).map(value).collect()
     }
 
-    /// A table of the paths, by its name without `.csv`; one without columns of what was not solved.
-    fn table(&self, name: &str) -> Vec<NamedCells> {
-        let SolvedDesign { row, puncture, flexure } = &self.design;
-        if name == "sensitivity" {
-            let rows: Vec<_> = row.derivatives().collect();
-            return table(&DERIVATIVE_COLUMNS[1..], &rows);
-        }
-        if let Some(puncture) = puncture {
-            match name {
-                "path" => {
-                    let points = puncture.path.iter().copied();
-                    let points: Vec<_> = points.zip(puncture.instability.iter().copied()).collect();
-                    let is_guided = !puncture.measures.passage.is_none();
-                    return table(&path_columns(is_guided, puncture.rubs()), &points);
-                }
-                "events" => return table(EVENTS, &PunctureEvent::all(puncture)),
-                "scales" => return table(SCALES, &puncture.scales),
-                _ => {}
-            }
-        }
-        if let Some(flexure) = flexure {
-            match name {
-                "flexure_path" => {
-                    return table(&flexure_path_columns(flexure.rubs()), &flexure.path);
-                }
-                "flexure_events" => return table(FLEXURE_EVENTS, &flexure.events),
-                "flexure_scales" => {
-                    let last = flexure.path.len().saturating_sub(1);
-                    let shape = flexure.shape(last).unwrap_or_default();
-                    let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
-                    return table(FLEXURE_SCALES, &shape);
-                }
-                _ => {}
-            }
-        }
-        Vec::new()
+    /// The tables of the paths, by their names; none of what was not solved.
+    fn tables(&self) -> HashMap<&'static str, Vec<NamedCells>> {
+        let named = |of: PathTable| {
+            let rows: Vec<usize> = (0..of.rows).collect();
+            (of.file.trim_end_matches(".csv"), table(&of.columns, &rows))
+        };
+        path_tables(&self.design).into_iter().map(named).collect()
     }
 
     /// What failed: the measure, the reason, and what that means.

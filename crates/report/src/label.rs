@@ -71,8 +71,13 @@ pub(crate) fn label(source: &str, [x, y]: Spot, size: f64, anchor: Anchor) -> El
         Anchor::Middle => text = text.with("text-anchor", "middle"),
         Anchor::End => text = text.with("text-anchor", "end"),
     }
+    let runs = runs(source);
+    if runs.len() > 1 {
+        // Some renderers drop the spaces at the ends of every run otherwise.
+        text = text.with("xml:space", "preserve");
+    }
     let mut height = 0.0;
-    for run in runs(source) {
+    for run in runs {
         let target = f64::from(run.level) * if run.level > 0 { 0.36 } else { 0.22 } * size;
         let mut span = Element::new("tspan");
         if run.italic {
@@ -106,7 +111,7 @@ mod tests {
         let text = label("$F_{ct}^*$ x", [0.0, 0.0], 10.0, Anchor::Start).to_text();
         assert_eq!(
             text,
-            "<text x=\"0\" y=\"0\" font-size=\"10\"><tspan font-style=\"italic\">F</tspan>\
+            "<text x=\"0\" y=\"0\" font-size=\"10\" xml:space=\"preserve\"><tspan font-style=\"italic\">F</tspan>\
              <tspan font-size=\"7\" dy=\"2.2\">ct</tspan><tspan font-size=\"7\" dy=\"-5.8\">*</tspan>\
              <tspan dy=\"3.6\"> x</tspan></text>"
         );

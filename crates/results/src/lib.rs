@@ -20,7 +20,7 @@
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
 //! | [`write_measures`] | writes the measures of one design, a row each |
-//! | [`write_path_tables`] | writes the path, events, scales and iterations of one design |
+//! | [`path_tables()`], [`PathTable`], [`write_path_tables`] | the paths, events, scales and iterations of one design, in memory and as files |
 //! | [`round_off`] | which numbers are the same but for round-off, and which of them is the best |
 //! | [`Results`] | the designs of a run read back |
 //! | [`Contents`], [`VerifiedFolder`], [`Completeness`] | what a run states of its folder, and the folder once that is checked |
@@ -78,7 +78,7 @@ pub use design::sample_statistics::{
 };
 pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, Role, RunFolder};
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
-pub use path_tables::write_path_tables;
+pub use path_tables::{PathTable, path_tables, write_path_tables};
 pub use quantity::{Quantity, areal_mass};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};

@@ -5,16 +5,53 @@ use skin::puncture::{Instability, Puncture};
 use store::OutputError;
 
 use crate::columns::{
-    BentScale, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS,
-    LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
+    BentScale, Cell, Column, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES,
+    FLEXURE_STEPS, LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
 use crate::tables::csv_file::write_rows;
 use crate::tables::csv_format::CsvFormat::Plain;
 
-/// Writes the path tables of a design to `folder` and returns the names of the files: those of what
-/// was solved.
+/// A table of the paths of one design.
+pub struct PathTable {
+    /// The name of its file.
+    pub file: &'static str,
+    /// Its columns, whose rows are numbered from 0.
+    pub columns: Vec<Column<usize>>,
+    /// The number of its rows.
+    pub rows: usize,
+}
+
+impl PathTable {
+    fn new<R>(file: &'static str, columns: &[Column<R>], rows: &[R]) -> Self {
+        let filled = |column: &Column<R>| {
+            let cells: Vec<Cell> = rows.iter().map(|row| column.cell(row)).collect();
+            let cell = move |&row: &usize| cells[row].clone();
+            Column::made(column.name.clone(), column.unit, column.meaning, cell)
+        };
+        Self { file, columns: columns.iter().map(filled).collect(), rows: rows.len() }
+    }
+}
+
+/// Returns the path tables of a design: those of what was solved.
+pub fn path_tables(solved: &SolvedDesign) -> Vec<PathTable> {
+    let SolvedDesign { row, puncture, flexure } = solved;
+    let mut tables = Vec::new();
+    if let Some(puncture) = puncture {
+        tables.extend(of_puncture(puncture));
+    }
+    if let Some(flexure) = flexure {
+        tables.extend(of_flexure(flexure));
+    }
+    if !row.result.sensitivity.is_empty() {
+        let rows: Vec<_> = row.derivatives().collect();
+        tables.push(PathTable::new(RunFolder::SENSITIVITY, DERIVATIVE_COLUMNS, &rows));
+    }
+    tables
+}
+
+/// Writes the path tables of a design to `folder` and returns the names of the files.
 ///
 /// # Errors
 /// If the folder or the disk does not take them.
@@ -22,73 +59,48 @@ pub fn write_path_tables(
     folder: &RunFolder,
     solved: &SolvedDesign,
 ) -> Result<Vec<&'static str>, OutputError> {
-    let mut files = Vec::new();
-    if let Some(puncture) = &solved.puncture {
-        files.extend(write_puncture(folder, puncture)?);
-    }
-    if let Some(flexure) = &solved.flexure {
-        files.extend(write_flexure(folder, flexure)?);
-    }
-    files.extend(write_ways_back(folder, solved)?);
-    if let Some(puncture) = solved.puncture.as_ref().filter(|solved| !solved.places.is_empty()) {
-        write_rows(folder, RunFolder::PLACES, Plain, LOADED_PLACES, &puncture.places)?;
-        files.push(RunFolder::PLACES);
-    }
-    if !solved.row.result.sensitivity.is_empty() {
-        let (name, rows) = (RunFolder::SENSITIVITY, solved.row.derivatives());
-        write_rows(folder, name, Plain, DERIVATIVE_COLUMNS, rows)?;
-        files.push(name);
-    }
-    Ok(files)
+    let write = |PathTable { file, columns, rows }: PathTable| {
+        write_rows(folder, file, Plain, &columns, 0..rows).map(|_| file)
+    };
+    path_tables(solved).into_iter().map(write).collect()
 }
 
-/// Writes the ways back of a design that was unloaded, in the columns of its paths.
-fn write_ways_back(
-    folder: &RunFolder,
-    solved: &SolvedDesign,
-) -> Result<Vec<&'static str>, OutputError> {
-    let [puncture, flexure] = RunFolder::WAY_BACK;
-    let mut files = Vec::new();
-    if let Some(solved) = &solved.puncture
-        && let Some(back) = &solved.way_back
-    {
-        let mut columns = path_columns(!solved.measures.passage.is_none(), solved.rubs());
+fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
+    let [path, events, scales, steps] = RunFolder::PUNCTURE;
+    let mut columns = path_columns(!puncture.measures.passage.is_none(), puncture.rubs());
+    let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
+    let mut tables = vec![
+        PathTable::new(path, &columns, &points.collect::<Vec<_>>()),
+        PathTable::new(events, EVENTS, &PunctureEvent::all(puncture)),
+        PathTable::new(scales, SCALES, &puncture.scales),
+        PathTable::new(steps, STEPS, &puncture.history),
+    ];
+    if let Some(back) = &puncture.way_back {
         // Nothing is known of the stability of a row whose load is taken away.
         columns.retain(|column| !column.name.starts_with("unstable"));
         let points = back.path.iter().map(|&point| (point, Instability::default()));
-        write_rows(folder, puncture, Plain, &columns, points.collect::<Vec<_>>())?;
-        files.push(puncture);
+        let points: Vec<_> = points.collect();
+        tables.push(PathTable::new(RunFolder::WAY_BACK[0], &columns, &points));
     }
-    if let Some(solved) = &solved.flexure
-        && let Some(back) = &solved.way_back
-    {
-        write_rows(folder, flexure, Plain, &flexure_path_columns(solved.rubs()), &back.path)?;
-        files.push(flexure);
+    if !puncture.places.is_empty() {
+        tables.push(PathTable::new(RunFolder::PLACES, LOADED_PLACES, &puncture.places));
     }
-    Ok(files)
+    tables
 }
 
-fn write_puncture(
-    folder: &RunFolder,
-    puncture: &Puncture,
-) -> Result<[&'static str; 4], OutputError> {
-    let [path, events, scales, steps] = RunFolder::PUNCTURE;
-    let points = puncture.path.iter().copied().zip(puncture.instability.iter().copied());
-    let columns = path_columns(!puncture.measures.passage.is_none(), puncture.rubs());
-    write_rows(folder, path, Plain, &columns, points.collect::<Vec<_>>())?;
-    write_rows(folder, events, Plain, EVENTS, PunctureEvent::all(puncture))?;
-    write_rows(folder, scales, Plain, SCALES, &puncture.scales)?;
-    write_rows(folder, steps, Plain, STEPS, &puncture.history)?;
-    Ok(RunFolder::PUNCTURE)
-}
-
-fn write_flexure(folder: &RunFolder, flexure: &Flexure) -> Result<[&'static str; 4], OutputError> {
+fn of_flexure(flexure: &Flexure) -> Vec<PathTable> {
     let [path, events, scales, steps] = RunFolder::FLEXURE;
+    let columns = flexure_path_columns(flexure.rubs());
     let shape = flexure.shape(flexure.path.len().saturating_sub(1)).unwrap_or_default();
     let shape: Vec<BentScale> = shape.into_iter().enumerate().collect();
-    write_rows(folder, path, Plain, &flexure_path_columns(flexure.rubs()), &flexure.path)?;
-    write_rows(folder, events, Plain, FLEXURE_EVENTS, &flexure.events)?;
-    write_rows(folder, scales, Plain, FLEXURE_SCALES, &shape)?;
-    write_rows(folder, steps, Plain, FLEXURE_STEPS, &flexure.history)?;
-    Ok(RunFolder::FLEXURE)
+    let mut tables = vec![
+        PathTable::new(path, &columns, &flexure.path),
+        PathTable::new(events, FLEXURE_EVENTS, &flexure.events),
+        PathTable::new(scales, FLEXURE_SCALES, &shape),
+        PathTable::new(steps, FLEXURE_STEPS, &flexure.history),
+    ];
+    if let Some(back) = &flexure.way_back {
+        tables.push(PathTable::new(RunFolder::WAY_BACK[1], &columns, &back.path));
+    }
+    tables
 }

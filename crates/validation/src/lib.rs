@@ -17,6 +17,7 @@
 //! | [`GapCount`] | the claims on the most compliant designs, for strips with the same number of gaps |
 //! | [`Sensitivity`], [`Headlines`], [`ChoiceEffects`], [`ChoiceEffect`] | the dependence of the main results on the open choices |
 //! | [`Soundness`] | folds of the surface, and the claims on a substrate that cannot fold |
+//! | [`UnderNeedle`] | the claims under a needle that is guided |
 //! | [`SettingSearch`], [`ScoredSetting`] | combinations of open choices, by the number of claims that they reproduce |
 //! | [`Validation`], [`PartProgress`] | all parts, one after the other, and the page in Markdown |
 //!
@@ -37,6 +38,7 @@ mod search;
 mod sensitivity;
 mod soundness;
 mod study;
+mod under_needle;
 
 use sweep::Sweep;
 
@@ -49,11 +51,22 @@ pub use search::{ScoredSetting, SettingSearch};
 pub use sensitivity::{ChoiceEffect, ChoiceEffects, Headlines, Sensitivity};
 pub use soundness::Soundness;
 use study::Study;
+pub use under_needle::UnderNeedle;
 
 /// The sweeps on which claims are checked: the paper's 720 designs with either meaning of the length.
-const SWEEPS: [(&str, &str); 2] = [
-    ("paper sweep, base L", "name = \"paper\""),
-    ("paper sweep, base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
+const BASES: [(&str, &str); 2] = [
+    ("base L", "name = \"paper\""),
+    ("base 2L", "name = \"paper-as-written\"\nscale.base = \"2L\""),
+];
+
+/// What these sweeps are solved with: the choices of the paper, and others beside which its claims are seen.
+const MODELS: [(&str, &str); 3] = [
+    ("paper sweep", ""),
+    ("neo-Hookean substrate", "substrate.law = \"neo-hookean\""),
+    (
+        "guided needle",
+        "puncture.needle = \"guided\"\npuncture.needle_friction = 0.3\npuncture.load_inset_over_t = 0.05",
+    ),
 ];
 
 /// The results of all parts of the validation.
@@ -65,6 +78,8 @@ pub struct Validation {
     pub claims: Vec<CheckedClaim>,
     /// Where the model holds, and the claims on a substrate that cannot fold.
     pub soundness: Soundness,
+    /// The claims under a needle that is guided.
+    pub needle: UnderNeedle,
     /// The best designs between the points of the grid, if they were searched for.
     pub between: Option<BetweenPoints>,
     /// The claims on the most compliant designs, for strips with the same number of gaps in every design.
@@ -73,6 +88,18 @@ pub struct Validation {
     pub sensitivity: Vec<Sensitivity>,
     /// The effects on the measures of the paper's simplified coupling through the substrate, and of friction between scales.
     pub effects: ChoiceEffects,
+}
+
+/// Solves the sweeps of the claims with one of the models; `begin` is called with the name of each.
+fn studies(
+    (model, choice): (&str, &str),
+    mut begin: impl FnMut(&str),
+) -> Result<[Study; 2], ValidationError> {
+    let [paper, as_written] = BASES.map(|(base, text)| {
+        begin(&format!("{model}, {base}"));
+        Study::run(Sweep::parse(&format!("{text}\n{choice}"), "paper", &[])?)
+    });
+    Ok([paper?, as_written?])
 }
 
 /// The part of a validation that begins now.
@@ -96,8 +123,9 @@ impl Validation {
         mut progress: impl FnMut(PartProgress<'_>),
     ) -> Result<Self, ValidationError> {
         let settings = sensitivity::settings()?;
-        // Benchmarks, two sweeps on two substrates, claims, searches, strips of equal gaps, and a part for each setting.
-        let parts = 3 + usize::from(searches) + 2 * SWEEPS.len() + settings.len();
+        // Benchmarks, claims, strips of equal gaps, searches, and a part for each sweep and for each setting.
+        let sweeps = MODELS.len() * BASES.len();
+        let parts = 3 + usize::from(searches) + sweeps + settings.len();
         let mut done = 0;
         let mut begin = |part: &str| {
             progress(PartProgress { done, parts, part });
@@ -105,26 +133,32 @@ impl Validation {
         };
         begin("benchmarks");
         let benchmarks = benchmarks()?;
-        let [paper, as_written] = SWEEPS.map(|(part, text)| {
-            begin(part);
-            Study::run(Sweep::parse(text, "paper", &[])?)
-        });
-        let (paper, as_written) = (paper?, as_written?);
-        let [other_paper, other_as_written] = soundness::neo_hookean_studies(&mut begin)?;
+        let [paper, neo_hookean, guided] = MODELS.map(|model| studies(model, &mut begin));
+        let (paper, neo_hookean, guided) = (paper?, neo_hookean?, guided?);
         begin("claims");
-        let (linear, neo_hookean) = ([&paper, &as_written], [&other_paper, &other_as_written]);
-        let (claims, others) = (claims::check(linear)?, claims::check(neo_hookean)?);
-        let soundness = Soundness::of(linear, neo_hookean, [&claims, &others]);
+        let [claims, on_neo_hookean, under_needle] =
+            [&paper, &neo_hookean, &guided].map(claims::check);
+        let claims = claims?;
+        let soundness = Soundness::of(&paper, &neo_hookean, [&claims, &on_neo_hookean?]);
+        let needle = UnderNeedle::of(&claims, &under_needle?);
         let between = searches.then(|| {
             begin("between the grid points");
-            BetweenPoints::of(&paper)
+            BetweenPoints::of(&paper[0])
         });
         let between = between.transpose()?;
         begin("strips of equal gaps");
         let gap_counts = GapCount::all()?;
-        let (sensitivity, effects) =
-            sensitivity::sensitivity(settings, &[paper, as_written], begin)?;
-        Ok(Self { benchmarks, claims, soundness, between, gap_counts, sensitivity, effects })
+        let (sensitivity, effects) = sensitivity::sensitivity(settings, &paper, begin)?;
+        Ok(Self {
+            benchmarks,
+            claims,
+            soundness,
+            needle,
+            between,
+            gap_counts,
+            sensitivity,
+            effects,
+        })
     }
 
     /// Returns whether every benchmark lies within its band.

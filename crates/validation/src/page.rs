@@ -27,6 +27,7 @@ impl Validation {
             ("friction", lines(&self.effects.friction, ChoiceEffect::row)),
         ];
         parts.extend(self.soundness.parts());
+        parts.extend(self.needle.parts());
         let mut page = PAGE.to_owned();
         match &self.between {
             Some(between) => parts.extend(between.parts()),
@@ -115,7 +116,33 @@ impl CheckedClaim {
     }
 }
 
+impl CheckedClaim {
+    /// Returns the rows of those statements that are `shown`, beside what the `other` check of the claim finds: with the base `L`, then
+    /// with `2L`.
+    pub(crate) fn rows_beside(
+        &self,
+        other: &Self,
+        shown: impl Fn(&CheckedStatement, &CheckedStatement) -> bool,
+    ) -> Vec<String> {
+        let pairs = self.statements.iter().zip(&other.statements);
+        let row = |(ours, theirs): (&CheckedStatement, &CheckedStatement)| {
+            let says = if ours.says.is_empty() { &self.claim.claim } else { &ours.says };
+            let found =
+                ours.found.iter().zip(&theirs.found).flat_map(|(ours, theirs)| [ours, theirs]);
+            let cells: Vec<_> =
+                found.map(|found| format!("{}: {}", found.verdict, found.ours)).collect();
+            format!("| {}: {says} | {} |", self.claim.id, cells.join(" | "))
+        };
+        pairs.filter(|(ours, theirs)| shown(ours, theirs)).map(row).collect()
+    }
+}
+
 impl CheckedStatement {
+    /// Returns whether another check of the statement has other verdicts.
+    pub(crate) fn turns(&self, other: &Self) -> bool {
+        self.found.iter().zip(&other.found).any(|(ours, theirs)| ours.verdict != theirs.verdict)
+    }
+
     fn cells(&self) -> String {
         let [paper, as_written] = [0, 1]
             .map(|base| format!("{}: {}", marked(self.found[base].verdict), self.found[base].ours));

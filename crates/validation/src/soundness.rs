@@ -1,20 +1,8 @@
 //! Where the model holds: folds of the surface, and what a substrate that cannot fold makes of the claims.
 
-use sweep::Sweep;
-
-use crate::ValidationError;
-use crate::claims::{CheckedClaim, DesignValue, Finding, digits, named};
+use crate::claims::{CheckedClaim, DesignValue, digits, named};
 use crate::page::lines;
 use crate::study::{MeasuredDesign, Study};
-
-/// The sweeps of the claims, on a substrate that cannot fold.
-pub(crate) const NEO_HOOKEAN: [(&str, &str); 2] = [
-    ("neo-Hookean substrate, base L", "name = \"paper\"\nsubstrate.law = \"neo-hookean\""),
-    (
-        "neo-Hookean substrate, base 2L",
-        "name = \"paper-as-written\"\nscale.base = \"2L\"\nsubstrate.law = \"neo-hookean\"",
-    ),
-];
 
 /// Claims that rest on the strongest and steepest designs.
 const CONCERNED: [&str; 6] = ["C12", "C13", "C15", "C18", "C27", "C28"];
@@ -27,8 +15,8 @@ const STRONGEST: usize = 60;
 pub struct Soundness {
     /// The text of the page in a row: what is counted, and with a base of `L` and `2L`, linear and neo-Hookean in turn.
     rows: Vec<[String; 5]>,
-    /// The statements of the claims concerned, likewise.
-    claims: Vec<[String; 5]>,
+    /// Likewise the statements of the claims concerned, as rows of their table.
+    claims: Vec<String>,
     /// Other claims whose verdict the law changes.
     turned: Vec<String>,
 }
@@ -37,8 +25,8 @@ impl Soundness {
     /// Compares studies on a linear substrate with those on a neo-Hookean one, in each with a base of `L` and of `2L`; `claims` are those
     /// of either.
     pub(crate) fn of(
-        linear: [&Study; 2],
-        neo_hookean: [&Study; 2],
+        linear: &[Study; 2],
+        neo_hookean: &[Study; 2],
         claims: [&[CheckedClaim]; 2],
     ) -> Self {
         let is_concerned = |claim: &&CheckedClaim| CONCERNED.contains(&claim.claim.id.as_str());
@@ -48,7 +36,9 @@ impl Soundness {
             .filter(|(claim, other)| !is_concerned(claim) && claim.verdicts != other.verdicts);
         Self {
             rows: rows(linear, neo_hookean),
-            claims: concerned.flat_map(|(claim, other)| statements(claim, other)).collect(),
+            claims: concerned
+                .flat_map(|(claim, other)| claim.rows_beside(other, |_, _| true))
+                .collect(),
             turned: turned.map(|(claim, _)| claim.claim.id.clone()).collect(),
         }
     }
@@ -62,33 +52,15 @@ impl Soundness {
         };
         [
             ("folds", lines(&self.rows, row)),
-            ("claims on folds", lines(&self.claims, row)),
+            ("claims on folds", lines(&self.claims, String::clone)),
             ("other claims", turned),
         ]
     }
 }
 
-/// Returns the rows of the statements of a claim, checked on a linear substrate and on the `other` one.
-fn statements(claim: &CheckedClaim, other: &CheckedClaim) -> Vec<[String; 5]> {
-    let cell = |finding: &Finding| format!("{}: {}", finding.verdict, finding.ours);
-    let row = |(ours, theirs): (&crate::CheckedStatement, &crate::CheckedStatement)| {
-        let says = if ours.says.is_empty() { &claim.claim.claim } else { &ours.says };
-        let [paper, as_written] = &ours.found;
-        let [other_paper, other_as_written] = &theirs.found;
-        [
-            format!("{}: {says}", claim.claim.id),
-            cell(paper),
-            cell(other_paper),
-            cell(as_written),
-            cell(other_as_written),
-        ]
-    };
-    claim.statements.iter().zip(&other.statements).map(row).collect()
-}
-
 /// Returns what is counted of each study.
-fn rows(linear: [&Study; 2], neo_hookean: [&Study; 2]) -> Vec<[String; 5]> {
-    let studies = [linear[0], neo_hookean[0], linear[1], neo_hookean[1]];
+fn rows(linear: &[Study; 2], neo_hookean: &[Study; 2]) -> Vec<[String; 5]> {
+    let studies = [&linear[0], &neo_hookean[0], &linear[1], &neo_hookean[1]];
     let of_each = |what: &str, count: fn(&Study) -> String| {
         let [a, b, c, d] = studies.map(count);
         [what.to_owned(), a, b, c, d]
@@ -114,7 +86,7 @@ fn rows(linear: [&Study; 2], neo_hookean: [&Study; 2]) -> Vec<[String; 5]> {
         of_each("largest force before a fold", |study| largest(study, |d| d.sound_force)),
     ];
     for (what, folded) in [("that fold", true), ("that do not", false)] {
-        let changes = [0, 1].map(|base| changes(linear[base], neo_hookean[base], folded));
+        let changes = [0, 1].map(|base| changes(&linear[base], &neo_hookean[base], folded));
         let [paper, as_written] = changes;
         let what = format!(
             "`F_c*` against linear springs, of designs {what} there: smallest, median, largest"
@@ -162,20 +134,6 @@ fn spread(values: impl IntoIterator<Item = f64>, format: impl Fn(f64) -> String)
     places.dedup();
     let shown = places.into_iter().filter_map(|place| values.get(place).copied().map(&format));
     shown.collect::<Vec<_>>().join(", ")
-}
-
-/// Solves the sweeps of the claims on a substrate that cannot fold; `begin` is called with the name of each.
-///
-/// # Errors
-/// If the temporary folder cannot be written.
-pub(crate) fn neo_hookean_studies(
-    mut begin: impl FnMut(&str),
-) -> Result<[Study; 2], ValidationError> {
-    let [paper, as_written] = NEO_HOOKEAN.map(|(part, text)| {
-        begin(part);
-        Study::run(Sweep::parse(text, "paper", &[])?)
-    });
-    Ok([paper?, as_written?])
 }
 
 #[cfg(test)]

@@ -67,9 +67,14 @@ class Result:
     path: Table
     events: Table
     scales: Table
+    steps: Table
+    way_back: Table
+    places: Table
     flexure_path: Table
     flexure_events: Table
     flexure_scales: Table
+    flexure_steps: Table
+    flexure_way_back: Table
     sensitivity: Table
     @property
     def values(self) -> dict[str, float | int | str | None]: ...

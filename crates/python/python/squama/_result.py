@@ -6,7 +6,10 @@ from html import escape
 from ._errors import Failed
 from ._table import Table, find
 
-_TABLES = ("path", "events", "scales", "flexure_path", "flexure_events", "flexure_scales", "sensitivity")
+_TABLES = (
+    *("path", "events", "scales", "steps", "way_back", "places"),
+    *("flexure_path", "flexure_events", "flexure_scales", "flexure_steps", "flexure_way_back", "sensitivity"),
+)
 
 
 class Result:
@@ -23,7 +26,11 @@ class Result:
     ``path``            puncture: displacement, force, tilt … at every equilibrium, as a `Table`
     ``events``          puncture: contacts that open, close and slide, folds and snaps
     ``scales``          puncture: displacement and rotation of every scale at the end
-    ``flexure_path``    bending: curvature, moment, stiffness …; ``flexure_events``, ``flexure_scales`` as above
+    ``steps``           puncture: Newton iterations
+    ``way_back``        puncture: the path back to no load, if ``puncture.unload`` asks for it
+    ``places``          puncture: the force at every place of the load, if ``puncture.places`` asks for several
+    ``flexure_path``    bending: curvature, moment, stiffness …; ``flexure_events``, ``flexure_scales``,
+                        ``flexure_steps``, ``flexure_way_back`` as above
     ``sensitivity``     derivatives of every measure, if ``measures`` has ``"sensitivity"``
     ==================  ==========================================================================================
     """
@@ -32,6 +39,10 @@ class Result:
         self.skin, self._solved = skin, solved
 
     # Everything is taken from the solver when it is asked for first; what is pickled is all of it.
+    @cached_property
+    def _tables(self):
+        return self._solved.tables()
+
     @cached_property
     def _values(self):
         return self._solved.values()
@@ -82,7 +93,7 @@ class Result:
             return default
 
     def __getstate__(self):
-        for name in ("_values", "_failures", *_TABLES):
+        for name in ("_values", "_failures", "_tables"):
             getattr(self, name)
         return {**self.__dict__, "_solved": None}
 
@@ -104,20 +115,23 @@ class Result:
         """Draws force against displacement and, if it was solved, moment against curvature; returns the axes."""
         import matplotlib.pyplot as plt
 
-        curves = [(self.path, "displacement", "force", self.events), (self.flexure_path, "curvature", "moment", self.flexure_events)]
-        curves = [curve for curve in curves if len(curve[0])]
+        puncture = (self.path, self.way_back, "displacement", "force", self.events)
+        bending = (self.flexure_path, self.flexure_way_back, "curvature", "moment", self.flexure_events)
+        curves = [curve for curve in (puncture, bending) if len(curve[0])]
         if axes is None:
             _, axes = plt.subplots(1, len(curves), squeeze=False, figsize=(5 * len(curves), 3.6), layout="constrained")
             axes = axes[0]
-        for ax, (path, x, y, events) in zip(axes, curves):
-            ax.plot(path[x], path[y])
+        for ax, (path, back, x, y, events) in zip(axes, curves):
+            (line,) = ax.plot(path[x], path[y])
+            if len(back):
+                ax.plot(back[x], back[y], "--", color=line.get_color())
             ax.plot(events[x], events[y], "o", markersize=3)
             ax.set(xlabel=f"{x} ({path.units[x]})", ylabel=f"{y} ({path.units[y]})")
         return axes
 
 
 def _table(name):
-    table = cached_property(lambda self: Table(self._solved.table(name)))
+    table = cached_property(lambda self: Table(self._tables.get(name, [])))
     table.__set_name__(Result, name)
     return table
 

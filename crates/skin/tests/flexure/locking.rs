@@ -1,0 +1,44 @@
+//! Strips that friction locks, beside a beam with plates on torsional roots ([`analytical::rotating_plates`]).
+
+use analytical::rotating_plates;
+use skin::flexure::{FlexureParameters, solve};
+use skin::{Base, Common};
+
+use crate::samples::design;
+
+/// Rising frictions, from smooth plastic on.
+const FRICTIONS: [f64; 8] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.5];
+
+/// The trend that both models share: with more friction a lock comes earlier, up to a friction from which on scales lock
+/// where they touch.
+#[track_caller]
+fn locks_earlier(locks: &[Option<f64>], touch: f64) {
+    let found: Vec<f64> = locks.iter().copied().skip_while(Option::is_none).flatten().collect();
+    assert!(found.len() > 2, "{locks:?}");
+    assert!(found.is_sorted_by(|before, after| after <= before), "{found:?}");
+    let sliding = found.iter().take_while(|lock| **lock > touch * (1.0 + 1e-9)).count();
+    assert!(sliding > 0 && sliding < found.len(), "{found:?} {touch}");
+    assert!(found[sliding..].iter().all(|lock| (lock / touch - 1.0).abs() < 1e-9), "{found:?}");
+}
+
+#[test]
+fn with_more_friction_a_strip_locks_earlier_and_at_last_where_it_touches() {
+    for (length, slant) in [(0.3, 75.0), (1.0, 45.0), (1.0, 60.0), (1.0, 75.0)] {
+        let strips = FRICTIONS.map(|friction| {
+            let common = Common { friction, ..Common::default() };
+            let strip =
+                solve(&design(0.1, length, slant, Base::L), &common, &FlexureParameters::default());
+            strip.expect("a strip").measures
+        });
+        let touch = strips[0].first_contact_curvature.expect("contact");
+        locks_earlier(&strips.map(|strip| strip.locking_curvature), touch);
+    }
+}
+
+#[test]
+fn so_do_plates_on_torsional_roots() {
+    let plates =
+        [0.5, 1.0, 2.0, 4.0].map(|friction| rotating_plates::engagement(5.0, 0.8, friction));
+    let touch = plates[0].expect("plates that touch").touch;
+    locks_earlier(&plates.map(|plates| plates.map(|plates| plates.lock)), touch);
+}
