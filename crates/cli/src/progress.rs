@@ -89,12 +89,20 @@ impl Watched for SearchMeter {
         let left = left(share, elapsed);
         (share, format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs()))
     }
+
+    fn news(&self) -> Vec<String> {
+        self.slow().take_slow()
+    }
 }
 
 impl Watched for WorkMeter {
     fn look(&self, elapsed: Duration) -> (f64, String) {
         let share = self.share();
         (share, format!("{:.0} %{}", 100.0 * share, left(share, elapsed)))
+    }
+
+    fn news(&self) -> Vec<String> {
+        self.take_slow()
     }
 }
 

@@ -72,13 +72,21 @@ pub(crate) fn of_perfect(designs: &Designs) -> &'static str {
 
 /// Returns the column of a measure in newtons or millimetres, if the table has one.
 pub(crate) fn physical(designs: &Designs, measure: &str) -> Option<String> {
-    let is_same = |name: &&String| {
+    physical_of(designs.headers().iter().map(String::as_str), measure).map(str::to_owned)
+}
+
+/// Returns the one of the columns that has a measure in newtons or millimetres.
+pub(crate) fn physical_of<'h>(
+    headers: impl IntoIterator<Item = &'h str>,
+    measure: &str,
+) -> Option<&'h str> {
+    let is_same = |name: &&str| {
         let source = physical_source(name);
         // What is divided by a width or inverted is another quantity.
         let plain = |quantity| matches!(quantity, Force | Length | Stiffness | Moment);
         source.is_some_and(|(of, quantity)| of == measure && plain(quantity))
     };
-    designs.headers().iter().find(is_same).cloned()
+    headers.into_iter().find(is_same)
 }
 
 /// Parts into which figures are divided, at most.

@@ -138,9 +138,10 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// As [`write()`], by the path of the file.
+/// As [`write()`], by the path of the file, whose folder is rid of what killed processes have left half-written there.
 pub fn write_file(file: &Path, bytes: &[u8]) -> anyhow::Result<()> {
     let folder = file.parent().unwrap_or(Path::new(""));
+    results::make_folder(folder)?;
     write(folder, &file.file_name().unwrap_or_default().to_string_lossy(), bytes)
 }
 

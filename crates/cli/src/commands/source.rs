@@ -71,6 +71,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let record = path.join(RunFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
+        VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
     let holds = |table: &str| path.join(table).is_file();

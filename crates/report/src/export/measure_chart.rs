@@ -5,6 +5,8 @@ use rust_xlsxwriter::{Chart, ChartMarker, ChartMarkerType, ColNum, RowNum, Works
 
 use results::{CsvFormat, MEASURE_TABLES};
 
+use crate::figures::physical_of;
+
 /// The columns that may be along the axis of a chart, the first that varies.
 const ALONG: [&str; 3] = ["slant_deg", "length_over_t", "gap_over_t"];
 /// The column by whose values the marks are told apart.
@@ -17,6 +19,8 @@ const SIZE: (u32, u32) = (760, 460);
 /// The chart of a table of one measure, while its rows are seen.
 #[derive(Debug)]
 pub(super) struct MeasureChart {
+    /// The column of the measure, in newtons or millimetres if there are any, and its place.
+    name: String,
     value: ColNum,
     along: Vec<AxisColumn>,
     apart: Option<usize>,
@@ -39,13 +43,15 @@ impl MeasureChart {
     pub fn new(table: &str, header: &StringRecord) -> Option<Self> {
         MEASURE_TABLES.iter().find(|(measure, _)| *measure == table)?;
         let place = |name: &str| header.iter().position(|column| column == name);
-        let value = ColNum::try_from(place(table)?).ok()?;
+        let name = physical_of(header, table).unwrap_or(table);
+        let value = ColNum::try_from(place(name)?).ok()?;
         let axis = |name: &'static str| {
             Some(AxisColumn { name, place: place(name)?, first: None, varies: false })
         };
         let along: Vec<_> = ALONG.into_iter().filter_map(axis).collect();
         let apart = place(APART);
-        (!along.is_empty()).then_some(Self {
+        (!along.is_empty()).then(|| Self {
+            name: name.to_owned(),
             value,
             along,
             apart,
@@ -89,7 +95,7 @@ impl MeasureChart {
         }
         chart.title().set_name(table.replace('_', " ").as_str());
         chart.x_axis().set_name(axis.name);
-        chart.y_axis().set_name(table);
+        chart.y_axis().set_name(&self.name);
         if self.is_positive && table != "coverage" {
             chart.y_axis().set_log_base(10);
         }

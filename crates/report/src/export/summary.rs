@@ -12,6 +12,7 @@ use sweep::{Measure, PARAMETERS, Sweep};
 use super::ExportError;
 use super::explanation::Explanation;
 use crate::facts::facts;
+use crate::figures::physical_of;
 
 /// The name of the sheet.
 const NAME: &str = "summary";
@@ -26,7 +27,7 @@ const WIDTHS: [f64; 4] = [34.0, 22.0, 26.0, 90.0];
 /// The best values of the designs, as rows of `designs.csv` pass.
 #[derive(Debug, Default)]
 pub(super) struct BestValues {
-    columns: Vec<(&'static Criterion, usize)>,
+    columns: Vec<BestColumn>,
     best: [Option<Leader<String>>; 4],
     designs: u64,
     /// Place of the force at which the surface folds over, and the designs under which it does.
@@ -34,14 +35,28 @@ pub(super) struct BestValues {
     folded: HashSet<String>,
 }
 
+/// A column whose best value is told: that of a criterion, in newtons or millimetres if there are any.
+#[derive(Debug)]
+struct BestColumn {
+    name: String,
+    place: usize,
+    goal: Goal,
+}
+
+impl BestColumn {
+    fn of(criterion: &Criterion, header: &csv::StringRecord) -> Option<Self> {
+        let name = physical_of(header, &criterion.column).unwrap_or(&criterion.column);
+        let place = header.iter().position(|column| column == name)?;
+        Some(Self { name: name.to_owned(), place, goal: criterion.goal })
+    }
+}
+
 impl BestValues {
     /// The best values of a table with this header.
     pub fn new(header: &csv::StringRecord) -> Self {
-        let place = |criterion: &'static Criterion| {
-            Some((criterion, header.iter().position(|name| name == criterion.column)?))
-        };
         let fold = header.iter().position(|name| name == "fold_force");
-        Self { fold, columns: CRITERIA.iter().filter_map(place).collect(), ..Self::default() }
+        let columns = CRITERIA.iter().filter_map(|criterion| BestColumn::of(criterion, header));
+        Self { fold, columns: columns.collect(), ..Self::default() }
     }
 
     /// What stands behind a design that is named best by a measure, if the fold touches that measure.
@@ -57,9 +72,9 @@ impl BestValues {
         if self.fold.and_then(|place| row.get(place)).is_some_and(|cell| !cell.is_empty()) {
             self.folded.insert(design.to_owned());
         }
-        for ((criterion, place), best) in self.columns.iter().zip(&mut self.best) {
-            let value = row.get(*place).and_then(|cell| format.number(cell));
-            let is_better = if criterion.goal == Goal::Maximize { f64::gt } else { f64::lt };
+        for (column, best) in self.columns.iter().zip(&mut self.best) {
+            let value = row.get(column.place).and_then(|cell| format.number(cell));
+            let is_better = if column.goal == Goal::Maximize { f64::gt } else { f64::lt };
             if let Some(value) = value {
                 Leader::enter(best, design.to_owned(), value, is_better);
             }
@@ -176,25 +191,25 @@ impl Sheet {
 
     fn best(&mut self, best: &BestValues, sweep: Option<&Sweep>) -> Result<(), XlsxError> {
         self.part(&["Best designs", "design", "value", "unit"])?;
-        for ((criterion, _), leader) in best.columns.iter().zip(&best.best) {
+        for (BestColumn { name: column, goal, .. }, leader) in best.columns.iter().zip(&best.best) {
             let Some(leader) = leader else { continue };
             let ties = match leader.ties {
                 0 => String::new(),
                 ties => format!(", and {ties} more"),
             };
-            let extreme = ["largest", "least"][usize::from(criterion.goal == Goal::Minimize)];
-            let name = format!("{extreme} {}", criterion.column.replace('_', " "));
-            if let Some(parameter) = sweep.and_then(|s| incomparable_by(s, &criterion.column)) {
+            let extreme = ["largest", "least"][usize::from(*goal == Goal::Minimize)];
+            let name = format!("{extreme} {}", column.replace('_', " "));
+            if let Some(parameter) = sweep.and_then(|s| incomparable_by(s, column)) {
                 let why =
                     format!("not told: designs of different {parameter} cannot be compared by it");
                 self.add(&[&name, "", "", &why])?;
                 continue;
             }
-            let unit = Explanation::of("designs", &criterion.column).map_or("-", |e| e.unit);
+            let unit = Explanation::of("designs", column).map_or("-", |e| e.unit);
             let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
             self.add(&[
                 &name,
-                &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, &criterion.column)),
+                &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, column)),
                 &sweep::number::text(value),
                 unit,
             ])?;
@@ -272,4 +287,25 @@ fn leading(folder: &VerifiedFolder) -> Result<Vec<[String; 3]>, ExportError> {
         })
     };
     Ok(table.records().take(LISTED).filter_map(Result::ok).map(row).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use ranking::CRITERIA;
+
+    use super::BestColumn;
+
+    #[test]
+    fn the_best_designs_are_told_in_newtons_where_there_are_any() {
+        let told = |header: &[&str]| {
+            let header = csv::StringRecord::from(header.to_vec());
+            let columns =
+                CRITERIA.iter().filter_map(|criterion| BestColumn::of(criterion, &header));
+            columns.map(|column| column.name).collect::<Vec<_>>()
+        };
+        assert_eq!(told(&["critical_force", "compliance"]), ["critical_force", "compliance"]);
+        // A force over a width is another quantity.
+        let physical = ["critical_force", "critical_force_per_width_N_mm", "critical_force_N"];
+        assert_eq!(told(&physical), ["critical_force_N"]);
+    }
 }
