@@ -147,8 +147,8 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
-        let solve = || evaluator.solve(self.number(0), case);
-        let mut result = self.meter.slow().told("a design of the search", solve).row.result;
+        let solve = || evaluator.row(self.number(0), case);
+        let mut result = self.meter.slow().told("a design of the search", solve).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);

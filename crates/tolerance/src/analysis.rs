@@ -125,7 +125,7 @@ impl<'a> Analysis<'a> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
-        let solve = || self.differentiating.solve(number, &straight).row;
+        let solve = || self.differentiating.row(number, &straight);
         let row = store.work().told(&format!("design {number}"), solve);
         let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
