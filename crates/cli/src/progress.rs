@@ -72,6 +72,14 @@ impl<W: Watched> Display<W> {
     }
 }
 
+/// Does work of so many units behind a bar. Signals end it as they end any command.
+pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
+    let meter = Arc::<WorkMeter>::default();
+    meter.begin(units as u64);
+    let display = Display::new(false, &Interrupt::default(), meter, "");
+    work(display.watched())
+}
+
 impl<W> Drop for Display<W> {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.watcher.take() {
@@ -89,12 +97,20 @@ impl Watched for SearchMeter {
         let left = left(share, elapsed);
         (share, format!("{}: {done}/{tasks}  {} designs{left}", part.words(), self.designs()))
     }
+
+    fn news(&self) -> Vec<String> {
+        self.slow().take_slow()
+    }
 }
 
 impl Watched for WorkMeter {
     fn look(&self, elapsed: Duration) -> (f64, String) {
         let share = self.share();
         (share, format!("{:.0} %{}", 100.0 * share, left(share, elapsed)))
+    }
+
+    fn news(&self) -> Vec<String> {
+        self.take_slow()
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use geometry::Corner;
 
-use crate::gap::{CornerEdge, Gap, Pair, Pose};
+use crate::gap::{CornerEdge, Gap, Meeting, Pair, Pose};
 
 /// Edges at a smaller angle than this (radians) count as parallel. Between them the force of corners that are
 /// together turns within round-off of a stiff contact, so it is handed over at once: the path skips a part of
@@ -89,6 +89,11 @@ impl<'a> Corners<'a> {
     /// The corner that faces an edge of the neighbour while the contact is open, and its gap over `t`. Of two corners
     /// that both have their foot within an edge, that of the left scale counts. `None` if neither has.
     pub fn facing(&self) -> Option<(CornerEdge, f64)> {
+        self.meeting().map(|(edge, meeting)| (edge, meeting.gap))
+    }
+
+    /// The corner of [`Self::facing`] and the edge that it faces.
+    pub(crate) fn meeting(&self) -> Option<(CornerEdge, Meeting)> {
         let (leaning, on_side) = (self.leaning(), self.level.tip_on_side());
         let edges = match self.level {
             Level::Upper => [on_side, leaning],

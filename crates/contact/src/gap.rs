@@ -229,6 +229,7 @@ impl Pair {
     /// ∂²g/∂u_A∂φ_B = n'      ∂²g/∂u_B∂φ_B = −n'
     /// ∂²g/∂φ_A² = −ρ·n       ∂²g/∂φ_A∂φ_B = ρ·n        ∂²g/∂φ_B² = −D·n            (C3)
     /// ```
+    #[inline]
     pub fn gap(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Gap {
         let meeting = self.meeting(corner_edge, left, right);
         meeting.along(corner_edge, meeting.normal, meeting.gap)
@@ -254,18 +255,19 @@ impl Pair {
         self.meeting(corner_edge, left, right).foot
     }
 
-    /// The first of `corner_edges` whose corner has its foot within the edge, and its gap.
+    /// The first of `corner_edges` whose corner has its foot within the edge.
     pub(crate) fn facing(
         &self,
         corner_edges: [CornerEdge; 2],
         [left, right]: [&Pose; 2],
-    ) -> Option<(CornerEdge, f64)> {
+    ) -> Option<(CornerEdge, Meeting)> {
         corner_edges.into_iter().find_map(|corner_edge| {
             let meeting = self.meeting(corner_edge, left, right);
-            (0.0..=1.0).contains(&meeting.foot).then_some((corner_edge, meeting.gap))
+            (0.0..=1.0).contains(&meeting.foot).then_some((corner_edge, meeting))
         })
     }
 
+    #[inline]
     fn meeting(&self, corner_edge: CornerEdge, left: &Pose, right: &Pose) -> Meeting {
         let (corner_pose, edge_pose, offset) = if corner_edge.corner_is_left() {
             (left, right, -self.pitch)
@@ -285,34 +287,49 @@ impl Pair {
 }
 
 /// A corner at an edge of the neighbour, deformed.
-struct Meeting {
+pub(crate) struct Meeting {
     arm: Vec2,
     normal: Vec2,
     to_corner: Vec2,
-    gap: f64,
+    pub(crate) gap: f64,
     foot: f64,
 }
 
 impl Meeting {
+    /// The gradient of the gap.
+    pub(crate) fn gradient(&self, corner_edge: CornerEdge) -> [f64; 6] {
+        self.gradient_along(corner_edge, self.normal)
+    }
+
+    /// The gradient of the coordinate of the corner along a direction that turns with the edge.
+    #[inline]
+    fn gradient_along(&self, corner_edge: CornerEdge, direction: Vec2) -> [f64; 6] {
+        let (of_corner, of_edge) =
+            (quarter(self.arm).dot(&direction), self.to_corner.dot(&quarter(direction)));
+        let (x, y) = (direction.x, direction.y);
+        if corner_edge.corner_is_left() {
+            [x, y, of_corner, -x, -y, of_edge]
+        } else {
+            [-x, -y, of_edge, x, y, of_corner]
+        }
+    }
+
     /// The coordinate of the corner along a direction that turns with the edge.
+    #[inline]
     fn along(&self, corner_edge: CornerEdge, direction: Vec2, value: f64) -> Gap {
         let Self { arm, to_corner, foot, .. } = *self;
         let turned = quarter(direction);
         // Coordinates of the corner's scale (A) and of the edge's scale (B) among the six.
         let (a, b) = if corner_edge.corner_is_left() { (0, 3) } else { (3, 0) };
-        let mut gradient = [0.0; 6];
         let mut hessian = [[0.0; 6]; 6];
         for axis in 0..2 {
-            gradient[a + axis] = direction[axis];
-            gradient[b + axis] = -direction[axis];
             set(&mut hessian, a + axis, b + 2, turned[axis]);
             set(&mut hessian, b + axis, b + 2, -turned[axis]);
         }
-        gradient[a + 2] = quarter(arm).dot(&direction);
-        gradient[b + 2] = to_corner.dot(&turned);
         set(&mut hessian, a + 2, a + 2, -arm.dot(&direction));
         set(&mut hessian, a + 2, b + 2, arm.dot(&direction));
         set(&mut hessian, b + 2, b + 2, -to_corner.dot(&direction));
+        let gradient = self.gradient_along(corner_edge, direction);
         Gap { value, gradient, hessian, foot, normal: direction }
     }
 }

@@ -122,9 +122,13 @@ impl CornerResponse {
             by_coordinate: gap.gradient,
             by_force: [approach.slope, 0.0, approach.slope],
         };
-        let mut response = Self { conditions: [Some(own), None, None], ..Self::default() };
-        response.add_force(Force::Own, &gap, forces);
-        response
+        let force = forces[Force::Own as usize];
+        let balance = std::array::from_fn(|i| Equation {
+            value: -force * gap.gradient[i],
+            by_coordinate: gap.hessian[i].map(|hessian| -force * hessian),
+            by_force: [-gap.gradient[i], 0.0, 0.0],
+        });
+        Self { balance, conditions: [Some(own), None, None] }
     }
 
     /// Adds to the balance what one of the forces, which acts along a gap, does.
@@ -142,8 +146,8 @@ impl CornerResponse {
 
 /// The gap of an open contact; `None` if no corner faces an edge.
 fn open_condition(corners: &Corners) -> Option<Equation> {
-    let (edge, value) = corners.facing()?;
-    let by_coordinate = corners.gap(edge).gradient;
+    let (edge, meeting) = corners.meeting()?;
+    let (value, by_coordinate) = (meeting.gap, meeting.gradient(edge));
     Some(Equation { value, by_coordinate, ..Equation::default() })
 }
 

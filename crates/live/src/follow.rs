@@ -51,7 +51,7 @@ pub(crate) fn follow(
     let look = |value: f64| -> Result<Look, String> {
         let case = put(case, &walk.key, &Setting::Number(value))?;
         let sweep = sweep.at(&case);
-        let values = values(&sweep, &evaluator.solve(sweep.grid().number(0), &case).row);
+        let values = values(&sweep, &evaluator.row(sweep.grid().number(0), &case));
         let sign = if plain_goal(&walk.measure) == Some(Goal::Minimize) { -1.0 } else { 1.0 };
         Ok(Look {
             worth: Value::number(&values, &walk.measure).map(|value| sign * value),

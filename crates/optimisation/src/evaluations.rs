@@ -15,6 +15,7 @@ use tolerance::Sampler;
 
 use crate::error::OptimisationError;
 use crate::goal::DesignGoal;
+use crate::meter::SearchMeter;
 use crate::sample::{SampleJudge, Samples};
 use crate::space::{DesignSpace, Interval, SpacePoint};
 use journal::{EvaluationKey, JournalLine, Known, PointKey, SamplesLine, SolvedLine};
@@ -41,6 +42,7 @@ pub(crate) struct Evaluations<'a> {
     sampler: Sampler,
     journal: Mutex<Journal<Known>>,
     stop: &'a AtomicBool,
+    meter: &'a SearchMeter,
 }
 
 impl<'a> Evaluations<'a> {
@@ -50,7 +52,7 @@ impl<'a> Evaluations<'a> {
         folder: &Path,
         start: run::Start,
         program: &Program,
-        stop: &'a AtomicBool,
+        (stop, meter): (&'a AtomicBool, &'a SearchMeter),
     ) -> Result<Self, OptimisationError> {
         let journal = journal::begin(folder, goal.to_toml(), program, start)?;
         let measures = goal.space.sweep().plain_measures();
@@ -62,6 +64,7 @@ impl<'a> Evaluations<'a> {
             sampler: Sampler::new(&measures, goal.space.sweep().deviations()),
             journal: Mutex::new(journal),
             stop,
+            meter,
         })
     }
 
@@ -144,7 +147,8 @@ impl<'a> Evaluations<'a> {
             return Ok(Arc::clone(known));
         }
         self.go_on()?;
-        let mut result = evaluator.solve(self.number(0), case).row.result;
+        let solve = || evaluator.row(self.number(0), case);
+        let mut result = self.meter.slow().told("a design of the search", solve).result;
         // Lengths in mm move others, over the thickness. Where material varies, a sample with another thickness or modulus moves in other parameters, too.
         let has_material = self.space.parameters().any(|p| p.section == "material");
         let is_variable = |key| self.space.parameters().any(|p| p.key == key);
@@ -181,7 +185,8 @@ impl<'a> Evaluations<'a> {
         let (case, last) = (self.space.case(point), first + count as u64);
         let values = (first..last).into_par_iter().map(|sample| {
             self.go_on()?;
-            let sampled = self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            let solve = || self.sampler.solve(self.number(0), &case, BEFORE + sample);
+            let sampled = self.meter.slow().told("a sample of the search", solve);
             Ok(sampled.map_or_else(|| judge.no_values(), |sampled| judge.values(&sampled.row)))
         });
         let values: Vec<Vec<Option<f64>>> = values.collect::<Result<_, Halt>>()?;

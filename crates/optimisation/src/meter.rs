@@ -3,6 +3,8 @@
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use run::WorkMeter;
+
 /// A part of a search.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SearchPart {
@@ -32,6 +34,7 @@ pub struct SearchMeter {
     farthest: AtomicU64,
     designs: AtomicUsize,
     starts: AtomicUsize,
+    slow: WorkMeter,
 }
 
 /// The parts of a search with the work that each is expected to be, and which of them is in hand.
@@ -86,6 +89,11 @@ impl SearchMeter {
     /// Designs that were looked at.
     pub fn designs(&self) -> usize {
         self.designs.load(Ordering::Relaxed)
+    }
+
+    /// Where designs that take long tell how far they are.
+    pub fn slow(&self) -> &WorkMeter {
+        &self.slow
     }
 
     /// Designs from which a local search began.

@@ -79,7 +79,8 @@ pub fn optimise(
     options: &SearchOptions<'_>,
     program: &Program,
 ) -> Result<Option<Found>, OptimisationError> {
-    let evaluations = Evaluations::begin(goal, folder, options.start, program, options.stop)?;
+    let watch = (options.stop, options.meter);
+    let evaluations = Evaluations::begin(goal, folder, options.start, program, watch)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build();
     let pool = pool.map_err(|error| OptimisationError::Threads {
         count: options.threads,

@@ -192,7 +192,7 @@ pub fn write_found(
         folder.write_text(name, svg)?;
         files.push(name.clone());
     }
-    claim.state()?;
+    claim.state(&files)?;
     Ok(files)
 }
 

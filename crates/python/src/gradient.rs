@@ -37,7 +37,7 @@ pub fn gradients(
     let needed = asked.iter().map(|c| measure_of(&c.name).unwrap_or(Measure::Coverage));
     let needed: BTreeSet<_> = needed.chain([Measure::Sensitivity]).collect();
     let (evaluator, number) = (evaluator(&Vec::from_iter(needed)), of.sweep.grid().number(0));
-    let row = py.detach(|| evaluator.solve(number, &of.case()).row);
+    let row = py.detach(|| evaluator.row(number, &of.case()));
     asked.into_iter().map(|column| gradient(py, column, &row, &by)).collect()
 }
 

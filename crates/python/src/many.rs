@@ -46,7 +46,7 @@ fn solve(
         let skin = skin.get();
         let number = skin.sweep.grid().number((first + k) as u64);
         let go_on = !watch.stop.load(Ordering::Relaxed);
-        let row = go_on.then(|| evaluator.solve(number, &skin.case()).row);
+        let row = go_on.then(|| evaluator.row(number, &skin.case()));
         watch.done.fetch_add(1, Ordering::Relaxed);
         row
     };

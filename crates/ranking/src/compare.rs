@@ -281,7 +281,7 @@ impl Comparison<'_> {
         let parameters: Vec<_> = self.first.parameters().collect();
         let columns = difference_columns(&parameters);
         write_rows(&folder, by_cell, format, &columns, self.differences())?;
-        claim.state()?;
+        claim.state(&RunFolder::COMPARISON)?;
         Ok(RunFolder::COMPARISON)
     }
 }

@@ -350,7 +350,7 @@ pub fn write_ranking(
         )?;
         files.splice(2..2, [winners, quaternary]);
     }
-    claim.state()?;
+    claim.state(&files)?;
     Ok(files)
 }
 
@@ -363,6 +363,6 @@ pub fn write_unmet(folder: &Path, preferences: &Preferences) -> Result<&'static 
     let folder = RunFolder::new(folder);
     let claim = Claim::take(&folder, Maker::Ranking)?;
     folder.write_text(RunFolder::PREFERENCES, &preferences.to_toml())?;
-    claim.state()?;
+    claim.state(&[RunFolder::PREFERENCES])?;
     Ok(RunFolder::PREFERENCES)
 }

@@ -161,10 +161,10 @@ impl<'s> Auditor<'s> {
 
     fn solve(&self, index: u64) -> Audited {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
-        let finer = self.evaluator.solve(number, &finer(case)).row;
+        let finer = self.evaluator.row(number, &finer(case));
         let bends = self.sweep.measures().contains(&Measure::Flexure);
         let whole = bends.then(|| whole(case)).flatten();
-        let bend = |case: Case| self.flexure.solve(number, &case).row;
+        let bend = |case: Case| self.flexure.row(number, &case);
         Audited { index, finer, chain: whole.map(|cases| cases.map(bend)) }
     }
 }

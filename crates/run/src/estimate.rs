@@ -40,7 +40,7 @@ impl Estimate {
         let (begun, mut solved, mut bytes) = (Instant::now(), 0, 0);
         // On one thread: how threads share springs and memory is not guessed, `--threads` divides what is told.
         for index in spread(grid.len()) {
-            let row = evaluator.solve(grid.number(index), &grid.case(index)).row;
+            let row = evaluator.row(grid.number(index), &grid.case(index));
             bytes += room(sweep, &row);
             solved += 1;
             if begun.elapsed() > PATIENCE {

@@ -68,7 +68,7 @@ impl GapChange {
         let solved = [1.0, PARTS[0], PARTS[1]].map(|part| {
             let mut case = case;
             case.design.gap = part * meant;
-            evaluator.solve(grid.number(index), &case).row
+            evaluator.row(grid.number(index), &case)
         });
         let known = design_columns(sweep);
         let column = |name: &&str| known.iter().find(|column| column.name == **name);

@@ -12,11 +12,14 @@ pub struct Common {
     pub friction: f64,
     /// Steps and tolerances with which paths are followed.
     pub solver: Settings,
+    /// Whether everything is noted that a table or a drawing of the path shows. Measures need neither the stretches of the gaps at
+    /// every point nor the folds behind the first.
+    pub whole_path: bool,
 }
 
 impl Default for Common {
     /// The law as Shafiei et al. (2021) print it.
     fn default() -> Self {
-        Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default() }
+        Self { law: Law::PRINTED, friction: 0.0, solver: Settings::default(), whole_path: true }
     }
 }

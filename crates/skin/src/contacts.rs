@@ -234,22 +234,28 @@ impl Contacts {
         self.friction_conditions(state, values);
     }
 
-    /// Replaces `slopes` by the derivatives of the conditions of all forces that do not act.
+    /// Replaces `values` as [`Self::conditions`] does, and `slopes` by their derivatives along a direction.
     pub(crate) fn condition_slopes(
         &self,
         state: &SkinState,
         direction: &[f64],
+        values: &mut Vec<f64>,
         slopes: &mut Vec<f64>,
     ) {
+        values.clear();
+        values.resize(self.forces.len(), HOLDS);
         slopes.clear();
         slopes.resize(self.forces.len(), 0.0);
         self.for_each(state, |contact, corners| {
             let conditions = state.mode[contact].resting_conditions(corners);
-            for (slope, condition) in slopes[self.slots * contact..].iter_mut().zip(conditions) {
-                *slope =
-                    condition.map_or(0.0, |condition| self.along(contact, &condition, direction));
+            for (slot, condition) in (self.slots * contact..).zip(conditions) {
+                if let Some(condition) = condition {
+                    values[slot] = condition.value;
+                    slopes[slot] = self.along(contact, &condition, direction);
+                }
             }
         });
+        self.friction_conditions(state, values);
         self.friction_slopes(state, direction, slopes);
     }
 
@@ -281,12 +287,14 @@ impl Contacts {
 
     /// Derivative of a condition along a direction.
     fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
-        let parts = self.parts(contact).into_iter().flatten();
-        let by_parts: f64 = parts
-            .map(|part| {
-                part.sign * condition.by_coordinate[part.coordinate] * direction[part.unknown]
-            })
-            .sum();
+        let by_coordinate = &condition.by_coordinate;
+        let by_parts: f64 = if let Some([left, right]) = self.whole_pair(contact) {
+            let rates = direction[left..left + 3].iter().chain(&direction[right..right + 3]);
+            by_coordinate.iter().zip(rates).map(|(slope, rate)| slope * rate).sum()
+        } else {
+            let parts = self.parts(contact).into_iter().flatten();
+            parts.map(|p| p.sign * by_coordinate[p.coordinate] * direction[p.unknown]).sum()
+        };
         let unknowns = self.unknowns_of(contact).into_iter().zip(condition.by_force);
         by_parts + unknowns.map(|(unknown, slope)| slope * direction[unknown]).sum::<f64>()
     }

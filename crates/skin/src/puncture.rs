@@ -284,6 +284,7 @@ struct Problem<'a> {
     endless: Option<FarField>,
     law: ContactLaw,
     settings: Settings,
+    whole_path: bool,
     parameters: &'a PunctureParameters,
 }
 
@@ -319,7 +320,8 @@ impl<'a> Problem<'a> {
             })?),
             RowLength::Scales(_) => None,
         };
-        Ok(Self { rows, design, stiffness, endless, law, settings: common.solver, parameters })
+        let Common { solver: settings, whole_path, .. } = *common;
+        Ok(Self { rows, design, stiffness, endless, law, settings, whole_path, parameters })
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
@@ -413,7 +415,9 @@ impl<'a> Problem<'a> {
         let surroundings = Surroundings::new(self.rows, layout, beyond)?;
         let (row, length) = (self.rows.row(layout)?, self.design.length);
         let Self { stiffness, law, parameters, .. } = self;
-        Ok(Chain::new(row, stiffness, *law, layout, surroundings, parameters, length))
+        let mut chain = Chain::new(row, stiffness, *law, layout, surroundings, parameters, length);
+        chain.whole_path = self.whole_path;
+        Ok(chain)
     }
 
     /// The effect of so many scales beyond an end, or of a row without end.

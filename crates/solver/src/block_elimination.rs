@@ -35,7 +35,9 @@ pub struct BlockElimination {
     starts: Vec<usize>,
     links: Vec<usize>,
     kept: Vec<usize>,
-    /// The first number of each block among the values: the factors of `D` row by row, the rows of `D⁻¹ C`, and those of `B`.
+    /// The place of each unknown, beyond all places where it is left out.
+    places: Vec<usize>,
+    /// The first number of each block among the values: the factors of `D` row by row, then rows of `D⁻¹ C` and of `Bᵀ` in turn.
     at: Vec<usize>,
     values: Vec<f64>,
     /// By place: the row that was exchanged for this one, within its block.
@@ -96,17 +98,11 @@ impl BlockElimination {
         self.root = matrix.root;
         self.starts.clone_from(&matrix.starts);
         self.links.clone_from(&matrix.links);
-        self.kept.clear();
-        self.kept.extend_from_slice(matrix.kept());
-        self.at.clear();
-        let mut stored = 0;
-        for block in 0..matrix.blocks() {
-            self.at.push(stored);
-            let size = self.size(block);
-            stored += size * (size + 2 * LINK);
-        }
+        self.kept.clone_from(&matrix.kept);
+        self.places.clone_from(&matrix.places);
+        self.at.clone_from(&matrix.at);
         // Old numbers may stay: all of them are overwritten block by block.
-        self.values.resize(stored, 0.0);
+        self.values.resize(matrix.values.len(), 0.0);
         self.exchanges.resize(self.kept.len(), 0);
         self.work.resize(self.kept.len(), 0.0);
         self.negative.clear();
@@ -135,9 +131,16 @@ impl BlockElimination {
         block: usize,
         taken: &Taken,
     ) -> Option<Taken> {
-        let start = self.starts[block];
+        let (start, at) = (self.starts[block], self.at[block]);
         let link = self.links[block] - start;
-        let mut d = rows::<N, N>(matrix, start, start);
+        let stored = &matrix.values[at..at + N * (N + 2 * LINK)];
+        let (entries, coupling) = stored.split_at(N * N);
+        let (mut d, mut c, mut b) = ([[0.0; N]; N], [[0.0; LINK]; N], [[0.0; LINK]; N]);
+        d.as_flattened_mut().copy_from_slice(entries);
+        for ((c, b), coupled) in c.iter_mut().zip(&mut b).zip(coupling.chunks_exact(2 * LINK)) {
+            c.copy_from_slice(&coupled[..LINK]);
+            b.copy_from_slice(&coupled[LINK..]);
+        }
         // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
         let least = least_pivots(&d);
         for (row, taken) in d[link..link + LINK].iter_mut().zip(taken) {
@@ -146,20 +149,19 @@ impl BlockElimination {
             }
         }
         let exchanges = &mut self.exchanges[start..start + N];
-        self.negative[block] = factorise(&mut d, exchanges, &least)?;
-        let stored = &mut self.values[self.at[block]..][..N * (N + 2 * LINK)];
-        let (factors, coupling) = stored.split_at_mut(N * N);
+        self.negative[block] = factorise(&mut d, &mut c, exchanges, &least)?;
+        let (factors, coupling) = self.values[at..at + stored.len()].split_at_mut(N * N);
         factors.copy_from_slice(d.as_flattened());
         // The root has nothing inward of it to be eliminated into.
-        let Some(inner) = matrix.inner(block) else { return Some(Taken::default()) };
-        let inner = self.links[inner];
-        let mut c = rows::<LINK, N>(matrix, start, inner);
-        let b = rows::<N, LINK>(matrix, inner, start);
-        solve(&d, exchanges, &mut c);
-        let (columns, rows) = coupling.split_at_mut(N * LINK);
-        columns.copy_from_slice(c.as_flattened());
-        rows.copy_from_slice(b.as_flattened());
-        Some(b.map(|b| product(&b, &c)))
+        if block == self.root {
+            return Some(Taken::default());
+        }
+        substitute_back(&d, &mut c);
+        for (coupled, (c, b)) in coupling.chunks_exact_mut(2 * LINK).zip(c.iter().zip(&b)) {
+            coupled[..LINK].copy_from_slice(c);
+            coupled[LINK..].copy_from_slice(b);
+        }
+        Some(product(&b, &c))
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution, of all unknowns. Where an unknown was left out, the
@@ -176,19 +178,20 @@ impl BlockElimination {
             self.forward(block, Some(block - 1));
         }
         self.forward(root, None);
-        self.outwards(x);
+        self.outwards();
+        for (x, solution) in x.iter_mut().zip(self.solution()) {
+            *x = solution;
+        }
     }
 
-    /// Replaces `x` by the solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is
-    /// kept and in the root block, is 1.
-    pub fn solve_unit(&mut self, unknown: usize, x: &mut [f64]) {
+    /// The solution for a right-hand side of which one entry alone is not zero: that of `unknown`, which is kept and in the root
+    /// block, is 1.
+    pub fn solve_unit(&mut self, unknown: usize) -> Vec<f64> {
         self.work.fill(0.0);
-        let root = self.starts[self.root]..self.starts[self.root + 1];
-        for place in root {
-            self.work[place] = f64::from(u8::from(self.kept[place] == unknown));
-        }
+        self.work[self.places[unknown]] = 1.0;
         self.forward(self.root, None);
-        self.outwards(x);
+        self.outwards();
+        self.solution().collect()
     }
 
     fn forward(&mut self, block: usize, inner: Option<usize>) {
@@ -201,42 +204,53 @@ impl BlockElimination {
         let values = &self.values[at..at + N * (N + 2 * LINK)];
         let (factors, _) = values[..N * N].as_chunks::<N>();
         let mut y = [[0.0; 1]; N];
-        for (y, work) in y.iter_mut().zip(&self.work[start..start + N]) {
-            *y = [*work];
+        y.as_flattened_mut().copy_from_slice(&self.work[start..start + N]);
+        for (k, &exchanged) in self.exchanges[start..start + N].iter().enumerate() {
+            y.swap(k, exchanged);
         }
-        solve(factors, &self.exchanges[start..start + N], &mut y);
-        for (y, work) in y.iter().zip(&mut self.work[start..start + N]) {
-            *work = y[0];
+        for k in 0..N {
+            let (head, tail) = y.split_at_mut(k + 1);
+            for (y, factors) in tail.iter_mut().zip(&factors[k + 1..]) {
+                subtract(y, factors[k], &head[k]);
+            }
         }
+        substitute_back(factors, &mut y);
+        self.work[start..start + N].copy_from_slice(y.as_flattened());
         if let Some(inner) = inner {
             let inner = self.links[inner];
-            let rows = values[N * (N + LINK)..].chunks_exact(N);
-            for (work, b) in self.work[inner..inner + LINK].iter_mut().zip(rows) {
-                *work -= b.iter().zip(&y).map(|(b, y)| b * y[0]).sum::<f64>();
+            let mut taken = [0.0; LINK];
+            for (y, coupled) in y.iter().zip(values[N * N..].chunks_exact(2 * LINK)) {
+                for (taken, b) in taken.iter_mut().zip(&coupled[LINK..]) {
+                    *taken += b * y[0];
+                }
+            }
+            for (work, taken) in self.work[inner..inner + LINK].iter_mut().zip(taken) {
+                *work -= taken;
             }
         }
     }
 
     /// From the solution of the root to that of its neighbours and on.
-    fn outwards(&mut self, x: &mut [f64]) {
+    fn outwards(&mut self) {
         for block in (0..self.root).rev() {
             self.backward(block, self.links[block + 1]);
         }
         for block in self.root + 1..self.at.len() {
             self.backward(block, self.links[block - 1]);
         }
-        x.fill(0.0);
-        for (work, &kept) in self.work.iter().zip(&self.kept) {
-            x[kept] = *work;
-        }
+    }
+
+    /// The solution of each unknown: zero where it is left out.
+    fn solution(&self) -> impl Iterator<Item = f64> {
+        self.places.iter().map(|&place| self.work.get(place).copied().unwrap_or(0.0))
     }
 
     /// `x = y − (D⁻¹ C) x_inner`.
     fn backward(&mut self, block: usize, inner: usize) {
         let size = self.size(block);
-        let columns = &self.values[self.at[block] + size * size..][..size * LINK];
+        let coupling = &self.values[self.at[block] + size * size..][..size * 2 * LINK];
         let link = [self.work[inner], self.work[inner + 1], self.work[inner + 2]];
-        let (rows, _) = columns.as_chunks::<LINK>();
+        let (rows, _) = coupling.as_chunks::<{ 2 * LINK }>();
         for (work, c) in self.work[self.starts[block]..].iter_mut().zip(rows) {
             *work -= c[0] * link[0] + c[1] * link[1] + c[2] * link[2];
         }
@@ -253,25 +267,14 @@ impl BlockElimination {
     }
 }
 
-/// `M` rows of `N` entries of a matrix, from the entry at (`row`, `column`) on; by their places.
-fn rows<const N: usize, const M: usize>(
-    matrix: &BlockMatrix,
-    row: usize,
-    column: usize,
-) -> [[f64; N]; M] {
-    let mut rows = [[0.0; N]; M];
-    for (i, entries) in rows.iter_mut().enumerate() {
-        entries.copy_from_slice(matrix.entries::<N>(row + i, column));
-    }
-    rows
-}
-
-/// `bᵀ c`.
-fn product<const N: usize, const M: usize>(b: &[f64; N], c: &[[f64; M]; N]) -> [f64; M] {
-    let mut product = [0.0; M];
+/// `B C`, by the columns of `B`.
+fn product<const N: usize>(b: &[[f64; LINK]; N], c: &[[f64; LINK]; N]) -> Taken {
+    let mut product = Taken::default();
     for (b, c) in b.iter().zip(c) {
-        for (sum, c) in product.iter_mut().zip(c) {
-            *sum += b * c;
+        for (row, b) in product.iter_mut().zip(b) {
+            for (sum, c) in row.iter_mut().zip(c) {
+                *sum += b * c;
+            }
         }
     }
     product
@@ -288,10 +291,11 @@ fn least_pivots<const N: usize>(d: &[[f64; N]; N]) -> [f64; N] {
     least.map(|largest| SMALL * largest)
 }
 
-/// LU factors in place with partial pivoting, inverses on the diagonal of the upper one. Returns whether the determinant is
-/// negative; `None` if a pivot is not above the `least`.
-fn factorise<const N: usize>(
+/// LU factors in place with partial pivoting, inverses on the diagonal of the upper one, and the right-hand sides `c` with rows
+/// exchanged and eliminated alike. Returns whether the determinant is negative; `None` if a pivot is not above the `least`.
+fn factorise<const N: usize, const M: usize>(
     d: &mut [[f64; N]; N],
+    c: &mut [[f64; M]; N],
     exchanges: &mut [usize],
     least: &[f64; N],
 ) -> Option<bool> {
@@ -310,6 +314,7 @@ fn factorise<const N: usize>(
         exchanges[k] = pivot;
         if pivot != k {
             d.swap(k, pivot);
+            c.swap(k, pivot);
             negative = !negative;
         }
         let (head, tail) = d.split_at_mut(k + 1);
@@ -317,32 +322,21 @@ fn factorise<const N: usize>(
         negative ^= pivot[k] < 0.0;
         // Kept inverted, since every substitution needs it and a product is quicker than a quotient.
         pivot[k] = pivot[k].recip();
-        for row in tail {
+        let (c_head, c_tail) = c.split_at_mut(k + 1);
+        for (row, c) in tail.iter_mut().zip(c_tail) {
             let factor = row[k] * pivot[k];
             row[k] = factor;
             for j in k + 1..N {
                 row[j] -= factor * pivot[j];
             }
+            subtract(c, factor, &c_head[k]);
         }
     }
     Some(negative)
 }
 
-/// Solves for several right-hand sides in place.
-fn solve<const N: usize, const M: usize>(
-    factors: &[[f64; N]],
-    exchanges: &[usize],
-    x: &mut [[f64; M]; N],
-) {
-    for (k, &exchanged) in exchanges.iter().enumerate() {
-        x.swap(k, exchanged);
-    }
-    for k in 0..N {
-        let (head, tail) = x.split_at_mut(k + 1);
-        for (x, factors) in tail.iter_mut().zip(&factors[k + 1..]) {
-            subtract(x, factors[k], &head[k]);
-        }
-    }
+/// Back substitution of several right-hand sides in place.
+fn substitute_back<const N: usize, const M: usize>(factors: &[[f64; N]], x: &mut [[f64; M]; N]) {
     for k in (0..N).rev() {
         let (head, tail) = x.split_at_mut(k + 1);
         let x = &mut head[k];

@@ -29,90 +29,88 @@ pub struct Blocks {
 
 /// A block-tridiagonal matrix, of which the rows and columns of some unknowns are left out.
 ///
-/// Rows and columns are named by the numbers of their unknowns. They are stored by their *places* among the
-/// unknowns that are kept, each row with the columns from the first to the last that may be non-zero.
+/// Rows and columns are named by the numbers of their unknowns. A block of `n` unknowns that are kept stores its own `n × n` entries
+/// and then, for each of its unknowns, the three entries of its row in the columns of the inner link, and the three of its
+/// column in the rows of that link: together, and in the order in which they are eliminated.
 #[derive(Clone, Debug, Default)]
 pub struct BlockMatrix {
     /// Number of the root block.
     pub(crate) root: usize,
-    /// Place of the first unknown of each block, and the number of places.
+    /// Place of the first unknown of each block among those that are kept, and the number of places.
     pub(crate) starts: Vec<usize>,
     /// Place of the first unknown of each link.
     pub(crate) links: Vec<usize>,
-    /// The unknown at each place.
-    kept: Vec<usize>,
+    /// The unknown at each place, and its block.
+    pub(crate) kept: Vec<usize>,
+    blocks: Vec<usize>,
     /// The place of each unknown.
-    places: Vec<usize>,
-    /// The columns of each row: the first, and one past the last.
-    columns: Vec<[usize; 2]>,
-    /// The entry in the first column of each row among the values.
-    rows: Vec<usize>,
-    values: Vec<f64>,
+    pub(crate) places: Vec<usize>,
+    /// The first of the values of each block.
+    pub(crate) at: Vec<usize>,
+    /// Where, by places, an entry of a row within its block stands, and one that couples with the inner link: behind these by the
+    /// place of the column, or of the unknown of the link.
+    within: Vec<usize>,
+    coupling: Vec<usize>,
+    pub(crate) values: Vec<f64>,
 }
 
 /// The entries of a matrix in blocks.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BlockValues(Vec<f64>);
 
+/// The part of the matrix in which an entry stands.
+enum Part {
+    Within,
+    /// The row belongs to the outer block, the column to the link of the inner one.
+    Columns,
+    /// The other way round.
+    Rows,
+}
+
 impl BlockMatrix {
     /// Gives the matrix a shape: that of `blocks` over `size` unknowns, without those that are `left_out`, in ascending order.
     /// Every entry is zero afterwards.
     pub fn reshape(&mut self, blocks: &Blocks, size: usize, left_out: &[usize]) {
+        self.root = blocks.root;
+        let lists = [&mut self.kept, &mut self.blocks, &mut self.starts, &mut self.places];
+        lists.into_iter().for_each(Vec::clear);
+        self.places.resize(size, LEFT_OUT);
         let mut left_out = left_out.iter().peekable();
-        self.kept.clear();
-        self.places.clear();
-        self.starts.clear();
-        let mut starts = blocks.starts.iter().copied().peekable();
-        for unknown in 0..size {
-            while starts.next_if_eq(&unknown).is_some() {
-                self.starts.push(self.kept.len());
-            }
-            if left_out.next_if_eq(&&unknown).is_some() {
-                self.places.push(LEFT_OUT);
-            } else {
-                self.places.push(self.kept.len());
-                self.kept.push(unknown);
+        let ends = blocks.starts.iter().skip(1).chain([&size]);
+        for (block, (&start, &end)) in blocks.starts.iter().zip(ends).enumerate() {
+            self.starts.push(self.kept.len());
+            for unknown in start..end {
+                if left_out.next_if_eq(&&unknown).is_none() {
+                    self.places[unknown] = self.kept.len();
+                    self.kept.push(unknown);
+                    self.blocks.push(block);
+                }
             }
         }
         self.starts.push(self.kept.len());
         self.links.clear();
         self.links.extend(blocks.links.iter().map(|&link| self.places[link]));
-        self.root = blocks.root;
-        self.lay_out_rows();
+        self.lay_out();
     }
 
-    fn lay_out_rows(&mut self) {
-        self.columns.clear();
-        self.rows.clear();
+    fn lay_out(&mut self) {
+        let lists = [&mut self.at, &mut self.within, &mut self.coupling];
+        lists.into_iter().for_each(Vec::clear);
         let mut stored = 0;
-        for block in 0..self.blocks() {
-            for place in self.starts[block]..self.starts[block + 1] {
-                let [first, end] = self.columns_of(block, place);
-                self.columns.push([first, end]);
-                self.rows.push(stored);
-                stored += end - first;
+        for block in 0..self.starts.len() - 1 {
+            let (start, size) = (self.starts[block], self.starts[block + 1] - self.starts[block]);
+            let link = self.inner(block).map_or(0, |inner| self.links[inner]);
+            self.at.push(stored);
+            for row in 0..size {
+                // What comes before the first column cancels when a column is added: it may well be below zero.
+                self.within.push((stored + size * row).wrapping_sub(start));
+                let coupled = stored + size * size + 2 * LINK * row;
+                self.coupling.push(coupled.wrapping_sub(link));
             }
+            stored += size * (size + 2 * LINK);
         }
         self.values.clear();
         self.values.resize(stored, 0.0);
-    }
-
-    /// The columns of a row of a block.
-    fn columns_of(&self, block: usize, place: usize) -> [usize; 2] {
-        let (mut first, mut end) = (self.starts[block], self.starts[block + 1]);
-        if let Some(inner) = self.inner(block) {
-            first = first.min(self.links[inner]);
-            end = end.max(self.links[inner] + LINK);
-        }
-        if (self.links[block]..self.links[block] + LINK).contains(&place) {
-            if block > 0 && block <= self.root {
-                first = self.starts[block - 1];
-            }
-            if block >= self.root && block + 1 < self.blocks() {
-                end = self.starts[block + 2];
-            }
-        }
-        [first, end]
     }
 
     /// The inner neighbour of a block; `None` for the root.
@@ -126,12 +124,7 @@ impl BlockMatrix {
 
     /// Number of blocks.
     pub fn blocks(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// The unknowns that are kept, in order.
-    pub fn kept(&self) -> &[usize] {
-        &self.kept
+        self.at.len()
     }
 
     /// Copies all entries to `values`.
@@ -147,50 +140,74 @@ impl BlockMatrix {
     /// The entry at (`row`, `column`); zero outside the blocks and where it is left out.
     pub fn get(&self, row: usize, column: usize) -> f64 {
         let (row, column) = (self.places[row], self.places[column]);
-        let is_stored = |[first, end]: &[usize; 2]| (*first..*end).contains(&column);
-        if self.columns.get(row).is_some_and(is_stored) {
-            self.values[self.at(row, column)]
+        if row == LEFT_OUT || column == LEFT_OUT || !self.is_coupled(row, column) {
+            return 0.0;
+        }
+        self.values[self.index(row, column)]
+    }
+
+    /// Whether unknowns may be coupled; by their places.
+    fn is_coupled(&self, row: usize, column: usize) -> bool {
+        let behind = |outer: usize, inner: usize| {
+            let block = self.blocks[inner];
+            let link = self.links[block]..self.links[block] + LINK;
+            self.inner(self.blocks[outer]) == Some(block) && link.contains(&inner)
+        };
+        self.blocks[row] == self.blocks[column] || behind(row, column) || behind(column, row)
+    }
+
+    /// The part in which an entry stands; row and column by their places.
+    #[inline]
+    fn part(&self, row: usize, column: usize) -> Part {
+        debug_assert!(
+            self.is_coupled(row, column),
+            "entry ({row}, {column}) lies outside the blocks"
+        );
+        let (in_row, in_column) = (self.blocks[row], self.blocks[column]);
+        if in_row == in_column {
+            Part::Within
+        } else if (in_row < in_column) == (in_row.max(in_column) <= self.root) {
+            Part::Columns
         } else {
-            0.0
+            Part::Rows
         }
     }
 
-    /// `N` entries of a row, from a column on; row and column by their places.
-    pub(crate) fn entries<const N: usize>(&self, row: usize, column: usize) -> &[f64] {
-        let at = self.at(row, column);
-        &self.values[at..at + N]
-    }
-
     /// Where an entry stands among the values; row and column by their places.
-    fn at(&self, row: usize, column: usize) -> usize {
-        let [first, end] = self.columns[row];
-        debug_assert!(
-            (first..end).contains(&column),
-            "entry ({row}, {column}) lies outside the blocks"
-        );
-        self.rows[row] + column - first
+    #[inline]
+    fn index(&self, row: usize, column: usize) -> usize {
+        match self.part(row, column) {
+            Part::Within => self.within[row].wrapping_add(column),
+            Part::Columns => self.coupling[row].wrapping_add(column),
+            Part::Rows => self.coupling[column].wrapping_add(LINK + row),
+        }
     }
 }
 
 impl Tangent for BlockMatrix {
     fn clear_row(&mut self, row: usize) {
         let place = self.places[row];
-        let [first, end] = self.columns[place];
-        let start = self.rows[place];
-        self.values[start..start + end - first].fill(0.0);
+        let block = self.blocks[place];
+        let neighbours = block.saturating_sub(1)..(block + 2).min(self.blocks());
+        for column in self.starts[neighbours.start]..self.starts[neighbours.end] {
+            if self.is_coupled(place, column) {
+                let index = self.index(place, column);
+                self.values[index] = 0.0;
+            }
+        }
     }
 
     /// Adds `value` to an entry; does nothing where its row or column is left out.
     fn add(&mut self, row: usize, column: usize, value: f64) {
         let (row, column) = (self.places[row], self.places[column]);
         if row != LEFT_OUT && column != LEFT_OUT {
-            let at = self.at(row, column);
-            self.values[at] += value;
+            let index = self.index(row, column);
+            self.values[index] += value;
         }
     }
 
     /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
-    /// are all kept and follow each other.
+    /// are all kept and follow each other within a block.
     fn add_block<const R: usize, const C: usize>(
         &mut self,
         row: usize,
@@ -198,10 +215,22 @@ impl Tangent for BlockMatrix {
         values: &[[f64; C]; R],
     ) {
         let (row, column) = (self.places[row], self.places[column]);
-        for (i, values) in values.iter().enumerate() {
-            debug_assert!(column + C <= self.columns[row + i][1]);
-            let at = self.at(row + i, column);
-            for (entry, value) in self.values[at..at + C].iter_mut().zip(values) {
+        let starts = match self.part(row, column) {
+            Part::Within => &self.within[row..row + R],
+            Part::Columns => &self.coupling[row..row + R],
+            Part::Rows => {
+                for (j, start) in self.coupling[column..column + C].iter().enumerate() {
+                    let start = start.wrapping_add(LINK + row);
+                    for (entry, values) in self.values[start..start + R].iter_mut().zip(values) {
+                        *entry += values[j];
+                    }
+                }
+                return;
+            }
+        };
+        for (start, values) in starts.iter().zip(values) {
+            let start = start.wrapping_add(column);
+            for (entry, value) in self.values[start..start + C].iter_mut().zip(values) {
                 *entry += value;
             }
         }

@@ -192,14 +192,16 @@ impl Newton {
         guards
     }
 
-    /// Replaces `slopes` by how fast the guards change along a direction.
+    /// Replaces `guards` by those of a state, and `slopes` by how fast they change along a direction.
     pub(crate) fn guard_slopes<S: System>(
         system: &S,
         state: &State<S::Mode>,
         direction: &[f64],
+        guards: &mut Vec<f64>,
         slopes: &mut Vec<f64>,
     ) {
-        system.condition_slopes(state, direction, slopes);
+        system.condition_slopes(state, direction, guards, slopes);
+        replace_active(system, state, &state.z, guards);
         replace_active(system, state, direction, slopes);
     }
 
@@ -240,8 +242,7 @@ impl Newton {
 
     /// The direction along which the left-hand side of the condition grows by 1.
     fn direction<S: System>(&mut self, system: &S, condition: &Condition) -> Vec<f64> {
-        let mut direction = vec![0.0; system.size()];
-        self.solver.solve_unit(system.load(), &mut direction);
+        let mut direction = self.solver.solve_unit(system.load(), system.size());
         if condition.stand_in.is_some() {
             let growth = condition.of(&direction);
             for x in &mut direction {

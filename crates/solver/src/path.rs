@@ -246,9 +246,9 @@ impl<S: System> Path<S> {
 
     /// Makes `point` the one that the path has reached.
     fn stand(&mut self, point: Point<S::Mode>) {
-        self.guards = Newton::guards(&self.system, &point.state);
-        let Point { state, leaving, .. } = &point;
-        Newton::guard_slopes(&self.system, state, leaving, &mut self.slopes);
+        let (Self { system, guards, slopes, .. }, Point { state, leaving, .. }) =
+            (&mut *self, &point);
+        Newton::guard_slopes(system, state, leaving, guards, slopes);
         self.point = Arc::new(point);
     }
 

@@ -1,7 +1,7 @@
 //! The rate complementarity problem: which way the path goes on where constraints change sides.
 
 use crate::event::Change;
-use crate::newton::{Condition, FLOOR, Newton, guard_slope};
+use crate::newton::{Condition, FLOOR, Newton, guard, guard_slope};
 use crate::path::{Path, Point};
 use crate::stop::Stop;
 use crate::system::{State, System};
@@ -341,10 +341,12 @@ impl<S: System> Path<S> {
         direction: &[f64],
         constraints: &[usize],
     ) -> Vec<usize> {
-        let guards = Newton::guards(&self.system, state);
         let slopes =
             constraints.iter().map(|&c| (c, guard_slope(&self.system, state, c, direction)));
-        let meeting = slopes.filter(|&(c, slope)| slope < -FLOOR && guards[c] <= -slope * APART);
+        let is_violated = |&(c, slope): &(usize, f64)| {
+            slope < -FLOOR && guard(&self.system, state, c) <= -slope * APART
+        };
+        let meeting = slopes.filter(is_violated);
         // What only grows may not turn back at a kink either, however far it has come.
         let growing = self.system.growing().iter().filter(|&&c| state.active[c]);
         let growing = growing.map(|&c| (c, direction[self.system.constraints()[c]]));

@@ -136,19 +136,19 @@ pub trait System {
         values.extend(self.constraints().iter().map(|&index| residual.value[index]));
     }
 
-    /// Replaces `slopes` by the derivatives of the equations of all constraints along `direction`. Those of active ones may
-    /// have any value.
+    /// Replaces `values` as [`System::conditions`] does, and `slopes` by their derivatives along `direction`.
     fn condition_slopes(
         &self,
         state: &State<Self::Mode>,
         direction: &[f64],
+        values: &mut Vec<f64>,
         slopes: &mut Vec<f64>,
     ) {
-        let (mut here, mut there) = (Vec::new(), Vec::new());
-        self.conditions(state, &mut here);
-        self.conditions(&state.moved(ALONG, direction), &mut there);
-        slopes.clear();
-        slopes.extend(here.iter().zip(&there).map(|(here, there)| (there - here) / ALONG));
+        self.conditions(state, values);
+        self.conditions(&state.moved(ALONG, direction), slopes);
+        for (slope, here) in slopes.iter_mut().zip(values) {
+            *slope = (*slope - *here) / ALONG;
+        }
     }
 
     /// Value of the equation of a constraint (its number).

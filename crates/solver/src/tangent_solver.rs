@@ -100,14 +100,15 @@ impl TangentSolver {
         }
     }
 
-    /// Solves for a right-hand side of which the entry of the load alone is not zero: it is 1.
-    pub(crate) fn solve_unit(&mut self, load: usize, x: &mut [f64]) {
+    /// The solution for a right-hand side of `size` entries of which that of the load alone is not zero: it is 1.
+    pub(crate) fn solve_unit(&mut self, load: usize, size: usize) -> Vec<f64> {
         match &mut self.blocks {
-            Some(blocks) if self.is_in_blocks => blocks.elimination.solve_unit(load, x),
+            Some(blocks) if self.is_in_blocks => blocks.elimination.solve_unit(load),
             _ => {
-                x.fill(0.0);
+                let mut x = vec![0.0; size];
                 x[load] = 1.0;
-                self.solve(x);
+                self.solve(&mut x);
+                x
             }
         }
     }

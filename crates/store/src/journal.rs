@@ -60,7 +60,7 @@ impl<R: Records> Journal<R> {
     /// # Errors
     /// If it is in use, damaged, of something else, or there and `start` says nothing of it.
     pub fn begin(path: &Path, header: JournalHeader, start: Start) -> Result<Self, JournalError> {
-        let file = lock(path)?;
+        let file = lock_journal(path)?;
         if start == Start::Fresh {
             // What was there is thrown away, as it was asked for.
             return Self::create(path, file, header);
@@ -90,7 +90,7 @@ impl<R: Records> Journal<R> {
         if !path.exists() {
             return Err(missing());
         }
-        let file = lock(path)?;
+        let file = lock_journal(path)?;
         let (records, length) = intact(path)?.ok_or_else(missing)?;
         Self::at_end(records, length, path, file)
     }
@@ -195,8 +195,11 @@ pub fn lock_folder(folder: &Path) -> Result<File, OutputError> {
     if locked(&file).unwrap_or(true) { Ok(file) } else { Err(OutputError::in_use(folder)) }
 }
 
-/// The journal at `path`, made if there is none, and locked for this process and as long as it lives.
-fn lock(path: &Path) -> Result<File, JournalError> {
+/// The journal at `path`, made if there is none, and locked for this process until it is closed.
+///
+/// # Errors
+/// If it is no regular file, cannot be opened, or another process writes it.
+pub fn lock_journal(path: &Path) -> Result<File, JournalError> {
     // What a link points to is not ours to write.
     if path.is_symlink() {
         return Err(JournalError::NoFile(path.to_owned()));

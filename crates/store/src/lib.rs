@@ -31,7 +31,7 @@ pub use atomic_file::{AtomicFile, OutputError, make_folder, read_text, sync_fold
 pub use digest::{sha256, sha256_of};
 pub use error::JournalError;
 pub use header::{JournalHeader, Program};
-pub use journal::{Journal, Start, in_use, lock_folder};
+pub use journal::{Journal, Start, in_use, lock_folder, lock_journal};
 pub use partial_file::exit_without_partial_files;
 pub use reader::{Records, read, read_from};
 pub use seal::Seal;

@@ -89,6 +89,8 @@ pub fn exit_without_partial_files(code: i32) -> ! {
 
 /// Removes the partial files in `folder` that killed processes have left.
 pub fn remove_abandoned_files(folder: &Path) {
+    // A file without a folder in its path is in the one that we are in.
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let Ok(entries) = fs::read_dir(folder) else { return };
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     paths.filter(|path| is_partial(path)).for_each(|path| remove_abandoned(&path));

@@ -112,7 +112,7 @@ impl<'a> Analysis<'a> {
     /// # Errors
     /// If the work is to stop, a requirement is about no column, or the disk is at fault.
     pub fn design(&self, index: u64, store: &SampleStore) -> Result<DesignTolerance, NoAnalysis> {
-        let nominal = self.nominal(index)?;
+        let nominal = self.nominal(index, store)?;
         let columns = self.columns(&nominal.measured);
         let samples = self.samples(&nominal, &columns, store)?;
         let measures = self.measures(&nominal, &samples);
@@ -121,11 +121,12 @@ impl<'a> Analysis<'a> {
     }
 
     /// Solves a design without deviations, and looks for the columns that are required.
-    fn nominal(&self, index: u64) -> Result<Nominal, NoAnalysis> {
+    fn nominal(&self, index: u64, store: &SampleStore) -> Result<Nominal, NoAnalysis> {
         let (number, case) = (self.sweep.grid().number(index), self.sweep.grid().case(index));
         // Imperfect samples of its own would be solved for nothing.
         let straight = Case { imperfection: Imperfection::default(), ..case };
-        let row = self.differentiating.solve(number, &straight).row;
+        let solve = || self.differentiating.row(number, &straight);
+        let row = store.work().told(&format!("design {number}"), solve);
         let measured = MeasuredColumns::of(self.sweep, &row);
         let asked = self.sweep.measures();
         let place = |r: &Requirement| measured.required(&r.column, &row, asked);

@@ -62,7 +62,7 @@ impl GlobalAnalysis<'_> {
         let evaluator = Evaluator::new(self.sweep.measures());
         let (number, case) = (self.sweep.grid().number(0), self.sweep.grid().case(0));
         // Tells which columns hold text; its values are not used.
-        let middle = evaluator.solve(number, &case).row;
+        let middle = evaluator.row(number, &case);
         let measured = MeasuredColumns::of(self.sweep, &middle);
         let names: Vec<String> = measured.iter().map(|column| column.name.to_string()).collect();
         let points = self.points();
@@ -72,7 +72,7 @@ impl GlobalAnalysis<'_> {
             .collect();
         let solve = |sample: u64| {
             let point = |point: &String| {
-                let row = evaluator.solve(number, &self.case(&case, sample, point)).row;
+                let row = evaluator.row(number, &self.case(&case, sample, point));
                 measured.values(&row)
             };
             points.iter().flat_map(point).collect()

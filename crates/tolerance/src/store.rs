@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use results::{Cell, Column, CsvFormat, OutputError, RunFolder, write_rows};
-use run::{JournalError, JournalHeader, Start, WorkMeter};
+use run::{JournalHeader, Start, WorkMeter};
 use serde::{Deserialize, Serialize};
 use store::{Journal, Records};
 
@@ -28,8 +28,8 @@ pub struct SolvedSample {
     pub values: Vec<Option<f64>>,
 }
 
-/// A folder of samples: under each label a journal for each definition, to which every sample is added as it is solved, and the
-/// table of the samples that were asked for last.
+/// A folder of samples: under each label a journal for each definition, to which every sample is added as it is solved, and its
+/// table.
 #[derive(Clone, Debug)]
 pub struct SampleStore {
     folder: RunFolder,
@@ -92,7 +92,12 @@ impl SampleStore {
         if count == 0 {
             return Ok(Vec::new());
         }
-        let journal = Mutex::new(self.open(label, header)?);
+        self.folder.make()?;
+        // Another definition or program has files of its own: who comes back to the first finds its samples, and no table of one
+        // stands under the name of another.
+        let name = format!("{label}-{}", &header.digest()[..DIGITS]);
+        let path = self.folder.file(&format!("{name}.jsonl"));
+        let journal = Mutex::new(Journal::<KeptSamples>::begin(&path, header, Start::Resume)?);
         let lock = || journal.lock().unwrap_or_else(PoisonError::into_inner);
         let mut missing: Vec<u64> = (1..=count as u64).collect();
         missing.retain(|number| !lock().records().values.contains_key(number));
@@ -101,7 +106,7 @@ impl SampleStore {
             if stop.load(Ordering::Relaxed) {
                 return Ok(());
             }
-            let values = solve(number);
+            let values = self.work.told(&format!("{label}, sample {number}"), || solve(number));
             self.work.count(1);
             lock().append(SolvedSample { number, values })
         })?;
@@ -113,29 +118,14 @@ impl SampleStore {
         if samples.len() < count {
             return Err(NoAnalysis::Stopped { done: samples.len(), of: count });
         }
-        self.write(label, columns, &samples)?;
+        self.write(&format!("{name}.csv"), columns, &samples)?;
         Ok(samples)
     }
 
-    /// The journal of what `header` describes, one that is there or a new one.
-    fn open(&self, label: &str, header: JournalHeader) -> Result<Journal<KeptSamples>, NoAnalysis> {
-        // Samples of format 1 had a record of this name beside their table.
-        let record = self.folder.file(&format!("{label}.toml"));
-        if record.exists() {
-            let by = "0.1.0 of an earlier revision".to_owned();
-            return Err(JournalError::OtherFormat { path: record, found: 1, by }.into());
-        }
-        self.folder.make()?;
-        // Another definition or program has a journal of its own: who comes back to the first finds its samples.
-        let digest = header.digest();
-        let name = format!("{label}-{}.jsonl", &digest[..DIGITS]);
-        Ok(Journal::begin(&self.folder.file(&name), header, Start::Resume)?)
-    }
-
-    /// Writes the table of the samples under a label.
+    /// Writes the table of samples called `name`.
     fn write(
         &self,
-        label: &str,
+        name: &str,
         columns: &[String],
         samples: &[SolvedSample],
     ) -> Result<(), OutputError> {
@@ -148,7 +138,6 @@ impl SampleStore {
             })
         });
         let columns: Vec<_> = std::iter::once(number).chain(others).collect();
-        let name = format!("{label}.csv");
-        write_rows(&self.folder, &name, CsvFormat::Plain, &columns, samples).map(|_| ())
+        write_rows(&self.folder, name, CsvFormat::Plain, &columns, samples).map(|_| ())
     }
 }

@@ -86,7 +86,7 @@ fn as_json(sweep: &Sweep) -> Value {
         "measures": measures,
         "designs": sweep.grid().len(),
         "calibrations": sweep.measures().contains(&Measure::Puncture).then(|| calibrations(sweep)),
-        "output": folder_of(sweep, None),
+        "output": folder_of(sweep, None).to_string_lossy(),
         "axes": sweep.grid().axes().iter().map(axis).collect::<Vec<_>>(),
         "parameters": sweep.shared().map(parameter).collect::<Map<_, _>>(),
     })

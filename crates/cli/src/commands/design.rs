@@ -69,7 +69,7 @@ pub fn design(arguments: &Arguments) -> anyhow::Result<u8> {
     files.push(write_measures(&folder, &chosen.columns, &chosen.solved.row)?);
     folder.write_text("design.toml", &chosen.design.sweep.to_toml())?;
     files.push("design.toml");
-    claim.state()?;
+    claim.state(&files)?;
     let place = folder.path().display();
     if arguments.json {
         json::print(&chosen.json(&place.to_string(), &files))?;
@@ -118,7 +118,7 @@ impl SolvedChoice {
         let number = design.number.unwrap_or(design.sweep.grid().number(0));
         let tell = |text| eprintln!("{text}");
         let solve = || evaluator.solve(number, &design.case());
-        let solved = run::told(&number.to_string(), tell, solve);
+        let solved = run::told(&format!("design {number}"), tell, solve);
         let columns = design_columns(&design.sweep);
         Self { design, solved, columns }
     }

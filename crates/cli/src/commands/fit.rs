@@ -119,7 +119,7 @@ fn write(folder: &RunFolder, fitted: &Fitted) -> anyhow::Result<()> {
     let panels: Vec<_> = panels.collect();
     folder.write_text(figure, &fit_figure(fitted.sweep.name(), &panels))?;
     folder.write_text(definition, &fitted.sweep.to_toml())?;
-    claim.state()?;
+    claim.state(&FILES)?;
     Ok(())
 }
 

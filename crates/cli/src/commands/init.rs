@@ -9,6 +9,7 @@ use clap::{Arg, Args, Command};
 use sweep::Sweep;
 
 use super::DONE;
+use super::figure_file::write_file;
 use super::source::require_folder_of;
 use crate::print::{counted, print};
 
@@ -56,9 +57,7 @@ pub fn init(arguments: &Arguments) -> anyhow::Result<u8> {
     let text = definition(&template, &name, &shown).context("there is no such definition")?;
     // A name that is none of a sweep is refused before it is written.
     let sweep = Sweep::parse(&text, &shown, &[])?;
-    let folder = file.parent().unwrap_or(Path::new(""));
-    let file_name = file.file_name().unwrap_or_default().to_string_lossy();
-    results::write_text(folder, &file_name, &text)?;
+    write_file(&file, text.as_bytes())?;
     let designs = counted(sweep.grid().len(), "design");
     print(&format!("{shown}: {designs}; to solve them: squama run {shown}\n"))?;
     Ok(DONE)

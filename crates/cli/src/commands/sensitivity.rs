@@ -70,7 +70,7 @@ pub fn sensitivity(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Resu
     let folder = &sampled.folder;
     let rows = found.measures.iter().flat_map(|measure| rows(&found, measure));
     write_rows(folder, TABLE, CsvFormat::Plain, INDEX_COLUMNS, rows)?;
-    claim.state()?;
+    claim.state(&[TABLE])?;
     let place = folder.path();
     if arguments.sampled.json {
         json::print(&record(&sweep, &found, place))?;
@@ -158,7 +158,7 @@ fn record(sweep: &Sweep, found: &GlobalSensitivity, folder: &Path) -> Value {
     json!({
         "sweep": sweep.name(),
         "measures": found.measures.iter().map(measure).collect::<Vec<_>>(),
-        "folder": folder,
+        "folder": folder.to_string_lossy(),
         "files": [TABLE],
     })
 }

@@ -71,13 +71,14 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let record = path.join(RunFolder::RUN_INFO);
     let optimum = path.join("optimum.toml");
     if !record.is_file() && optimum.is_file() {
+        VerifiedFolder::open(path, Completeness::Partial)?.file("optimum.toml")?;
         return Ok(optimum);
     }
     let holds = |table: &str| path.join(table).is_file();
     let folder = path.display();
     ensure!(
         !holds("front.csv"),
-        "{folder}: holds a Pareto front and no single design; put a design of front.csv in [designs] of a definition"
+        "{folder}: holds a Pareto front and no single design; squama design, draw and make take one of them with --design"
     );
     ensure!(
         !holds("tolerance.csv") && !holds("sobol.csv"),

@@ -92,7 +92,7 @@ pub fn tolerance(arguments: &Arguments, interrupt: &Interrupt) -> anyhow::Result
             files.push(name);
         }
     }
-    claim.state()?;
+    claim.state(&files)?;
     let place = folder.path();
     if arguments.sampled.json {
         json::print(&record::record(&sweep, &all, place, &files))?;

@@ -1,13 +1,14 @@
 //! `squama validate`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::Context as _;
+use anyhow::ensure;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use sweep::Sweep;
 use validation::{PartProgress, SettingSearch, Validation, ValidationError};
 
+use super::figure_file::write_file;
 use super::source::require_folder_of;
 use super::{DONE, INCOMPLETE};
 use crate::print::print;
@@ -48,15 +49,15 @@ pub fn validate(arguments: &Arguments) -> anyhow::Result<u8> {
         return Ok(DONE);
     }
     let out = &arguments.out;
-    let name = out.file_name().with_context(|| {
-        format!("--out {}: not accepted, expected the name of a file", out.display())
-    })?;
+    ensure!(
+        out.file_name().is_some(),
+        "--out {}: not accepted, expected the name of a file",
+        out.display()
+    );
     require_folder_of("--out", out)?;
-    let folder = out.parent().filter(|folder| !folder.as_os_str().is_empty());
-    let folder = folder.unwrap_or(Path::new("."));
     let validation = with_bar(|progress| Validation::run(!arguments.quick, progress))?;
     let page = validation.page();
-    results::write_text(folder, &name.to_string_lossy(), &page)?;
+    write_file(out, page.as_bytes())?;
     print(&page)?;
     let outside: Vec<_> = validation.benchmarks.iter().filter(|b| !b.holds()).collect();
     for benchmark in &outside {
@@ -70,7 +71,7 @@ fn with_bar<T>(
     work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> Result<T, ValidationError>,
 ) -> Result<T, ValidationError> {
     let bar = ProgressBar::new(0);
-    let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {msg}";
+    let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {eta} left  {msg}";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }

@@ -102,6 +102,47 @@ fn a_changed_optimum_is_noticed_and_mended() {
 }
 
 #[test]
+fn a_changed_analysis_and_a_changed_definition_of_an_optimum_are_noticed_and_mended() {
+    let place = place();
+    let tolerance = "tolerance x.toml --samples 4 --require coverage>=0.1 --out made";
+    let search = "optimise my/goal.toml --out found --resume";
+    for (file, again, reader) in [
+        ("made/yield.csv", tolerance, "export made --xlsx x.xlsx"),
+        ("made/tolerance.csv", tolerance, "export made --xlsx x.xlsx"),
+        ("found/optimum.toml", search, "design found --out one"),
+    ] {
+        place.prints(again);
+        place.prints(reader);
+        let sound = place.read(file);
+        fs::write(place.path(file), sound.replace('1', "2")).expect("writable");
+        let message = place.refused(reader);
+        assert!(message.starts_with(&format!("error: {file}: was changed after")), "{message}");
+        place.prints(again);
+        assert_eq!(place.read(file), sound);
+        place.prints(reader);
+    }
+    // A changed table that the next analysis does not write is not taken for one of that.
+    fs::write(place.path("made/yield.csv"), "mine").expect("writable");
+    place.prints("tolerance x.toml --samples 4 --out made");
+    let message = place.refused("export made --xlsx x.xlsx");
+    assert!(message.starts_with("error: made/yield.csv: its command did not"), "{message}");
+    assert_eq!(place.read("made/yield.csv"), "mine");
+}
+
+#[test]
+fn a_record_of_others_removes_nothing_outside_of_its_folder() {
+    let place = place();
+    let record = "product = 'p'\ncommand = 'c'\nfrom = ''\n[files]\n'../mine.txt' = ''\n";
+    fs::write(place.path("mine.txt"), "mine").expect("writable");
+    fs::create_dir(place.path("r/derived")).expect("a folder");
+    fs::write(place.path("r/derived/x.toml"), record).expect("writable");
+    fs::write(place.path("r/derived/notes.txt"), "mine").expect("writable");
+    place.squama("run x.toml -q --fresh --out r").assert().code(0);
+    assert_eq!(place.read("mine.txt"), "mine");
+    assert_eq!(place.list("r/derived"), "notes.txt");
+}
+
+#[test]
 fn samples_of_each_definition_are_kept() {
     let place = place();
     let tolerance = "tolerance x.toml --samples 20 --design 1 --out out";
@@ -112,8 +153,12 @@ fn samples_of_each_definition_are_kept() {
         names.map(|name| place.read(&format!("out/samples/{name}"))).collect::<Vec<_>>()
     };
     let [first] = journals(&place).try_into().expect("one journal");
+    // A stranger's, or that of an earlier squama.
+    fs::write(place.path("out/samples/0001.csv"), "mine").expect("writable");
     place.prints(&format!("{tolerance} --set designs.length_over_t=2"));
     assert_eq!(journals(&place).len(), 2);
+    assert_eq!(place.list("out/samples").matches(".csv").count(), 3, "a table for each");
+    assert_eq!(place.read("out/samples/0001.csv"), "mine");
     place.prints(tolerance);
     assert!(journals(&place).contains(&first), "nothing is solved again");
 }
@@ -142,6 +187,9 @@ fn what_a_kill_has_left_is_removed_by_the_next_command() {
         "export r --xlsx out/x.xlsx",
         "plot r --out out",
         "report r --out out/page.html",
+        "make x.toml --design 1 --set material.thickness_mm=1 --out out/x.3mf",
+        "explore x.toml --set designs.gap_over_t=0.1 --set designs.slant_deg=30 --out out/x.html",
+        "init out/mine.toml",
         "optimise my/goal.toml --out out",
     ] {
         fs::create_dir_all(place.path("out")).expect("a folder");
@@ -197,7 +245,7 @@ fn a_folder_may_have_a_name_that_is_no_text() {
     place.squama("run x.toml -q --out r").assert().code(0);
     let strange = OsStr::from_bytes(b"r\xff");
     fs::rename(place.path("r"), place.path(strange)).expect("a folder");
-    for command in ["rank", "report", "plot", "export", "status", "compare"] {
+    for command in ["rank", "rank --json", "report", "plot", "export", "status", "compare"] {
         let mut squama = place.squama(command);
         squama.arg(strange);
         match command {

@@ -191,12 +191,26 @@ mod signals {
         let mut tolerance = place.spawn(
             "tolerance x.toml --samples 2 --threads 1 --set tolerance.slant_deg={batch_sd=1}",
         );
-        tolerance.until(|| place.path("results/endless/tolerance/samples/0001.csv").exists());
+        let samples = "results/endless/tolerance/samples";
+        tolerance.until(|| place.path(samples).exists() && place.list(samples).contains(".csv"));
         tolerance.send(SIGINT);
         tolerance.until_said(
             "ending after the samples in progress; a second signal ends at once, and the same command continues\n",
         );
         assert_eq!(tolerance.end_by(SIGINT).code(), Some(130));
+    }
+
+    #[test]
+    fn a_design_that_takes_long_says_how_far_it_is() {
+        let place = Place::with(&format!("{ENDLESS}[tolerance]\nslant_deg = {{ batch_sd = 1 }}\n"));
+        let goal = ENDLESS.replace("slant_deg = 0\nscales = [1, 10001]", "scales = 10001");
+        let more =
+            "[variables]\nslant_deg = { from = 0, to = 1 }\n[goal]\nmaximize = 'critical_force'\n";
+        std::fs::write(place.path("goal.toml"), goal + more).expect("writable");
+        let mut tolerance = place.spawn("tolerance x.toml --design 2 --samples 2");
+        let mut search = place.spawn("optimise goal.toml");
+        tolerance.until_said("design 0002: ");
+        search.until_said("a design of the search: ");
     }
 
     /// Ten thousand steps of one scale, which take no time, and then of ten thousand scales, which take minutes: all of them are

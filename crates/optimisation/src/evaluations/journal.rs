@@ -11,7 +11,7 @@ use std::sync::Arc;
 use results::{Claim, DesignResult, Maker, RunFolder};
 use run::{JournalHeader, Program, Start};
 use serde::{Deserialize, Serialize};
-use store::{Journal, Records};
+use store::{Journal, Records, lock_journal};
 use sweep::Subset;
 
 use crate::error::OptimisationError;
@@ -136,11 +136,12 @@ pub(super) fn begin(
     // A file of our names that no search has written here may be the very goal that is searched for.
     Claim::check(&folder, Maker::Search)?;
     folder.make()?;
-    let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
-    let journal = Journal::begin(&folder.file(RunFolder::EVALUATIONS), header, start)?;
+    let path = folder.file(RunFolder::EVALUATIONS);
     if start == Start::Fresh {
-        // An optimum of another goal must not stand beside the journal of this one.
+        // Before the old journal goes: a kill in between would leave the optimum of one goal beside the journal of another.
+        let _alone = lock_journal(&path)?;
         Claim::release(&folder, Maker::Search);
     }
-    Ok(journal)
+    let header = JournalHeader::new(goal.to_owned(), Subset::default(), program);
+    Ok(Journal::begin(&path, header, start)?)
 }

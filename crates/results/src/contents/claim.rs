@@ -65,13 +65,13 @@ impl<'f> Claim<'f> {
         self.made.write(self.folder, self.maker.key())
     }
 
-    /// States what was written.
+    /// States that `files` were written, and no other: one of an earlier time that somebody has changed is his.
     ///
     /// # Errors
     /// If a file cannot be read, or the disk does not take the record.
-    pub fn state(mut self) -> Result<(), OutputError> {
+    pub fn state(mut self, files: &[impl AsRef<str>]) -> Result<(), OutputError> {
         let folder = self.folder;
-        self.made.files.retain(|name, _| folder.holds(name));
+        self.made.files.retain(|name, _| files.iter().any(|file| file.as_ref() == name));
         for (name, digest) in &mut self.made.files {
             let path = folder.file(name);
             let read = File::open(&path).and_then(sha256_of);
@@ -125,7 +125,7 @@ mod tests {
                 let claim = Claim::take(&folder, file.maker).expect(file.name);
                 assert!(!folder.holds(file.name), "that of before is gone");
                 write(text);
-                claim.state().expect("written");
+                claim.state(&[file.name]).expect("written");
             }
             // What a kill leaves between the claim and the statement is its own, too.
             drop(Claim::take(&folder, file.maker).expect(file.name));
@@ -140,13 +140,20 @@ mod tests {
         let place = tempfile::tempdir().expect("a folder");
         let folder = RunFolder::new(place.path());
         let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
-        for name in ["tolerance.csv", "yield.csv"] {
-            fs::write(folder.file(name), "written").expect("writable");
+        let files = ["tolerance.csv", "yield.csv"];
+        let write = |name: &str, text: &str| fs::write(folder.file(name), text).expect("writable");
+        for name in files {
+            write(name, "written");
         }
-        claim.state().expect("written");
-        fs::write(folder.file("yield.csv"), "changed").expect("writable");
-        Claim::release(&folder, Maker::Tolerance);
+        claim.state(&files).expect("written");
+        write("yield.csv", "changed");
+        let claim = Claim::take(&folder, Maker::Tolerance).expect("a claim");
         assert!(!folder.holds("tolerance.csv") && folder.holds("yield.csv"));
+        // Nor does it count as written if nobody writes it again.
+        write("tolerance.csv", "again");
+        claim.state(&files[..1]).expect("written");
+        let refused = Claim::take(&folder, Maker::Tolerance).expect_err("a stranger's").to_string();
+        assert!(refused.contains("yield.csv"), "{refused}");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::Path;
+use std::path::{Component, Path};
 
 use serde::{Deserialize, Serialize};
 use store::{OutputError, read_text, sha256};
@@ -57,12 +57,17 @@ impl Derivation {
 
     /// All products of `folder`, in the order of their records.
     pub fn all(folder: &RunFolder) -> Vec<Self> {
+        Self::records(folder).iter().filter_map(|record| Self::read(folder, record)).collect()
+    }
+
+    /// The names of the records of `folder`, in their order.
+    fn records(folder: &RunFolder) -> Vec<String> {
         let entries = fs::read_dir(folder.file(RunFolder::DERIVED)).into_iter().flatten();
         let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
         let mut records: Vec<_> =
             names.filter_map(|name| name.strip_suffix(".toml").map(str::to_owned)).collect();
         records.sort();
-        records.iter().filter_map(|record| Self::read(folder, record)).collect()
+        records
     }
 
     /// Whether any of its files is still there.
@@ -78,7 +83,10 @@ impl Derivation {
             let path = folder.file(name);
             let is_own =
                 || digest.is_empty() || fs::read(&path).map(sha256).ok().as_ref() == Some(digest);
-            Path::new(name).is_relative() && path.is_file() && is_own()
+            // A record that came with somebody's results may name anything.
+            let is_inside =
+                Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
+            is_inside && path.is_file() && is_own()
         };
         let removed: Vec<_> =
             self.files.iter().filter(is_ours).map(|(name, _)| name.clone()).collect();
@@ -90,8 +98,12 @@ impl Derivation {
     /// Removes all products of `folder` that are as they were made, and the records of all; returns the names of the files.
     pub fn remove_all(folder: &RunFolder) -> Vec<String> {
         let removed = Self::all(folder).iter().flat_map(|made| made.remove(folder)).collect();
-        // Records, and nothing else, stand in that folder.
-        let _ = fs::remove_dir_all(folder.file(RunFolder::DERIVED));
+        let records = RunFolder::new(folder.file(RunFolder::DERIVED));
+        for record in Self::records(folder) {
+            records.remove(&format!("{record}.toml"));
+        }
+        // It stays where somebody has put something else into it.
+        let _ = fs::remove_dir(records.path());
         removed
     }
 }

@@ -84,15 +84,17 @@ pub enum InvalidFolder {
         /// The name of the table.
         file: String,
     },
-    /// A file of a search that did not come to its end, or one that was changed.
-    #[error("{}: {problem}; the same command with --resume writes it again", folder.join(file).display())]
-    Search {
+    /// A file of a search or an analysis that did not come to its end, or one that was changed.
+    #[error("{}: {problem}; {again} writes it again", folder.join(file).display())]
+    Claimed {
         /// The folder.
         folder: PathBuf,
         /// The name of the file.
         file: String,
         /// The fault.
         problem: &'static str,
+        /// What writes it again.
+        again: &'static str,
     },
     /// A file cannot be read.
     #[error("{}: cannot be read ({reason}), expected the file that squama run writes", file.display())]
@@ -233,8 +235,9 @@ impl VerifiedFolder {
     /// The SHA-256 that the file `name` must have, if anybody states it.
     fn expected(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
         let entry = FileEntry::of(name).filter(|file| file.is_stated);
-        if entry.is_some_and(|file| file.maker == Maker::Search) {
-            return self.expected_of_search(name);
+        if let Some(file) = entry.filter(|file| !matches!(file.maker, Maker::Run | Maker::Ranking))
+        {
+            return self.claimed(file);
         }
         let Some(contents) = &self.contents else { return Ok(None) };
         if let Some(digest) = contents.files.get(name) {
@@ -262,27 +265,36 @@ impl VerifiedFolder {
         stated.map(Some).ok_or_else(|| refuse("is no file of the ranking beside it"))
     }
 
-    /// The SHA-256 that the file `name` of a search must have. A folder without a journal holds tables alone.
-    fn expected_of_search(&self, name: &str) -> Result<Option<String>, InvalidFolder> {
-        let made = Derivation::read(&self.folder, Maker::Search.key());
+    /// The SHA-256 that a file must have that a command has claimed. A folder without a journal of a search and without a record
+    /// holds tables alone.
+    fn claimed(&self, file: &FileEntry) -> Result<Option<String>, InvalidFolder> {
+        let made = Derivation::read(&self.folder, file.maker.key());
         if made.is_none() && !self.folder.file(RunFolder::EVALUATIONS).exists() {
             return Ok(None);
         }
-        let stated = made.and_then(|made| made.files.get(name).cloned());
-        // Without a digest the search was ended before it stated what it had written.
-        stated.filter(|digest| !digest.is_empty()).map(Some).ok_or_else(|| InvalidFolder::Search {
-            folder: self.path().to_owned(),
-            file: name.to_owned(),
-            problem: "its search did not come to its end",
-        })
+        let stated = made.and_then(|made| made.files.get(file.name).cloned());
+        // Without a digest the command was ended before it stated what it had written.
+        let stated = stated.filter(|digest| !digest.is_empty());
+        stated.map(Some).ok_or_else(|| self.refusal(file, "its command did not come to its end"))
+    }
+
+    fn refusal(&self, file: &FileEntry, problem: &'static str) -> InvalidFolder {
+        let again = match file.maker {
+            Maker::Search => "the same command with --resume",
+            _ => "the same command",
+        };
+        let (folder, file) = (self.path().to_owned(), file.name.to_owned());
+        InvalidFolder::Claimed { folder, file, problem, again }
     }
 
     fn changed(&self, name: &str) -> InvalidFolder {
         let (folder, file) = (self.path().to_owned(), name.to_owned());
         let problem = "was changed after squama wrote it";
-        match FileEntry::of(name).map(|file| file.maker) {
-            Some(Maker::Ranking) => InvalidFolder::Ranking { folder, file, problem },
-            Some(Maker::Search) => InvalidFolder::Search { folder, file, problem },
+        match FileEntry::of(name) {
+            Some(entry) if entry.maker == Maker::Ranking => {
+                InvalidFolder::Ranking { folder, file, problem }
+            }
+            Some(entry) if entry.maker != Maker::Run => self.refusal(entry, problem),
             _ => InvalidFolder::Changed { folder, file },
         }
     }

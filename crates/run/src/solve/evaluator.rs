@@ -8,6 +8,7 @@ use results::{
     DesignResult, DesignRow, Failure, FlexureResult, Outcome, ParameterDerivative, PathEnd,
     PunctureResult, SampleStatistics, SolvedDesign, finite,
 };
+use skin::Common;
 use skin::flexure::{self, Flexure, Method};
 use skin::puncture::{self, Puncture};
 use substrate::{Calibrations, RowStiffness, StiffnessSlopes};
@@ -41,16 +42,25 @@ impl Evaluator {
 
     /// Solves `case`. Nothing that goes wrong inside ends more than this design.
     pub fn solve(&self, number: DesignNumber, case: &Case) -> SolvedDesign {
-        self.solve_metered(number, case, &WorkMeter::default())
+        self.solved(number, case, &WorkMeter::default())
     }
 
-    /// As [`Self::solve`], and tells `meter` of the work as it is done.
-    pub(crate) fn solve_metered(
+    /// The result of [`Self::solve`] alone, sooner: what only tables and drawings of its paths show is not computed.
+    pub fn row(&self, number: DesignNumber, case: &Case) -> DesignRow {
+        self.row_metered(number, case, &WorkMeter::default())
+    }
+
+    /// As [`Self::row`], and tells `meter` of the work as it is done.
+    pub(crate) fn row_metered(
         &self,
         number: DesignNumber,
         case: &Case,
         meter: &WorkMeter,
-    ) -> SolvedDesign {
+    ) -> DesignRow {
+        DesignRow { case: *case, ..self.solved(number, &without_path(case), meter).row }
+    }
+
+    fn solved(&self, number: DesignNumber, case: &Case, meter: &WorkMeter) -> SolvedDesign {
         let work = DesignWork::new(meter, case, &self.measures);
         let coverage = self.measures(Measure::Coverage).then(|| coverage(case)).flatten();
         let mut sensitivity = Vec::new();
@@ -88,7 +98,7 @@ impl Evaluator {
     /// the design as it is. Rows of one number have the same random numbers in all designs. The coverage stays that of the design, and an imperfect row has no derivatives.
     pub fn solve_sample(&self, number: DesignNumber, case: &Case, sample: u64) -> DesignRow {
         if case.imperfection.is_none() {
-            return self.solve(number, case).row;
+            return self.row(number, case);
         }
         let punctured =
             self.measures(Measure::Puncture).then(|| self.punctured_sample(case, sample));
@@ -210,6 +220,12 @@ impl Evaluator {
         let footprint = case.footprint().map_err(|_| Outcome::Calibration)?;
         self.calibrations.row(&footprint, case.coupling).map_err(|_| Outcome::Calibration)
     }
+}
+
+/// The case as measures need it, which is less than its paths show.
+pub(super) fn without_path(case: &Case) -> Case {
+    let common = Common { whole_path: false, ..case.common };
+    Case { common, ..*case }
 }
 
 fn coverage(case: &Case) -> Option<f64> {

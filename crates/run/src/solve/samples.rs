@@ -7,6 +7,7 @@ use skin::puncture;
 use substrate::RowStiffness;
 use sweep::Case;
 
+use super::evaluator::without_path;
 use super::work::DesignWork;
 
 /// Punctures the samples of `case` on `substrate`, and adds what they gave to `statistics`; tells `work` of each.
@@ -64,7 +65,7 @@ pub(super) fn punctured(
     substrate: &RowStiffness,
     row: &Sample,
 ) -> Option<PunctureResult> {
-    let Case { design, common, .. } = case;
+    let Case { design, common, .. } = &without_path(case);
     let parameters = case.punctured();
     let puncture = puncture::solve_sample(design, substrate, common, &parameters, row).ok()?;
     Some(PunctureResult::new(&puncture, substrate.estimated_error()))

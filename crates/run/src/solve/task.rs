@@ -50,9 +50,8 @@ impl<'a> Task<'a> {
         let begun = self.clock.elapsed();
         let grid = self.grid();
         let number = grid.number(index);
-        let solve = || self.evaluator.solve_metered(number, &grid.case(index), self.work);
-        let solved = self.work.told(&number.to_string(), solve);
-        let mut result = solved.row.result;
+        let solve = || self.evaluator.row_metered(number, &grid.case(index), self.work);
+        let mut result = self.work.told(&format!("design {number}"), solve).result;
         result.settings.clone_from(&self.settings);
         let at = self.clock.elapsed();
         let seconds = seconds(at.saturating_sub(begun));

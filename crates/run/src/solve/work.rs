@@ -21,7 +21,7 @@ pub struct WorkMeter {
     slow: Arc<Mutex<Vec<String>>>,
 }
 
-/// Does the work of one design, and tells in words how far it is if it takes longer than five seconds.
+/// Does the work of the design that is called `design`, and tells in words how far it is if it takes longer than five seconds.
 pub fn told<T>(design: &str, tell: impl Fn(String) + 'static, work: impl FnOnce() -> T) -> T {
     told_after(PATIENCE, design, tell, work)
 }
@@ -38,7 +38,7 @@ fn told_after<T>(
         let (seconds, share) = (far.elapsed.as_secs_f64(), 100.0 * far.share + 0.0);
         let FarAlong { points, .. } = far;
         tell(format!(
-            "design {design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the last angle"
+            "{design}: {seconds:.0} s so far, {points} points, at {share:.1} % of the last angle"
         ));
     };
     watched(patience, words, work)
@@ -51,7 +51,7 @@ impl WorkMeter {
     }
 
     /// Does the work of one design, and keeps for [`Self::take_slow`] how far it is if it takes long.
-    pub(crate) fn told<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
+    pub fn told<T>(&self, design: &str, work: impl FnOnce() -> T) -> T {
         let slow = Arc::clone(&self.slow);
         let tell = move |text| slow.lock().unwrap_or_else(PoisonError::into_inner).push(text);
         told(design, tell, work)
@@ -200,7 +200,7 @@ mod tests {
         let (told, heard) = (Arc::<Mutex<Vec<String>>>::default(), Duration::ZERO);
         let tell = Arc::clone(&told);
         let tell = move |text| tell.lock().expect("a lock").push(text);
-        told_after(heard, "0417", tell, || evaluator.solve(number, &case));
+        told_after(heard, "design 0417", tell, || evaluator.solve(number, &case));
         let told = told.lock().expect("a lock").join("\n");
         assert!(told.starts_with("design 0417: 0 s so far, 1 points, at 0.0 %"), "{told}");
     }

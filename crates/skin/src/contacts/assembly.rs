@@ -1,10 +1,10 @@
 //! What the closed contacts of a row add to its equations and to their tangent.
 
-use contact::{COORDINATES, CornerContact, CornerResponse, Equation, FORCES};
+use contact::{COORDINATES, CornerContact, CornerResponse, Equation, FORCES, Pose};
 use solver::{Residual, Tangent};
 
 use super::rubbing::Rub;
-use super::{Contacts, LEVELS, Part, SkinState};
+use super::{Contacts, LEVELS, SkinState};
 
 impl Contacts {
     /// Adds what the closed contacts contribute to the equations and to the tangent.
@@ -14,10 +14,39 @@ impl Contacts {
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        self.for_closed(state, |contact, acting, response| {
-            self.add_response(contact, acting, response, residual);
-            self.add_derivatives(contact, acting, response, matrix);
-        });
+        // A scale that touches both neighbours is turned once.
+        let mut turned: Option<(usize, Pose)> = None;
+        for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
+            if modes.iter().all(|mode| *mode == CornerContact::Open) {
+                continue;
+            }
+            let known = turned.filter(|(scale, _)| *scale == left && !self.relative);
+            let of_left = known.map_or_else(|| self.left_pose(&state.z, left), |(_, pose)| pose);
+            let poses = [of_left, self.pose(&state.z, left + 1)];
+            turned = Some((left + 1, poses[1]));
+            for (contact, mode) in Self::contacts_of(left).zip(modes) {
+                if *mode == CornerContact::Open {
+                    continue;
+                }
+                let corners = self.corners(contact, &poses);
+                let (forces, held) =
+                    (self.forces_of(&state.z, contact), self.held(&state.mode, contact));
+                let response = mode.acting_response(&corners, &self.law, forces, held);
+                match self.whole_pair(contact) {
+                    Some(scales) => {
+                        self.add_blocks(
+                            contact,
+                            mode.acting(),
+                            &response,
+                            scales,
+                            residual,
+                            matrix,
+                        );
+                    }
+                    None => self.add_parts(contact, mode.acting(), &response, residual, matrix),
+                }
+            }
+        }
         if self.rub() {
             for left in 0..self.scales.len() - 1 {
                 if Self::contacts_of(left).any(|contact| state.mode.rubs[contact] != Rub::None) {
@@ -28,80 +57,21 @@ impl Contacts {
         }
     }
 
-    /// Shows the response of every closed contact, and which of its forces act.
-    fn for_closed(
-        &self,
-        state: &SkinState,
-        mut show: impl FnMut(usize, [bool; FORCES], &CornerResponse),
-    ) {
-        for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
-            if modes.iter().all(|mode| *mode == CornerContact::Open) {
-                continue;
-            }
-            let poses = [self.left_pose(&state.z, left), self.pose(&state.z, left + 1)];
-            for (contact, mode) in Self::contacts_of(left).zip(modes) {
-                if *mode != CornerContact::Open {
-                    let forces = self.forces_of(&state.z, contact);
-                    let corners = self.corners(contact, &poses);
-                    show(
-                        contact,
-                        mode.acting(),
-                        &mode.acting_response(
-                            &corners,
-                            &self.law,
-                            forces,
-                            self.held(&state.mode, contact),
-                        ),
-                    );
-                }
-            }
-        }
+    /// The first unknowns of the scales of a contact's pair, where its coordinates are unknowns, three of each scale in succession.
+    pub(super) fn whole_pair(&self, contact: usize) -> Option<[usize; 2]> {
+        let left = Self::left(contact);
+        let scales = [self.scales[left]?, self.scales[left + 1]?];
+        (!self.relative).then_some(scales)
     }
 
-    fn add_response(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        residual: &mut Residual,
-    ) {
-        for Part { unknown, coordinate, sign } in self.parts(contact).into_iter().flatten() {
-            residual.add(unknown, sign * response.balance[coordinate].value);
-        }
-        let unknowns = self.unknowns_of(contact);
-        for force in (0..FORCES).filter(|&force| acting[force]) {
-            if let Some(condition) = &response.conditions[force] {
-                residual.add(unknowns[force], condition.value);
-            }
-        }
-    }
-
-    fn add_derivatives(
-        &self,
-        contact: usize,
-        acting: [bool; FORCES],
-        response: &CornerResponse,
-        matrix: &mut impl Tangent,
-    ) {
-        match (
-            self.relative,
-            self.scales[Self::left(contact)],
-            self.scales[Self::left(contact) + 1],
-        ) {
-            (false, Some(left), Some(right)) => {
-                self.add_blocks(contact, acting, response, [left, right], matrix);
-            }
-            _ => self.add_parts(contact, acting, response, matrix),
-        }
-    }
-
-    /// Adds derivatives where the coordinates of the pair are unknowns, three of each scale in succession.
+    /// Adds a response where the coordinates of the pair are unknowns, three of each of the `scales` in succession.
     fn add_blocks(
         &self,
         contact: usize,
         acting: [bool; FORCES],
         response: &CornerResponse,
         scales: [usize; 2],
+        residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
         let unknowns = self.unknowns_of(contact);
@@ -110,6 +80,9 @@ impl Contacts {
         };
         for (i, row) in scales.into_iter().enumerate() {
             let balance: [&Equation; 3] = std::array::from_fn(|k| &response.balance[3 * i + k]);
+            for (k, equation) in balance.iter().enumerate() {
+                residual.add(row + k, equation.value);
+            }
             for (j, column) in scales.into_iter().enumerate() {
                 let block = balance.map(|equation| three(&equation.by_coordinate, j));
                 matrix.add_block(row, column, &block);
@@ -121,6 +94,7 @@ impl Contacts {
         }
         for force in (0..FORCES).filter(|&force| acting[force]) {
             let Some(condition) = &response.conditions[force] else { continue };
+            residual.add(unknowns[force], condition.value);
             for (j, column) in scales.into_iter().enumerate() {
                 matrix.add_block(unknowns[force], column, &[three(&condition.by_coordinate, j)]);
             }
@@ -130,17 +104,19 @@ impl Contacts {
         }
     }
 
-    /// Adds derivatives where coordinates of the pair are sums of unknowns.
+    /// Adds a response where coordinates of the pair are sums of unknowns.
     fn add_parts(
         &self,
         contact: usize,
         acting: [bool; FORCES],
         response: &CornerResponse,
+        residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
         let parts = self.parts(contact);
         let unknowns = self.unknowns_of(contact);
         let mut add_row = |row: usize, sign: f64, equation: &Equation| {
+            residual.add(row, sign * equation.value);
             for part in parts.iter().flatten() {
                 let slope = part.sign * equation.by_coordinate[part.coordinate];
                 matrix.add(row, part.unknown, sign * slope);

@@ -362,8 +362,14 @@ impl System for Strip {
         self.contacts.conditions(state, values);
     }
 
-    fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
-        self.contacts.condition_slopes(state, direction, slopes);
+    fn condition_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        values: &mut Vec<f64>,
+        slopes: &mut Vec<f64>,
+    ) {
+        self.contacts.condition_slopes(state, direction, values, slopes);
     }
 
     fn condition(&self, state: &SkinState, constraint: usize) -> f64 {

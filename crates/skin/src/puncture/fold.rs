@@ -66,6 +66,9 @@ impl FoldWatch {
         [from, to]: [&SkinPoint; 2],
         events_before: usize,
     ) {
+        if self.first.is_some() && !path.system().whole_path {
+            return;
+        }
         for (fold, place) in folds(path, from, to, events_before) {
             self.folds.push(fold);
             self.first.get_or_insert(place);

@@ -92,6 +92,7 @@ impl PunctureMeasures {
         let (end, modulus) = (chain.path_point(path.point()), chain.plane_modulus);
         let peak = peak(&record.path);
         let scales = 0..chain.layout.scales();
+        let stretch = chain.gap_stretches(state);
         let fold = folds.first().map(|fold| fold.point);
         let nodes = scales.map(|i| -chain.displacement(&state.z, i)[1]);
         Self {
@@ -109,8 +110,8 @@ impl PunctureMeasures {
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
             peak_displacement: peak.map(|point| point.displacement),
             peak_tilt_deg: peak.map(|point| point.tilt_deg),
-            gap_stretch_min: end.gap_stretch.map(|stretch| stretch.min),
-            gap_stretch_max: end.gap_stretch.map(|stretch| stretch.max),
+            gap_stretch_min: stretch.map(|stretch| stretch.min),
+            gap_stretch_max: stretch.map(|stretch| stretch.max),
             fold_force: fold.map(|fold| fold.force),
             fold_displacement: fold.map(|fold| fold.displacement),
             fold_tilt_deg: fold.map(|fold| fold.tilt_deg),

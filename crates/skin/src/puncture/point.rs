@@ -26,7 +26,7 @@ pub struct PuncturePoint {
     pub contact_energy: f64,
     /// What friction between scales has taken up to here, over `E* t³`; `None` without friction.
     pub friction_work: Option<f64>,
-    /// Stretch of the tightest and of the widest gap; `None` for a single scale.
+    /// Stretch of the tightest and of the widest gap; `None` for a single scale, and unless the whole path is noted.
     pub gap_stretch: Option<GapStretch>,
 }
 
@@ -61,7 +61,7 @@ impl Skin for Chain {
             substrate_energy: self.substrate_energy(state),
             contact_energy: self.contacts.energy(state),
             friction_work: None,
-            gap_stretch: self.gap_stretches(state),
+            gap_stretch: self.whole_path.then(|| self.gap_stretches(state)).flatten(),
         }
     }
 

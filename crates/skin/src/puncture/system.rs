@@ -145,6 +145,8 @@ pub(crate) struct Chain {
     /// Numbers of the constraints that only grow.
     growing: Vec<usize>,
     pub(super) controls: Vec<Control>,
+    /// [`Common::whole_path`](crate::Common::whole_path).
+    pub(super) whole_path: bool,
     /// Blocks of the tangent, where scales feel their nearest neighbours alone.
     blocks: Option<Blocks>,
     units: Vec<f64>,
@@ -216,6 +218,7 @@ impl Chain {
             needle,
             constraints,
             controls,
+            whole_path: true,
             units: layout.units(direct),
         }
     }
@@ -439,9 +442,16 @@ impl System for Chain {
         }
     }
 
-    fn condition_slopes(&self, state: &SkinState, direction: &[f64], slopes: &mut Vec<f64>) {
-        self.contacts.condition_slopes(state, direction, slopes);
+    fn condition_slopes(
+        &self,
+        state: &SkinState,
+        direction: &[f64],
+        values: &mut Vec<f64>,
+        slopes: &mut Vec<f64>,
+    ) {
+        self.contacts.condition_slopes(state, direction, values, slopes);
         if let Some(needle) = &self.needle {
+            self.needle_conditions(needle, state, values);
             self.needle_slopes(needle, state, direction, slopes);
         }
     }

@@ -25,16 +25,18 @@ fn an_analysis_goes_on_where_it_was() {
     assert!(matches!(stopped, NoAnalysis::Stopped { done: 150, of: 250 }));
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!((&again.samples, &again.measures), (&at_once.samples, &at_once.measures));
-    let file = |folder: &std::path::Path| fs::read(folder.join("0001.csv")).expect("a table");
+    let [table] = files(&parts, "csv").try_into().expect("one table");
+    let file =
+        |folder: &Path| fs::read(folder.join(table.file_name().expect("a name"))).expect("a table");
     assert_eq!(file(&whole), file(&parts));
     // A table that was changed is not believed: the journal is.
     let damaged = String::from_utf8(file(&parts)).expect("text").replacen("0.2", "0.3", 1);
-    fs::write(parts.join("0001.csv"), damaged).expect("written");
+    fs::write(&table, damaged).expect("written");
     let again = analysed(&sweep, &[], 250, &parts, false).expect("tolerances");
     assert_eq!(again.samples, at_once.samples);
     assert_eq!(file(&whole), file(&parts));
     // A damaged line before intact ones is refused, and nothing is thrown away.
-    let [journal] = journals(&parts).try_into().expect("one journal");
+    let [journal] = files(&parts, "jsonl").try_into().expect("one journal");
     let sound = fs::read_to_string(&journal).expect("text");
     let third = sound.lines().nth(2).expect("a line");
     let damaged = sound.replace(third, &third.replace("\"number\"", "\"numbar\""));
@@ -48,11 +50,11 @@ fn an_analysis_goes_on_where_it_was() {
     assert_eq!(again.samples, at_once.samples);
 }
 
-/// The journals of samples in a folder.
-fn journals(folder: &Path) -> Vec<PathBuf> {
+/// The files in a folder of a certain extension.
+fn files(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder");
     let paths = entries.map(|entry| entry.expect("an entry").path());
-    paths.filter(|path| path.extension().is_some_and(|extension| extension == "jsonl")).collect()
+    paths.filter(|path| path.extension().is_some_and(|found| found == extension)).collect()
 }
 
 #[test]
@@ -67,7 +69,7 @@ fn other_deviations_are_other_samples() {
     assert_ne!(first, sampled("0.02"));
     // Whoever comes back to a definition finds its samples.
     let kept = || -> Vec<Vec<u8>> {
-        journals(place.path()).iter().map(|path| fs::read(path).expect("bytes")).collect()
+        files(place.path(), "jsonl").iter().map(|path| fs::read(path).expect("bytes")).collect()
     };
     let before = kept();
     assert_eq!(before.len(), 2);

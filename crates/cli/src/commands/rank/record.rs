@@ -22,7 +22,7 @@ pub fn ranking_record(results: &Results, ranking: &Ranking<'_>, top: usize) -> V
         all.iter().map(|standing| design(ranking, standing)).collect()
     };
     json!({
-        "folder": results.folder(),
+        "folder": results.folder().to_string_lossy(),
         "designs": results.len(),
         "ranked": ranking.len(),
         "left_out": left_out.collect::<Vec<_>>(),
@@ -64,7 +64,7 @@ pub fn unmet_record(results: &Results, unmet: &Unmet) -> Value {
         })
     };
     json!({
-        "folder": results.folder(),
+        "folder": results.folder().to_string_lossy(),
         "designs": results.len(),
         "ranked": 0,
         "requirements": unmet.requirements.iter().map(requirement).collect::<Vec<_>>(),

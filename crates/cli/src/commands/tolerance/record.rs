@@ -11,7 +11,7 @@ pub fn record(sweep: &Sweep, all: &[DesignTolerance], folder: &Path, files: &[St
     json!({
         "sweep": sweep.name(),
         "designs": all.iter().map(design).collect::<Vec<_>>(),
-        "folder": folder,
+        "folder": folder.to_string_lossy(),
         "files": files,
     })
 }
