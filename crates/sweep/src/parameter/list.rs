@@ -584,7 +584,6 @@ pub static PARAMETERS: &[Parameter] = &[
     },
 ];
 
-/// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
 /// Makes tilts and friction of a puncture what the case says of them, in whatever order it was said.
 fn settle_needle(case: &mut Case) {
     let friction = case.needle_friction;
@@ -598,6 +597,7 @@ fn settle_needle(case: &mut Case) {
     }
 }
 
+/// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
 fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
     let tilts = match value {
         Scalar::Number(number) => {
