@@ -61,7 +61,7 @@ pub fn digits(value: f64) -> String {
 
 /// `value` to six digits, without the zeros at its end.
 pub fn rounded(value: f64) -> String {
-    format!("{value:.5e}").parse().map_or_else(|_| value.to_string(), sweep::number::text)
+    sweep::number::rounded(value, 6)
 }
 
 /// `duration` to the hundredth of a second, or to the second if it is long.

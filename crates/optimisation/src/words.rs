@@ -164,8 +164,7 @@ fn amount_of(value: f64, objective: &Criterion) -> String {
 
 /// A number to three digits.
 fn rounded(value: f64) -> String {
-    // Through decimal text: what is multiplied by powers of ten has digits of its own behind the third.
-    format!("{value:.2e}").parse().map_or_else(|_| value.to_string(), number::text)
+    number::rounded(value, 3)
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ pub use row::PunctureDrawing;
 pub use strip::FlexureDrawing;
 
 use skin::{Contact, Design};
+use sweep::number;
 
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};
@@ -64,7 +65,10 @@ fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: 
 
 /// Returns the geometry of a design as labels have it.
 pub fn geometry_label(design: &Design) -> String {
-    format!("$d/t$ = {}, $L/t$ = {}, $α$ = {}°", design.gap, design.length, design.slant_deg)
+    // Designs that a search has found have sixteen digits.
+    let [gap, length, slant] =
+        [design.gap, design.length, design.slant_deg].map(|value| number::rounded(value, 6));
+    format!("$d/t$ = {gap}, $L/t$ = {length}, $α$ = {slant}°")
 }
 
 /// Formats a number of contacts in words.

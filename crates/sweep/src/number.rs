@@ -12,6 +12,13 @@ pub fn text(value: f64) -> String {
     text
 }
 
+/// The text of `value` rounded to so many significant digits, without zeros at its end.
+pub fn rounded(value: f64, digits: usize) -> String {
+    // Through decimal text: what is multiplied and divided by powers of ten has digits of its own behind the last.
+    let rounded = format!("{value:.0$e}", digits.saturating_sub(1)).parse();
+    rounded.map_or_else(|_| value.to_string(), text)
+}
+
 /// Writes what [`text`] returns.
 ///
 /// # Errors
@@ -31,12 +38,19 @@ pub fn write(to: &mut impl Write, value: f64) -> fmt::Result {
 mod tests {
     use proptest::prelude::*;
 
-    use super::text;
+    use super::{rounded, text};
 
     #[test]
     fn numbers_are_as_short_as_they_can_be() {
         let texts = [0.1 + 0.2, 1.0, -0.0, 1e-7, 12345.0, 1e15, 9677.0, -1.5e-12].map(text);
         assert_eq!(texts.join(" "), "0.30000000000000004 1 0 1e-7 12345 1e15 9677 -1.5e-12");
+    }
+
+    #[test]
+    fn numbers_are_rounded_without_zeros_at_their_ends() {
+        let texts = [0.114_362_956_956, 0.3, 57.670_830_9, 1_234_567.0, 0.0, f64::INFINITY];
+        let texts = texts.map(|value| rounded(value, 6));
+        assert_eq!(texts.join(" "), "0.114363 0.3 57.6708 1234570 0 inf");
     }
 
     proptest! {

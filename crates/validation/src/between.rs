@@ -199,7 +199,7 @@ fn fittest(
 
 /// A number to three digits, without zeros at its end.
 fn three_digits(number: f64) -> String {
-    format!("{number:.2e}").parse().map_or_else(|_| number.to_string(), number::text)
+    number::rounded(number, 3)
 }
 
 fn search(goal: &str) -> Result<Found, ValidationError> {

@@ -206,11 +206,10 @@ impl Sheet {
                 continue;
             }
             let unit = Explanation::of("designs", column).map_or("-", |e| e.unit);
-            let value = format!("{:.5e}", leader.value).parse().unwrap_or(leader.value);
             self.add(&[
                 &name,
                 &format!("{}{}{ties}", leader.first, best.doubt(&leader.first, column)),
-                &sweep::number::text(value),
+                &sweep::number::rounded(leader.value, 6),
                 unit,
             ])?;
         }

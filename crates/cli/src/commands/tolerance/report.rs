@@ -112,7 +112,7 @@ fn percent(share: f64) -> String {
 
 /// Three digits.
 fn short(value: f64) -> String {
-    format!("{value:.2e}").parse().map_or_else(|_| value.to_string(), sweep::number::text)
+    sweep::number::rounded(value, 3)
 }
 
 /// The designs with the highest yield, or in their order if nothing is required.
