@@ -72,6 +72,14 @@ impl<W: Watched> Display<W> {
     }
 }
 
+/// Does work of so many units behind a bar. Signals end it as they end any command.
+pub fn with_bar<T>(units: usize, work: impl FnOnce(&WorkMeter) -> T) -> T {
+    let meter = Arc::<WorkMeter>::default();
+    meter.begin(units as u64);
+    let display = Display::new(false, &Interrupt::default(), meter, "");
+    work(display.watched())
+}
+
 impl<W> Drop for Display<W> {
     fn drop(&mut self) {
         if let Some((sender, watcher)) = self.watcher.take() {

@@ -185,8 +185,13 @@ fn look_over((path, file): (&Path, File)) -> Result<(TableProfile, BestValues), 
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let (mut columns, mut best) =
         (vec![ColumnProfile::default(); header.len()], BestValues::new(&header));
-    let mut row = csv::StringRecord::new();
+    let (mut row, mut rows) = (csv::StringRecord::new(), 0);
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
+        rows += 1;
+        // Before a minute goes into a sheet that cannot hold them.
+        if rows > ROWS {
+            return Err(ExportError::TooManyRows { file: path.to_owned() });
+        }
         ColumnProfile::add(&mut columns, format, &row);
         best.add(format, &row);
     }
@@ -212,9 +217,6 @@ fn copy(
     let header = csv.headers().map_err(|error| unreadable(words(error)))?.clone();
     let mut row = csv::StringRecord::new();
     while csv.read_record(&mut row).map_err(|error| unreadable(words(error)))? {
-        if sheet.rows() == ROWS {
-            return Err(ExportError::TooManyRows { file: path.to_owned() });
-        }
         sheet.add(&row).map_err(failed)?;
     }
     guide.explain(sheet.table(), own, &header).map_err(failed)?;

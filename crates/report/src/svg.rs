@@ -151,6 +151,18 @@ pub fn untitled(svg: &str) -> String {
     parts().unwrap_or_else(|| svg.to_owned())
 }
 
+/// Returns a drawing that is `width` mm wide on paper, with everything in it in proportion.
+pub fn resized(svg: &str, width: f64) -> String {
+    let parts = || {
+        let (start, rest) = svg.split_once(" width=\"")?;
+        let (across, rest) = rest.split_once("\" height=\"")?;
+        let (down, rest) = rest.split_once('"')?;
+        let height = px(width * down.parse::<f64>().ok()? / across.parse::<f64>().ok()?);
+        Some(format!("{start} width=\"{width}mm\" height=\"{height}mm\"{rest}"))
+    };
+    parts().unwrap_or_else(|| svg.to_owned())
+}
+
 /// Returns the data of a path through `points`.
 pub(crate) fn through(points: &[Spot], closed: bool) -> String {
     let mut data = String::new();
@@ -206,7 +218,7 @@ pub(crate) fn arrow(from: Spot, to: Spot, color: &str, width: f64) -> Element {
 
 #[cfg(test)]
 mod tests {
-    use super::{Element, document, heading, untitled};
+    use super::{Element, document, heading, resized, untitled};
 
     #[test]
     fn a_drawing_without_title_is_lower_by_its_room() {
@@ -217,5 +229,8 @@ mod tests {
         assert!(!bare.contains("<text") && bare.contains("<g class=\"rest\"/>"), "{bare}");
         assert!(bare.contains("<title>a &lt; b</title>"), "who cannot see it is told: {bare}");
         assert_eq!(untitled(&bare), bare);
+        let printed = resized(&bare, 85.0);
+        assert!(printed.contains(" width=\"85mm\" height=\""), "{printed}");
+        assert!(printed.contains("viewBox=\"0 32 "), "{printed}");
     }
 }

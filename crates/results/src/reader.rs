@@ -1,5 +1,6 @@
 //! The folder of a run read back: one row per design, as text.
 
+mod packed_rows;
 mod thinning;
 
 use std::fs::File;
@@ -12,6 +13,7 @@ use sweep::{Parameter, Sweep, nearest, number, reason};
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;
 use crate::tables::csv_format::CsvFormat;
+use packed_rows::PackedRows;
 use thinning::Thinning;
 
 /// The first column of that table.
@@ -24,7 +26,7 @@ pub struct Results {
     file: &'static str,
     format: CsvFormat,
     header: Vec<String>,
-    rows: Vec<csv::StringRecord>,
+    rows: PackedRows,
     /// The number of rows of the table, of which some may have been left out.
     in_table: usize,
     parameters: Vec<(&'static Parameter, usize)>,
@@ -150,8 +152,7 @@ impl Results {
     /// Some of the designs, by their rows.
     #[must_use]
     pub fn only(&self, rows: &[usize]) -> Self {
-        let rows = rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect();
-        Self { rows, ..self.clone() }
+        Self { rows: self.rows.only(rows.iter().copied()), ..self.clone() }
     }
 
     /// The folder of the results.
@@ -235,7 +236,7 @@ impl Results {
 
     /// A cell as it is written.
     pub fn text(&self, row: usize, column: usize) -> &str {
-        self.rows.get(row).and_then(|cells| cells.get(column)).unwrap_or_default()
+        self.rows.cell(row, column)
     }
 
     /// The number in a cell, if there is one.
@@ -262,7 +263,7 @@ impl Results {
 struct Table {
     format: CsvFormat,
     header: Vec<String>,
-    rows: Vec<csv::StringRecord>,
+    rows: PackedRows,
     length: usize,
 }
 
@@ -285,12 +286,12 @@ fn read_table(mut file: File, most: usize) -> Result<Table, csv::Error> {
     let header: Vec<_> = table.headers()?.iter().map(str::to_owned).collect();
     let mut kept = Thinning::new(&header, in_table, most);
     let mut count = 0;
-    for row in table.records() {
-        let row = match format {
-            CsvFormat::Plain => row?,
-            CsvFormat::ExcelEu => row?.iter().map(|cell| plain(format, cell)).collect(),
-        };
-        kept.visit(count, row);
+    let mut row = csv::StringRecord::new();
+    while table.read_record(&mut row)? {
+        if format == CsvFormat::ExcelEu {
+            row = row.iter().map(|cell| plain(format, cell)).collect();
+        }
+        kept.visit(count, &row);
         count += 1;
     }
     Ok(Table { format, header, rows: kept.finish(), length: count })

@@ -82,16 +82,16 @@ impl BlockElimination {
         // carried there.
         let mut taken = [Taken::default(); 2];
         for block in 0..root {
-            taken[0] = self.eliminate(matrix, block, &taken[0])?;
+            self.eliminate(matrix, block, &mut taken[0])?;
         }
         for block in (root + 1..blocks).rev() {
-            taken[1] = self.eliminate(matrix, block, &taken[1])?;
+            self.eliminate(matrix, block, &mut taken[1])?;
         }
         let [mut from_both, from_right] = taken;
         for (sum, right) in from_both.iter_mut().flatten().zip(from_right.iter().flatten()) {
             *sum += right;
         }
-        self.eliminate(matrix, root, &from_both).map(|_| ())
+        self.eliminate(matrix, root, &mut from_both)
     }
 
     fn reshape(&mut self, matrix: &BlockMatrix) {
@@ -117,20 +117,20 @@ impl BlockElimination {
         &mut self,
         matrix: &BlockMatrix,
         block: usize,
-        taken: &Taken,
-    ) -> Result<Taken, UnsafeBlock> {
+        taken: &mut Taken,
+    ) -> Result<(), UnsafeBlock> {
         let size = self.size(block);
         let refused = UnsafeBlock { block, size };
         with_size!(size, self.eliminate_block(matrix, block, taken), None).ok_or(refused)
     }
 
-    /// Factorises a block from whose link something is `taken`, and returns what it takes from that of the inner one.
+    /// Factorises a block from whose link something is `taken`, and replaces that by what it takes from the link of the inner one.
     fn eliminate_block<const N: usize>(
         &mut self,
         matrix: &BlockMatrix,
         block: usize,
-        taken: &Taken,
-    ) -> Option<Taken> {
+        taken: &mut Taken,
+    ) -> Option<()> {
         let (start, at) = (self.starts[block], self.at[block]);
         let link = self.links[block] - start;
         let stored = &matrix.values[at..at + N * (N + 2 * LINK)];
@@ -143,7 +143,7 @@ impl BlockElimination {
         }
         // Measured before the neighbour's share is taken: what cancels there is what must be noticed.
         let least = least_pivots(&d);
-        for (row, taken) in d[link..link + LINK].iter_mut().zip(taken) {
+        for (row, taken) in d[link..link + LINK].iter_mut().zip(taken.iter()) {
             for (entry, taken) in row[link..link + LINK].iter_mut().zip(taken) {
                 *entry -= taken;
             }
@@ -154,14 +154,15 @@ impl BlockElimination {
         factors.copy_from_slice(d.as_flattened());
         // The root has nothing inward of it to be eliminated into.
         if block == self.root {
-            return Some(Taken::default());
+            return Some(());
         }
         substitute_back(&d, &mut c);
         for (coupled, (c, b)) in coupling.chunks_exact_mut(2 * LINK).zip(c.iter().zip(&b)) {
             coupled[..LINK].copy_from_slice(c);
             coupled[LINK..].copy_from_slice(b);
         }
-        Some(product(&b, &c))
+        *taken = product(&b, &c);
+        Some(())
     }
 
     /// Solves in place: `x` holds the right-hand side, then the solution, of all unknowns. Where an unknown was left out, the

@@ -206,6 +206,20 @@ impl Tangent for BlockMatrix {
         }
     }
 
+    /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of unknowns that follow each other in blocks.
+    #[inline]
+    fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
+        let (row, column) = (self.places[row], self.places[column]);
+        let first = self.index(row, column);
+        let width = match values.len() {
+            0 | 1 => 0,
+            _ => self.index(row + 1, column + 1) - first,
+        };
+        for (k, value) in values.iter().enumerate() {
+            self.values[first + width * k] += value;
+        }
+    }
+
     /// Adds `values` to the entries from the one at (`row`, `column`) on. The unknowns of these rows, and of these columns,
     /// are all kept and follow each other within a block.
     fn add_block<const R: usize, const C: usize>(

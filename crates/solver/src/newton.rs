@@ -292,12 +292,16 @@ pub(crate) fn guard_slope<S: System>(
     }
 }
 
-/// Sets the unknowns of inactive constraints to zero, where the iteration keeps them.
+/// Sets the unknowns of inactive constraints, and others that vanish, to zero, where the iteration keeps them.
 fn rest<S: System>(system: &S, state: &mut State<S::Mode>) {
     for (&index, active) in system.constraints().iter().zip(&state.active) {
         if !active {
             state.z[index] = 0.0;
         }
+    }
+    let vanishing: Vec<_> = system.vanishing(state).collect();
+    for index in vanishing {
+        state.z[index] = 0.0;
     }
 }
 

@@ -102,8 +102,12 @@ impl<M> Peak<M> {
             [Some(&mut best.point), best.before.as_mut(), best.after.as_mut()].into_iter().flatten()
         });
         let kinks = self.kinks.iter_mut().flat_map(|segment| [&mut segment.from, &mut segment.to]);
+        // A point where segments meet stays one point: by that those are known that need not be searched twice.
+        let mut replaced: Vec<[Arc<Point<M>>; 2]> = Vec::new();
         for point in best.chain(kinks) {
-            *point = Arc::new(new(point));
+            let known = replaced.iter().find(|[old, _]| Arc::ptr_eq(old, point));
+            let by = known.map_or_else(|| Arc::new(new(point)), |[_, by]| Arc::clone(by));
+            replaced.push([std::mem::replace(point, Arc::clone(&by)), by]);
         }
     }
 

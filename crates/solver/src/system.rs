@@ -82,6 +82,11 @@ pub trait System {
         &[]
     }
 
+    /// Unknowns that vanish in a state besides those of its inactive constraints, and are not solved for.
+    fn vanishing(&self, _state: &State<Self::Mode>) -> impl Iterator<Item = usize> {
+        std::iter::empty()
+    }
+
     /// Numbers of the constraints whose unknown, once active, only grows, such as the way that something has slid with friction. Where
     /// it turns back the constraint becomes inactive, and its transition keeps in the mode how far it has come.
     fn growing(&self) -> &[usize] {
@@ -221,9 +226,23 @@ impl Residual {
     }
 
     /// Adds a term to an equation.
+    #[inline]
     pub fn add(&mut self, row: usize, term: f64) {
         self.value[row] += term;
         self.size[row] += term.abs();
+    }
+
+    /// Adds `factors` times the first of `others` to the equations from `row` on.
+    #[inline]
+    pub fn add_products(&mut self, row: usize, factors: &[f64], others: &[f64]) {
+        let rows = row..row + factors.len();
+        let (value, size) = (&mut self.value[rows.clone()], &mut self.size[rows]);
+        let others = &others[..factors.len()];
+        for k in 0..factors.len() {
+            let term = factors[k] * others[k];
+            value[k] += term;
+            size[k] += term.abs();
+        }
     }
 }
 
@@ -264,13 +283,14 @@ impl<M: Clone> State<M> {
     }
 }
 
-/// Unknowns of the inactive constraints.
+/// Unknowns of the inactive constraints, and others that vanish.
 pub(crate) fn inactive<'a, S: System>(
     system: &'a S,
     state: &'a State<S::Mode>,
 ) -> impl Iterator<Item = usize> + 'a {
     let constraints = system.constraints().iter().zip(&state.active);
-    constraints.filter(|(_, active)| !**active).map(|(&index, _)| index)
+    let inactive = constraints.filter(|(_, active)| !**active).map(|(&index, _)| index);
+    inactive.chain(system.vanishing(state))
 }
 
 #[cfg(test)]

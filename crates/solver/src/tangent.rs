@@ -8,6 +8,14 @@ pub trait Tangent {
     /// Adds `value` to the entry at (`row`, `column`).
     fn add(&mut self, row: usize, column: usize, value: f64);
 
+    /// Adds `values` to the entries from the one at (`row`, `column`) down the diagonal, of which no unknown is that of an inactive
+    /// constraint.
+    fn add_diagonal(&mut self, row: usize, column: usize, values: &[f64]) {
+        for (k, value) in values.iter().enumerate() {
+            self.add(row + k, column + k, *value);
+        }
+    }
+
     /// Adds `values` to the entries from the one at (`row`, `column`) on. No unknown of these rows and columns is that of an inactive
     /// constraint.
     fn add_block<const R: usize, const C: usize>(

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use report::untitled;
+use report::{resized, untitled};
 use results::{AtomicFile, VerifiedFolder};
 
 use super::derived;
@@ -27,6 +27,10 @@ pub struct FigureOutput {
     /// Omit the titles, for captions of your own
     #[arg(long)]
     pub no_title: bool,
+
+    /// Width of the figures on paper in mm, e.g. 85 for a column; text shrinks in proportion [default: 1 px for 1/96 inch]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub width: Option<f64>,
 
     /// Folder for the figures [default: a folder in the results of the sweep]
     #[arg(long, value_name = "DIR")]
@@ -58,6 +62,7 @@ impl<'a> FigureFiles<'a> {
     pub fn svg(&mut self, name: &str, svg: &str) -> anyhow::Result<()> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
+        let svg = output.width.map_or(svg.clone(), |width| Cow::Owned(resized(&svg, width)));
         // An image that cannot be made leaves no drawing without it.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
         self.write(format!("{name}.svg"), svg.as_bytes())?;
@@ -104,8 +109,18 @@ pub fn joined(names: &[String], things: &str) -> String {
     }
 }
 
-/// Refuses a density of images that no image has.
+/// Widths that a figure may have on paper, mm.
+const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
+
+/// Refuses a density of images that no image has, and a width that no paper has.
 pub fn check_dpi(output: &FigureOutput) -> anyhow::Result<()> {
+    if let Some(width) = output.width {
+        let (low, high) = (WIDTHS.start(), WIDTHS.end());
+        ensure!(
+            WIDTHS.contains(&width),
+            "--width {width}: out of range, expected {low} to {high} mm"
+        );
+    }
     let dpi = output.dpi;
     ensure!(
         DPI.contains(&dpi),

@@ -17,6 +17,7 @@ use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
 use super::{DONE, INCOMPLETE};
+use crate::progress::with_bar;
 
 /// Arguments of `squama plot`.
 #[derive(Debug, Args)]
@@ -184,8 +185,15 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let designs = select(&arguments.definition, &arguments.selection)?;
     let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();
     let measured = measured(arguments, &cases)?;
-    let solved = cases.iter().map(|case| solve(case, arguments.to));
-    let solved = solved.collect::<anyhow::Result<Vec<_>>>()?;
+    let solved = with_bar(cases.len(), |work| {
+        let solved = cases.iter().zip(&designs).map(|(case, design)| {
+            let name = format!("design {}", design.label());
+            let solved = work.told(&name, || solve(case, arguments.to));
+            work.count(1);
+            solved
+        });
+        solved.collect::<anyhow::Result<Vec<_>>>()
+    })?;
     let shown = solved.iter().zip(&designs).zip(&cases);
     let shown: Vec<_> = shown
         .map(|(((puncture, flexure), design), case)| DesignCurves {

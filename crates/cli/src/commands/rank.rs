@@ -81,7 +81,7 @@ pub struct Arguments {
     /// Rank by the largest force before the surface folds instead of the critical force
     ///
     /// Beyond a fold two bases have passed each other, and the model is no longer valid.
-    #[arg(long, conflicts_with_all = ["criteria", "maximize", "minimize"])]
+    #[arg(long)]
     pub sound: bool,
 
     /// Number of designs to print
@@ -167,31 +167,27 @@ fn preferences(arguments: &Arguments) -> anyhow::Result<Preferences> {
     }
 }
 
-/// The criteria that are asked for, or those of the paper.
+/// The criteria that are asked for, or those of the paper, with `--sound` with the force that the model can answer for.
 fn criteria(arguments: &Arguments) -> anyhow::Result<Vec<Criterion>> {
     let goals = [(Goal::Maximize, &arguments.maximize), (Goal::Minimize, &arguments.minimize)];
     let of = |(goal, columns): (Goal, &Vec<String>)| -> Vec<Criterion> {
         columns.iter().map(|column| Criterion::new(column.trim(), goal)).collect()
     };
     let own: Vec<_> = goals.into_iter().flat_map(of).collect();
-    match &arguments.criteria {
+    let mut criteria = match &arguments.criteria {
         Some(criteria) => {
             let read = |text: &str| option::<Criterion>("--criteria", text);
-            criteria.split(',').map(read).collect()
+            criteria.split(',').map(read).collect::<anyhow::Result<_>>()?
         }
-        None if own.is_empty() && arguments.sound => Ok(sound_criteria()),
-        None if own.is_empty() => Ok(CRITERIA.to_vec()),
-        None => Ok(own),
-    }
-}
-
-/// The criteria of the paper with the force that the model can answer for.
-fn sound_criteria() -> Vec<Criterion> {
-    let sound = |criterion: &Criterion| match criterion.column.as_ref() {
-        "critical_force" => Criterion::new(SOUND_FORCE, Goal::Maximize),
-        _ => criterion.clone(),
+        None if own.is_empty() => CRITERIA.to_vec(),
+        None => own,
     };
-    CRITERIA.iter().map(sound).collect()
+    if arguments.sound {
+        let force = criteria.iter_mut().find(|criterion| criterion.column == "critical_force");
+        let force = force.context("--sound has no effect: critical_force is no criterion")?;
+        *force = Criterion::new(SOUND_FORCE, force.goal);
+    }
+    Ok(criteria)
 }
 
 /// The value of an option.

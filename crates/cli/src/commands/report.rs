@@ -20,6 +20,7 @@ use super::results_folder::ResultsFolder;
 use super::source::{Partial, require_folder_of, verified_folder};
 use super::{DONE, PROGRAM, derived};
 use crate::print::print;
+use crate::progress::with_bar;
 
 /// Arguments of `squama report`.
 #[derive(Debug, Args)]
@@ -147,8 +148,14 @@ fn solved(results: &ResultsFolder, rankings: &[Ranking<'_>]) -> Vec<PageDesign> 
     }
     rows.truncate(SOLVED);
     let rows: Vec<_> = rows.into_iter().enumerate().collect();
-    let solve = |&(k, row): &(usize, usize)| solve(results, row, k < DRAWN);
-    let mut all: Vec<_> = rows.par_iter().filter_map(solve).collect();
+    let mut all: Vec<_> = with_bar(rows.len(), |work| {
+        let solve = |&(k, row): &(usize, usize)| {
+            let solved = solve(results, row, k < DRAWN);
+            work.count(1);
+            solved
+        };
+        rows.par_iter().filter_map(solve).collect()
+    });
     let mut room = ROOM;
     for design in &mut all {
         // The best come first: where the room ends, the others keep their curves.

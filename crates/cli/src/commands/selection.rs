@@ -5,7 +5,9 @@ use std::path::Path;
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use sweep::{Axis, Case, DesignNumber, Grid, Setting, Sweep};
+use optimisation::{DesignGoal, FRONT, GOAL};
+use results::{Completeness, Results, VerifiedFolder};
+use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep};
 
 use super::source::{Definition, definition_file, settings};
 
@@ -47,8 +49,11 @@ pub fn select(
     definition: &Definition,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let file = definition_file(&definition.path)?;
     let settings = settings(&definition.settings)?;
+    if definition.path.join(FRONT).is_file() {
+        return of_front(&definition.path, &settings, selection);
+    }
+    let file = definition_file(&definition.path)?;
     if selection.numbers.is_empty() && options(selection).iter().all(|(.., text)| text.is_none()) {
         let designs = Sweep::read(&file, &settings)?.grid().len();
         ensure!(
@@ -63,6 +68,41 @@ pub fn select(
     } else {
         by_numbers(&file, &settings, &selection.numbers)
     }
+}
+
+/// The designs with these numbers of the Pareto front in the folder of a search.
+fn of_front(
+    folder: &Path,
+    settings: &[Setting],
+    selection: &Selection,
+) -> anyhow::Result<Vec<SelectedDesign>> {
+    let found = VerifiedFolder::open(folder, Completeness::Partial)?;
+    let name = folder.join(GOAL).display().to_string();
+    let goal = DesignGoal::parse(&found.text(GOAL)?, &name, &[])?;
+    let front = Results::of_file(&found, FRONT)?;
+    let (space, grid) = (goal.space.sweep(), goal.space.sweep().grid());
+    let nominal = space.at(&grid.case(0)).to_toml();
+    let designs = front.len();
+    ensure!(
+        !selection.numbers.is_empty(),
+        "{}: holds a Pareto front of {designs} designs; choose with --design",
+        folder.display()
+    );
+    let select = |text: &String| {
+        let row = text.trim().parse::<usize>().ok().filter(|number| (1..=designs).contains(number));
+        let row = row.with_context(|| {
+            format!(
+                "--design {text}: not accepted, expected 1 to {designs}, the designs of {FRONT}"
+            )
+        })? - 1;
+        let value = |p: &Parameter| format!("{}={}", p.path(), front.parameter(row, p));
+        let found = goal.space.parameters().map(|p| Setting::parse(&value(p)));
+        let mut all = found.collect::<Result<Vec<_>, _>>()?;
+        all.extend_from_slice(settings);
+        let (sweep, number) = (Sweep::parse(&nominal, &name, &all)?, Some(grid.number(row as u64)));
+        Ok(SelectedDesign { sweep, number, count: designs as u64, original: None })
+    };
+    selection.numbers.iter().map(select).collect()
 }
 
 fn by_numbers(

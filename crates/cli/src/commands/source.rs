@@ -78,7 +78,7 @@ pub fn definition_file(path: &Path) -> anyhow::Result<PathBuf> {
     let folder = path.display();
     ensure!(
         !holds("front.csv"),
-        "{folder}: holds a Pareto front and no single design; put a design of front.csv in [designs] of a definition"
+        "{folder}: holds a Pareto front and no single design; squama design, draw and make take one of them with --design"
     );
     ensure!(
         !holds("tolerance.csv") && !holds("sobol.csv"),

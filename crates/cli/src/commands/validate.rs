@@ -71,7 +71,7 @@ fn with_bar<T>(
     work: impl FnOnce(&mut dyn FnMut(PartProgress<'_>)) -> Result<T, ValidationError>,
 ) -> Result<T, ValidationError> {
     let bar = ProgressBar::new(0);
-    let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {msg}";
+    let template = "{wide_bar} {pos}/{len} parts  {elapsed}  {eta} left  {msg}";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }

@@ -1,6 +1,7 @@
 //! What a search has found, on the page of a sweep.
 
 use crate::Place;
+use crate::table::cell;
 
 const GRID: &str = "name = 'grid'\nmeasures = 'coverage'\n[designs]\ngap_over_t = [0.2, 0.6]\n\
                     length_over_t = 1\nslant_deg = [30, 60]\n";
@@ -36,6 +37,30 @@ fn a_front_stands_over_the_designs_of_the_grid() {
     assert!(html.contains("\"variables\":[\"gap_over_t\",\"slant_deg\"]"));
     // What the search holds otherwise is told; what it varies is not.
     assert!(found.contains("\"differences\":[\"scale.width_over_t 2 instead of 1\"]"), "{found}");
+}
+
+#[test]
+fn a_design_of_a_front_is_chosen_by_its_number() {
+    let place = grid();
+    page(&place, "maximize = ['coverage', 'gap_over_t']");
+    let front = place.read("found/front.csv");
+    for number in ["0001", "0003"] {
+        place.prints(&format!("design found --design {number} --set scale.width_over_t=3"));
+        let measures = place.read(&format!("found/designs/{number}/measures.csv"));
+        for column in ["gap_over_t", "slant_deg", "coverage"] {
+            let value = measures.lines().find(|line| line.starts_with(&format!("{column},")));
+            let cell = cell(&front, number, column);
+            assert!(value.is_some_and(|line| line.contains(cell)), "{column} {cell}: {value:?}");
+        }
+    }
+    place.prints(
+        "draw found --design 2,4 --width 85 --set puncture.scales=3 --set designs.slant_deg=45",
+    );
+    let drawing = place.read("found/drawings/design-0004-puncture-at-critical-tilt.svg");
+    assert!(drawing.contains(" width=\"85mm\" height=\""));
+    insta::assert_snapshot!(place.refused("design found"), @"error: found: holds a Pareto front of 4 designs; choose with --design");
+    insta::assert_snapshot!(place.refused("design found --design 5"), @"error: --design 5: not accepted, expected 1 to 4, the designs of front.csv");
+    insta::assert_snapshot!(place.refused("draw found --design 1 --width 5"), @"error: --width 5: out of range, expected 10 to 2000 mm");
 }
 
 #[test]

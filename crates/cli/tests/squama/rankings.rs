@@ -64,7 +64,9 @@ fn beside_a_winner_that_has_folded_over_stands_the_best_that_has_not() {
     let table = place.read("a/ranking.csv");
     assert_eq!(crate::table::cells(&table, "design"), ["0002", "0001", "0003"]);
     assert_eq!(crate::table::cells(&table, "sound_force"), ["9", "5", "1"]);
-    place.squama("rank a --sound --maximize coverage").assert().code(2);
+    insta::assert_snapshot!(place.refused("rank a --sound --maximize coverage"), @"error: --sound has no effect: critical_force is no criterion");
+    place.prints("rank a --sound --criteria coverage,critical_force");
+    assert!(place.read("a/ranking.csv").lines().next().expect("a header").contains("sound_force"));
 }
 
 #[test]

@@ -134,10 +134,11 @@ pub(super) fn contenders(rows: &[Eligible], preferences: &Preferences) -> Vec<Co
     let count = preferences.criteria.len();
     let criteria: Vec<Criteria> = rows.iter().map(|eligible| eligible.criteria).collect();
     let front = front_of(&criteria, count);
-    let criteria_spans = spans(&criteria);
+    let criteria_spans = spans(criteria.iter());
+    drop(criteria);
     // Values tell whether anything but round-off tells designs apart: a logarithm may be near 0.
-    let values: Vec<Criteria> = rows.iter().map(|eligible| eligible.values).collect();
-    let is_tie = spans(&values).map(|(low, high)| same(low, high));
+    let is_tie =
+        spans(rows.iter().map(|eligible| &eligible.values)).map(|(low, high)| same(low, high));
     let contender = |(eligible, on_front): (&Eligible, bool)| {
         let &Eligible { row, values, criteria } = eligible;
         let one = |c: usize| if is_tie[c] { 1.0 } else { rescaled(criteria[c], criteria_spans[c]) };
@@ -151,7 +152,7 @@ pub(super) fn contenders(rows: &[Eligible], preferences: &Preferences) -> Vec<Co
 /// The sum of the criteria of each design of a front, each from 0, the worst of the front, to 1, the best (R9).
 pub(super) fn sums_of_rescaled(front: &[&Contender]) -> Vec<f64> {
     let criteria: Vec<Criteria> = front.iter().map(|contender| contender.criteria).collect();
-    let spans = spans(&criteria);
+    let spans = spans(criteria.iter());
     let sum = |criteria: &Criteria| {
         criteria.iter().zip(spans).map(|(value, span)| rescaled(*value, span)).sum::<f64>()
     };
@@ -159,9 +160,12 @@ pub(super) fn sums_of_rescaled(front: &[&Contender]) -> Vec<f64> {
 }
 
 /// The lowest and the highest of each criterion.
-fn spans(criteria: &[Criteria]) -> [(f64, f64); MOST_CRITERIA] {
-    std::array::from_fn(|c| {
-        let values = criteria.iter().map(|values| values[c]);
-        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-    })
+fn spans<'c>(criteria: impl Iterator<Item = &'c Criteria>) -> [(f64, f64); MOST_CRITERIA] {
+    let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); MOST_CRITERIA];
+    for values in criteria {
+        for ((low, high), value) in spans.iter_mut().zip(values) {
+            (*low, *high) = (low.min(*value), high.max(*value));
+        }
+    }
+    spans
 }

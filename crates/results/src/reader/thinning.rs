@@ -1,5 +1,7 @@
 //! A long table thinned out: every so many rows, and those that are best by one value.
 
+use super::packed_rows::PackedRows;
+
 /// Values by which the best row is kept, and whether the largest is the best.
 const BEST: [(&str, bool); 4] =
     [("coverage", true), ("critical_force", true), ("penetration", false), ("compliance", true)];
@@ -8,7 +10,8 @@ const BEST: [(&str, bool); 4] =
 #[derive(Debug)]
 pub(super) struct Thinning {
     every: usize,
-    rows: Vec<(usize, csv::StringRecord)>,
+    places: Vec<usize>,
+    rows: PackedRows,
     best: Vec<BestRow>,
 }
 
@@ -28,27 +31,34 @@ impl Thinning {
             Some(BestRow { column, is_largest: *is_largest, row: None })
         });
         let best = if rows > most { best.collect() } else { Vec::new() };
-        Self { every: rows.div_ceil(most.max(1)).max(1), rows: Vec::new(), best }
+        let every = rows.div_ceil(most.max(1)).max(1);
+        Self { every, places: Vec::new(), rows: PackedRows::default(), best }
     }
 
     /// Takes the row at `place` into account.
-    pub fn visit(&mut self, place: usize, row: csv::StringRecord) {
+    pub fn visit(&mut self, place: usize, row: &csv::StringRecord) {
         for best in &mut self.best {
-            best.visit(place, &row);
+            best.visit(place, row);
         }
         if place.is_multiple_of(self.every) {
-            self.rows.push((place, row));
+            self.places.push(place);
+            self.rows.push(row.iter());
         }
     }
 
     /// The rows that are kept, in their order.
-    pub fn finish(mut self) -> Vec<csv::StringRecord> {
-        self.rows.extend(
-            self.best.into_iter().filter_map(|best| best.row).map(|(_, place, row)| (place, row)),
-        );
-        self.rows.sort_by_key(|(place, _)| *place);
-        self.rows.dedup_by_key(|(place, _)| *place);
-        self.rows.into_iter().map(|(_, row)| row).collect()
+    pub fn finish(mut self) -> PackedRows {
+        if self.best.is_empty() {
+            return self.rows;
+        }
+        for (_, place, row) in self.best.into_iter().filter_map(|best| best.row) {
+            self.places.push(place);
+            self.rows.push(row.iter());
+        }
+        let mut order: Vec<usize> = (0..self.places.len()).collect();
+        order.sort_by_key(|k| self.places[*k]);
+        order.dedup_by_key(|k| self.places[*k]);
+        self.rows.only(order.into_iter())
     }
 }
 
@@ -74,9 +84,10 @@ mod tests {
         for place in 0..rows {
             let penetration = (place as f64 - 7.0).abs();
             let row = [place.to_string(), penetration.to_string()];
-            thinning.visit(place, csv::StringRecord::from(row.to_vec()));
+            thinning.visit(place, &csv::StringRecord::from(row.to_vec()));
         }
-        thinning.finish().iter().map(|row| row[0].to_owned()).collect()
+        let rows = thinning.finish();
+        (0..rows.len()).map(|row| rows.cell(row, 0).to_owned()).collect()
     }
 
     #[test]

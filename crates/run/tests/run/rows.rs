@@ -51,6 +51,22 @@ proptest! {
     }
 }
 
+/// A row alone has the numbers of a design whose paths are kept, and those paths have every fold and the stretches at every point.
+#[test]
+fn a_row_alone_is_that_of_a_design_with_its_paths() {
+    let text = "name = 'x'\nmeasures = ['puncture', 'flexure']\n[designs]\ngap_over_t = 0.1\nlength_over_t = [0.2, 1]\nslant_deg = 75";
+    let sweep = Sweep::parse(text, "x.toml", &[]).expect("a valid sweep");
+    let evaluator = Evaluator::new(sweep.measures());
+    for index in 0..sweep.grid().len() {
+        let (number, case) = (sweep.grid().number(index), sweep.grid().case(index));
+        let solved = evaluator.solve(number, &case);
+        assert_eq!(evaluator.row(number, &case), solved.row, "design {index}");
+        let puncture = solved.puncture.expect("a puncture");
+        assert!(puncture.folds.len() > 1, "design {index}");
+        assert!(puncture.path.iter().all(|point| point.gap_stretch.is_some()), "design {index}");
+    }
+}
+
 /// The coverage of slanted scales in closed form tells how it moves with the gap; what is not measured is left out.
 #[test]
 fn measures_move_with_the_gap_as_their_closed_form_says() {

@@ -52,9 +52,13 @@ pub struct FlexureMeasures {
 impl FlexureMeasures {
     /// The measures of a path that came to its end.
     pub(crate) fn new(record: &Record<Strip>, path: &mut Path<Strip>) -> Self {
-        let stiffest = record.largest_stiffness(path);
-        let strip = path.system();
         let first = record.first_contact();
+        // Before scales touch the strip bends to arcs, as stiff everywhere as at rest: there is no maximum to look for.
+        let stiffest = match first {
+            Some(_) => record.largest_stiffness(path),
+            None => Some(record.initial_stiffness()),
+        };
+        let strip = path.system();
         let share = record.path.last().map(axial_energy_share);
         let strains = record.path.iter().map(|point| point.membrane_strain);
         Self {

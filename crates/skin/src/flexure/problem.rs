@@ -247,8 +247,10 @@ impl<'a> FlexureProblem<'a> {
         // A state that cannot be solved with the finer resolution is not resolved.
         let change =
             |state| change(path.system(), &finer, state, settings).unwrap_or(f64::INFINITY);
-        let states = record.stiffest().into_iter().chain([path.point()]);
-        Ok(states.map(|point| change(&point.state)).reduce(f64::max))
+        let end = &path.point().state;
+        // A strip is often stiffest at its end.
+        let before = record.stiffest().map(|point| &point.state).filter(|state| *state != end);
+        Ok(before.into_iter().chain([end]).map(change).reduce(f64::max))
     }
 }
 

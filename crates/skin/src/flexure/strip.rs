@@ -233,7 +233,7 @@ impl Strip {
 
     /// Number of leading unknowns of a gap's membrane that vanish. Where no contact force acts in a gap no force goes
     /// through its membrane, for none goes through any cut of a strip in pure bending, and it bends to an arc.
-    fn vanishing(&self, active: &[bool], gap: usize) -> usize {
+    fn straight(&self, active: &[bool], gap: usize) -> usize {
         let forces = &active[self.layout.pair * gap..][..self.layout.pair];
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
@@ -242,7 +242,7 @@ impl Strip {
     fn acting(&self, state: &SkinState, gap: usize) -> Vec<f64> {
         let start = self.layout.membrane(gap);
         let end = start + self.layout.interior + 3;
-        let first = start + self.vanishing(&state.active, gap);
+        let first = start + self.straight(&state.active, gap);
         let mut seen = state.z[first..end].to_vec();
         if let (Some(frame), Some(rotation)) = (self.layout.rotation(gap), seen.last_mut()) {
             *rotation -= state.z[frame];
@@ -253,7 +253,7 @@ impl Strip {
     /// The parts that the entries of [`Self::acting`] are made of: unknowns of the gap and, in the rotation of its right scale, that of
     /// the left one.
     fn parts(&self, active: &[bool], gap: usize) -> impl Iterator<Item = Part> + Clone + use<> {
-        let start = self.layout.membrane(gap) + self.vanishing(active, gap);
+        let start = self.layout.membrane(gap) + self.straight(active, gap);
         let count = self.layout.membrane(gap) + self.layout.interior + 3 - start;
         let frame = self.layout.rotation(gap);
         let of_frame = frame.map(|frame| Part::new(frame, count - 1).opposite());
@@ -268,10 +268,6 @@ impl Strip {
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        for unknown in self.pinned(&state.active, gap) {
-            residual.add(unknown, self.units[unknown] * state.z[unknown]);
-            matrix.add(unknown, unknown, self.units[unknown]);
-        }
         let Derivatives { gradient, hessian } =
             self.membrane(gap).derivatives(&self.acting(state, gap));
         let parts = self.parts(&state.active, gap);
@@ -282,12 +278,6 @@ impl Strip {
                 matrix.add(row.unknown, column.unknown, row.sign * column.sign * value);
             }
         }
-    }
-
-    /// The unknowns of a gap's membrane that vanish.
-    fn pinned(&self, active: &[bool], gap: usize) -> std::ops::Range<usize> {
-        let start = self.layout.membrane(gap);
-        start..start + self.vanishing(active, gap)
     }
 }
 
@@ -317,6 +307,13 @@ impl System for Strip {
 
     fn constraints(&self) -> &[usize] {
         self.contacts.forces()
+    }
+
+    fn vanishing(&self, state: &SkinState) -> impl Iterator<Item = usize> {
+        (0..self.layout.gaps).flat_map(|gap| {
+            let start = self.layout.membrane(gap);
+            start..start + self.straight(&state.active, gap)
+        })
     }
 
     fn growing(&self) -> &[usize] {

@@ -280,41 +280,46 @@ impl Chain {
 
     /// Every entry of the stiffness of the substrate: row and column of the tangent, and value.
     pub(crate) fn for_springs(&self, mut entry: impl FnMut(usize, usize, f64)) {
+        self.for_spring_diagonals(|row, column, values| {
+            for (k, &value) in values.iter().enumerate() {
+                entry(row + k, column + k, value);
+            }
+        });
+    }
+
+    /// The same, entries that follow each other down a diagonal together: the row and the column of the first, and the values.
+    fn for_spring_diagonals(&self, mut diagonal: impl FnMut(usize, usize, &[f64])) {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
-            for k in 0..3 {
-                entry(at + k, at + k, self.direct[k]);
-            }
+            diagonal(at, at, &self.direct);
             if self.roll != 0.0 {
-                entry(at, at + 2, self.roll);
-                entry(at + 2, at, self.roll);
+                diagonal(at, at + 2, &[self.roll]);
+                diagonal(at + 2, at, &[self.roll]);
             }
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
-                for k in 0..3 {
-                    entry(at + k, other + k, neighbour.direct[k]);
-                    entry(other + k, at + k, neighbour.direct[k]);
-                }
+                diagonal(at, other, &neighbour.direct);
+                diagonal(other, at, &neighbour.direct);
                 let cross = neighbour.cross;
                 if cross != 0.0 {
-                    entry(at + 1, other + 2, cross);
-                    entry(other + 2, at + 1, cross);
-                    entry(other + 1, at + 2, -cross);
-                    entry(at + 2, other + 1, -cross);
+                    diagonal(at + 1, other + 2, &[cross]);
+                    diagonal(other + 2, at + 1, &[cross]);
+                    diagonal(other + 1, at + 2, &[-cross]);
+                    diagonal(at + 2, other + 1, &[-cross]);
                 }
                 let Neighbour { lift, roll, .. } = *neighbour;
                 if [lift, roll] != [0.0; 2] {
                     for (force, displaced, value) in
                         [(0, 1, -lift), (1, 0, lift), (0, 2, roll), (2, 0, roll)]
                     {
-                        entry(at + force, other + displaced, value);
-                        entry(other + displaced, at + force, value);
+                        diagonal(at + force, other + displaced, &[value]);
+                        diagonal(other + displaced, at + force, &[value]);
                     }
                 }
             }
         }
         for &(row, column, value) in &self.surroundings.relief {
-            entry(row, column, -value);
+            diagonal(row, column, &[-value]);
         }
     }
 
@@ -422,13 +427,15 @@ impl System for Chain {
     }
 
     fn constant_tangent(&self, matrix: &mut impl Tangent) {
-        self.for_springs(|row, column, value| matrix.add(row, column, value));
+        self.for_spring_diagonals(|row, column, values| matrix.add_diagonal(row, column, values));
     }
 
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
-        self.for_springs(|row, column, value| residual.add(row, value * z[column]));
+        self.for_spring_diagonals(|row, column, values| {
+            residual.add_products(row, values, &z[column..]);
+        });
         self.for_bars(z, |places, bar| bar.linearise(places, residual, matrix));
         if let Some(needle) = &self.needle {
             self.add_needle(needle, state, residual, matrix);

@@ -243,8 +243,8 @@ impl Reader {
             Scalar::List(_) if is_guided || is_axis => {
                 "a number: a guided needle has a path for each friction, as an axis in [designs]"
             }
-            Scalar::Number(0.0) if !is_guided && !is_axis => {
-                "a number above 0: its arctangent is the critical tilt of a free needle"
+            Scalar::Number(..1e-10) if !is_guided && !is_axis => {
+                "a number of at least 1e-10: its arctangent is the critical tilt of a free needle"
             }
             _ => return Ok(()),
         };

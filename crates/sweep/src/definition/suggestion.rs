@@ -68,9 +68,8 @@ fn keys_of(section: &str) -> Vec<&'static str> {
 
 /// The candidate that `key` is the beginning or a misspelling of, if one is near enough.
 pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
-    let goes_on = |candidate: &str| candidate.strip_prefix(key).is_some_and(|r| r.starts_with('_'));
-    // The unit is what is left out most: `gap` is `gap_over_t` before it is `gaps`.
-    if let Some(whole) = candidates.iter().find(|candidate| !key.is_empty() && goes_on(candidate)) {
+    // The unit is what is left out most: `gap` is `gap_over_t` before it is `gaps`; but `depth` is no `depth_stability_force`.
+    if let Some(whole) = candidates.iter().find(|c| **c != key && quantity(c) == key) {
         return Some(whole);
     }
     // A word of several names, as `force` is, is no slip of the pen for one of them.
@@ -103,6 +102,7 @@ mod tests {
     fn hints_are_near_or_none() {
         assert_eq!(for_key("contact", "cc2"), "did you mean contact.c2?");
         assert_eq!(for_key("contact", "c3"), "expected one of c1, c2, friction");
+        assert_eq!(nearest("depth", &["depth_stability_force", "stable_under_depth"]), None);
         assert_eq!(for_key("designs", "slant"), "did you mean designs.slant_deg?");
         assert_eq!(for_key("designs", "gap"), "did you mean designs.gap_over_t?");
         assert_eq!(for_key("designs", "lenght"), "did you mean designs.length_over_t?");

@@ -276,7 +276,8 @@ pub static PARAMETERS: &[Parameter] = &[
         meaning: "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each",
         roles: &[Continuous, EndsPuncture],
         kind: Numbers {
-            range: Range { low: Excluded(0.0), high: Excluded(90.0) },
+            // Below 1e-14 the path to it drowns in round-off.
+            range: Range { low: Included(1e-9), high: Excluded(90.0) },
             word: None,
             get: |c| match c.puncture.tilts_deg {
                 tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),

@@ -134,8 +134,12 @@ fn a_guided_needle_has_a_tilt_and_a_friction() {
     let several = "puncture = { needle_friction = [0.1, 0.2], needle = 'guided' }";
     let refused = read(several).unwrap_err().to_string();
     assert!(refused.contains("as an axis in [designs]"), "{refused}");
-    let refused = read("puncture.needle_friction = 0").unwrap_err().to_string();
-    assert!(refused.contains("a number above 0"), "{refused}");
+    for friction in ["0", "1e-30"] {
+        let refused = read(&format!("puncture.needle_friction = {friction}")).unwrap_err();
+        assert!(refused.to_string().contains("a number of at least 1e-10"), "{refused}");
+    }
+    let refused = read("puncture.critical_tilt_deg = 1e-30").unwrap_err().to_string();
+    assert!(refused.contains("an angle of at least 1e-9"), "{refused}");
     let setting = [Setting::parse("puncture.needle_friction=0.1").unwrap()];
     let set = Sweep::parse(&format!("name = 'x'\n{guided}"), "x.toml", &setting).unwrap();
     assert_eq!(set.grid().case(0).puncture.critical_tilt_deg, 8.0);

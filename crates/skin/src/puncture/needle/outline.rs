@@ -76,7 +76,7 @@ impl Tip {
     }
 
     /// The tip in the frame of the line from a corner to it, which is the normal of a round one there.
-    pub(super) fn from_corner(self) -> Self {
+    pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.way * self.along;
         let gap = away.norm();
         let normal = away / gap;

@@ -104,7 +104,7 @@ impl Chain {
     fn seen_from(&self, z: &[f64], scale: i64, place: Place) -> Option<Nearest> {
         let tip = self.tip(z, scale, place)?;
         let is_corner = tip.length == 0.0;
-        Some(Nearest { tip: if is_corner { tip.from_corner() } else { tip }, is_corner })
+        Some(Nearest { tip: if is_corner { tip.at_corner() } else { tip }, is_corner })
     }
 
     /// The place of a scale that is nearest to the centre of the tip, and its distance; negative within the scale.
