@@ -114,20 +114,11 @@ const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
 
 /// Refuses a density of images that no image has, and a width that no paper has.
 pub fn check_dpi(output: &FigureOutput) -> anyhow::Result<()> {
-    if let Some(width) = output.width {
-        let (low, high) = (WIDTHS.start(), WIDTHS.end());
-        ensure!(
-            WIDTHS.contains(&width),
-            "--width {width}: out of range, expected {low} to {high} mm"
-        );
+    let given = [("--dpi", Some(output.dpi), DPI), ("--width", output.width, WIDTHS)];
+    for (option, value, range) in given {
+        let (value, low, high) = (value.unwrap_or(*range.start()), range.start(), range.end());
+        ensure!(range.contains(&value), "{option} {value}: out of range, expected {low} to {high}");
     }
-    let dpi = output.dpi;
-    ensure!(
-        DPI.contains(&dpi),
-        "--dpi {dpi}: out of range, expected {} to {}",
-        DPI.start(),
-        DPI.end()
-    );
     Ok(())
 }
 

@@ -60,7 +60,7 @@ fn a_design_of_a_front_is_chosen_by_its_number() {
     assert!(drawing.contains(" width=\"85mm\" height=\""));
     insta::assert_snapshot!(place.refused("design found"), @"error: found: holds a Pareto front of 4 designs; choose with --design");
     insta::assert_snapshot!(place.refused("design found --design 5"), @"error: --design 5: not accepted, expected 1 to 4, the designs of front.csv");
-    insta::assert_snapshot!(place.refused("draw found --design 1 --width 5"), @"error: --width 5: out of range, expected 10 to 2000 mm");
+    insta::assert_snapshot!(place.refused("draw found --design 1 --width 5"), @"error: --width 5: out of range, expected 10 to 2000");
 }
 
 #[test]
