@@ -88,6 +88,8 @@ pub struct PunctureParameters {
     pub tilts_deg: NumberList,
     /// How the needle is held.
     pub needle: Needle,
+    /// Radius of the tip of a guided needle, over `t`; `None` of a sharp one.
+    pub needle_radius: Option<f64>,
     /// Depth `u*` at which the force is measured besides.
     pub depth: Option<f64>,
     /// Whether the load is taken away again at the end.
@@ -108,6 +110,7 @@ impl Default for PunctureParameters {
             substrate_law: SubstrateLaw::Linear,
             tilts_deg: NumberList::default(),
             needle: Needle::Free,
+            needle_radius: None,
             depth: None,
             unload: false,
             places: None,
@@ -208,12 +211,20 @@ impl PunctureParameters {
         let tilt = self.critical_tilt_deg;
         let (ratio, position) = (self.poisson_ratio, self.load_position);
         let depth = self.depth.unwrap_or(1.0);
+        let radius = self.needle_radius.unwrap_or(0.0);
         let places = self.places.unwrap_or(2) as f64;
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
             (position.is_finite(), "load position", position, "a number"),
             (depth > 0.0, "depth", depth, "a length above 0"),
+            (radius >= 0.0, "needle radius", radius, "a length"),
+            (
+                radius == 0.0 || self.needle == Needle::Guided { friction: 0.0 },
+                "needle radius",
+                radius,
+                "that of a needle that is guided and has no friction",
+            ),
             (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
         ];
@@ -321,7 +332,15 @@ impl<'a> Problem<'a> {
             RowLength::Scales(_) => None,
         };
         let Common { solver: settings, whole_path, .. } = *common;
-        Ok(Self { rows, design, stiffness, endless, law, settings, whole_path, parameters })
+        let problem =
+            Self { rows, design, stiffness, endless, law, settings, whole_path, parameters };
+        match parameters.needle_radius.filter(|_| problem.reach().is_none()) {
+            Some(value) => {
+                let expected = "at most 14 pitches of the row";
+                Err(OutOfRange { quantity: "needle radius", value, expected })
+            }
+            None => Ok(problem),
+        }
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
@@ -335,6 +354,7 @@ impl<'a> Problem<'a> {
         let law = self.parameters.substrate_law;
         let first = |far: &FarField| {
             let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
+            let layout = layout.at_least(self.reach().map_or(0, |reach| reach + 1));
             Layout { needle: self.needle_unknowns(), pair: pair_constraints(&self.law), ..layout }
         };
         let Some(whole) = self.whole() else {
@@ -349,7 +369,17 @@ impl<'a> Problem<'a> {
 
     /// Unknowns of the needle behind the load.
     fn needle_unknowns(&self) -> usize {
-        if self.parameters.needle.is_guided() { NEEDLE_UNKNOWNS } else { 0 }
+        match self.reach() {
+            Some(reach) => needle::unknowns(reach),
+            None if self.parameters.needle.is_guided() => NEEDLE_UNKNOWNS,
+            None => 0,
+        }
+    }
+
+    /// Scales on each side of the punctured one that a round tip may come to; `None` of another needle.
+    fn reach(&self) -> Option<usize> {
+        let pitch = 2.0 * self.design.half_base() + self.design.gap;
+        self.parameters.needle_radius.and_then(|radius| needle::reach(radius, pitch))
     }
 
     /// All of a row that ends.

@@ -57,6 +57,8 @@ pub struct Millimetres {
     pub tissue_thickness: Option<f64>,
     /// The distance of the load from the right corner of the top.
     pub load_inset: Option<f64>,
+    /// The radius of the tip of a guided needle.
+    pub needle_radius: Option<f64>,
     /// The depth at which the force is measured besides.
     pub depth: Option<f64>,
     /// The length of the membrane.

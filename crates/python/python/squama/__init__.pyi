@@ -156,6 +156,8 @@ class Skin:
         load_inset_over_t: float | None = None,
         load_inset_mm: float | None = None,
         needle: str | None = None,
+        needle_radius_over_t: float | None = None,
+        needle_radius_mm: float | None = None,
         unload: bool | None = None,
         critical_tilt_deg: float | Sequence[float] | None = None,
         needle_friction: float | Sequence[float] | str | None = None,
@@ -235,6 +237,10 @@ class Skin:
     def load_inset_mm(self) -> float | None: ...
     @property
     def needle(self) -> str: ...
+    @property
+    def needle_radius_over_t(self) -> float | None: ...
+    @property
+    def needle_radius_mm(self) -> float | None: ...
     @property
     def unload(self) -> bool: ...
     @property

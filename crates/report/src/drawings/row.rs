@@ -40,6 +40,8 @@ pub struct PunctureDrawing<'a> {
     pub load_position: f64,
     /// Whether the load is a needle that moves straight down, and not one that follows that place.
     pub guided: bool,
+    /// Radius of the tip of that needle, over `t`; `None` of a sharp one.
+    pub needle_radius: Option<f64>,
     /// Thickness of the scales, mm, if it is known: then there is a scale bar.
     pub thickness_mm: Option<f64>,
     /// The states, from the top; the row at rest is drawn above them.
@@ -54,6 +56,7 @@ impl<'a> PunctureDrawing<'a> {
             design: &case.design,
             load_position: case.punctured().load_position,
             guided: case.puncture.needle.is_guided(),
+            needle_radius: case.puncture.needle_radius,
             thickness_mm: case.material.thickness_mm,
             states,
         }
@@ -321,7 +324,19 @@ impl<'a> RowSheet<'a> {
             let ring = circle(self.place(follows.into()), 3.5);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
-        Element::group("load").containing(drawn.into_iter().flatten().chain(ring))
+        let tip = self.round_tip(state);
+        Element::group("load").containing(drawn.into_iter().flatten().chain(ring).chain(tip))
+    }
+
+    /// Returns the circle of a round tip, which stands on the top of the scale at rest.
+    fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
+        let radius = self.puncture.needle_radius?;
+        let [at_rest, _] = self.set_down(state)?;
+        let lowest = at_rest + Vec2::new(0.0, -state.displacement);
+        let [lowest, centre] =
+            [lowest, lowest + Vec2::new(0.0, radius)].map(|place| self.place(place.into()));
+        let tip = circle(centre, lowest[1] - centre[1]);
+        Some(tip.with("fill", "none").with("stroke", INK).with("class", "tip"))
     }
 
     /// Returns the angle between the base of the punctured scale and its place at rest.

@@ -39,6 +39,7 @@ fn drawn(design: &Design, states: &[RowSnapshot], guided: bool) -> String {
         design,
         load_position: 1.0,
         guided,
+        needle_radius: guided.then_some(0.5),
         thickness_mm: None,
         states,
     };

@@ -131,6 +131,11 @@ impl Layout {
         Self { left: side, right: side, needle: 0, pair: 0 }
     }
 
+    /// At least so many scales on each side.
+    pub(super) fn at_least(self, side: usize) -> Self {
+        Self { left: self.left.max(side), right: self.right.max(side), ..self }
+    }
+
     /// More scales on the sides that are reached, as far as a row of the `longest` length has room.
     pub(super) fn grown(self, reach: [Reach; 2], longest: usize) -> Self {
         let more = GROWTH + self.scales() / GROWTH_PART;

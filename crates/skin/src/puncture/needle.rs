@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `mode.rs` | what the needle touches and how it rubs there: the part of the state that is not a number |
 //! | `outline.rs` | the tip seen from a face: gap, way along the face, their derivatives |
+//! | `round.rs` | a tip with a radius: its own equations, conditions and transitions |
 //! | `forces.rs` | equations, tangent, and the conditions under which they hold |
 //! | `transition.rs` | what comes next where a condition ceases to hold |
 //! | `passage.rs` | measures of a path: where the needle leaves its face, how its path ends |
@@ -17,6 +18,7 @@ mod history;
 mod mode;
 mod outline;
 mod passage;
+mod round;
 mod transition;
 
 use std::ops::Range;
@@ -25,7 +27,8 @@ use contact::{CornerContact, CornerEdge};
 use geometry::Vec2;
 use solver::{Condition, Newton};
 
-use super::system::Chain;
+use super::PunctureParameters;
+use super::system::{Chain, Layout};
 use crate::contacts::{Contacts, SkinState};
 
 pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
@@ -34,6 +37,7 @@ use mode::{Place, Rub, Touch};
 use outline::{Face, Tip};
 pub(super) use passage::PassageWatch;
 pub use passage::{CriticalEvent, Passage};
+pub(super) use round::{reach, unknowns};
 
 /// How the needle is held.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -80,7 +84,9 @@ const THROUGH: usize = 2 * CONSTRAINTS;
 #[derive(Clone, Debug)]
 pub(crate) struct GuidedNeedle {
     friction: f64,
-    /// The tip at rest, from the node of the punctured scale.
+    /// Radius of the tip; 0 of a sharp one.
+    radius: f64,
+    /// The tip at rest, or the centre of a round one, from the node of the punctured scale.
     tip: Vec2,
     critical_tilt: f64,
     /// The first of its unknowns: the depth.
@@ -88,7 +94,9 @@ pub(crate) struct GuidedNeedle {
     /// Constraints of the row that are not the needle's: they come first.
     contacts: usize,
     /// Numbers of the constraints that only grow.
-    pub(super) growing: [usize; 4],
+    pub(super) growing: Vec<usize>,
+    /// Number of its unknowns behind the load.
+    unknowns: usize,
     /// Touches that keep something else of the way to a neighbour of a row than that row does, for a parameter that differs, and by how
     /// much.
     moved: [Option<(Touch, f64)>; 2],
@@ -97,14 +105,40 @@ pub(crate) struct GuidedNeedle {
 impl GuidedNeedle {
     pub(super) fn new(
         friction: f64,
+        parameters: &PunctureParameters,
         tip: Vec2,
-        critical_tilt: f64,
-        depth: usize,
+        layout: Layout,
         contacts: usize,
     ) -> Self {
+        let radius = parameters.needle_radius.unwrap_or(0.0);
         let growing = [FORWARD, BACKWARD, CONSTRAINTS + FORWARD, CONSTRAINTS + BACKWARD];
         let growing = growing.map(|number| contacts + number);
-        Self { friction, tip, critical_tilt, depth, contacts, growing, moved: [None; 2] }
+        Self {
+            friction,
+            radius,
+            tip,
+            critical_tilt: parameters.critical_tilt_deg.to_radians(),
+            depth: layout.load() + 1,
+            contacts,
+            growing: if radius > 0.0 { Vec::new() } else { growing.to_vec() },
+            unknowns: layout.needle,
+            moved: [None; 2],
+        }
+    }
+
+    /// Whether its tip has a radius.
+    pub(super) fn is_round(&self) -> bool {
+        self.radius > 0.0
+    }
+
+    /// Sets the centre of a round tip at rest.
+    pub(super) fn set_centre(&mut self, centre: Vec2) {
+        self.tip = centre;
+    }
+
+    /// Scales on each side of the punctured one that it may come to.
+    pub(super) fn farthest(&self) -> usize {
+        if self.is_round() { self.reach() } else { FARTHEST.unsigned_abs() as usize }
     }
 
     /// Whether its tip rubs.
@@ -114,6 +148,9 @@ impl GuidedNeedle {
 
     /// The unknowns of its constraints, in their order.
     pub(super) fn constraints(&self) -> Vec<usize> {
+        if self.is_round() {
+            return (self.depth + 1..self.depth + self.unknowns).collect();
+        }
         let of_touch = |touch: usize| {
             let first = self.push(touch);
             [first, first + 2, first + 3, first + 4, first + 5, first + 6]
@@ -137,7 +174,7 @@ impl GuidedNeedle {
     pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
         let first = constraint - number % CONSTRAINTS;
-        let is_of_touch = number < THROUGH && number % CONSTRAINTS <= BACKWARD;
+        let is_of_touch = !self.is_round() && number < THROUGH && number % CONSTRAINTS <= BACKWARD;
         if is_of_touch && self.rubs() { first..first + 3 } else { constraint..constraint + 1 }
     }
 
@@ -145,7 +182,7 @@ impl GuidedNeedle {
     pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
         let mut conditions = Vec::new();
         chain.needle_conditions(self, end, &mut conditions);
-        let ends = [TILT, CONSTRAINTS + TILT, THROUGH].into_iter();
+        let ends = self.endings().into_iter();
         // It has vanished to the tolerance of Newton's method.
         ends.filter(|&number| conditions[number].abs() < 1e-8)
             .map(|number| self.contacts + number)
@@ -154,8 +191,16 @@ impl GuidedNeedle {
 
     /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or the needle is through.
     pub(super) fn ends(&self, constraint: usize) -> bool {
-        let ends = [TILT, CONSTRAINTS + TILT, THROUGH];
-        constraint.checked_sub(self.contacts).is_some_and(|number| ends.contains(&number))
+        constraint.checked_sub(self.contacts).is_some_and(|number| self.endings().contains(&number))
+    }
+
+    /// The constraints that end a path, among its own: critical tilts, and last that of coming through.
+    fn endings(&self) -> [usize; 3] {
+        if self.is_round() {
+            let tilt = self.tilt_number();
+            return [tilt, tilt, tilt + 1];
+        }
+        [TILT, CONSTRAINTS + TILT, THROUGH]
     }
 }
 
@@ -164,6 +209,9 @@ impl Chain {
     pub(super) fn at_rest(&self) -> SkinState {
         let mut rest = SkinState::at_rest(self);
         let Some(needle) = &self.needle else { return rest };
+        if needle.is_round() {
+            return self.round_at_rest(needle, rest);
+        }
         rest.active[needle.number(0, PUSH)] = true;
         let face = Face::new(&self.contacts.scale(self.layout.left), Place::Top);
         let touch = |rub| [Some(Touch { scale: 0, place: Place::Top, rub }), None];
@@ -202,7 +250,9 @@ impl Chain {
     /// Index of a scale, counted from the punctured one.
     fn scale_numbered(&self, scale: i64) -> Option<usize> {
         let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
-        (number < self.layout.scales() && scale.abs() <= FARTHEST).then_some(number)
+        let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
+        let is_near = scale.unsigned_abs() as usize <= farthest;
+        (number < self.layout.scales() && is_near).then_some(number)
     }
 
     /// The face that the needle would come to next besides the one that it touches: a neighbour's.

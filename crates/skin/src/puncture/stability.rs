@@ -2,7 +2,7 @@
 
 use solver::SkylineMatrix;
 
-use super::needle::FARTHEST;
+use super::needle::GuidedNeedle;
 use super::system::Chain;
 use crate::contacts::SkinState;
 
@@ -82,10 +82,11 @@ impl Chain {
         // A scale is coupled with as many before it, a force with the scales on both sides.
         let before = self.coupled_scales();
         let of_needle = self.layout.load()..=self.layout.load() + self.layout.needle;
+        let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
         let first = |&unknown: &usize| {
             // A needle is coupled with all scales that it touches.
             let scale = if of_needle.contains(&unknown) {
-                self.layout.left.saturating_sub(before.max(FARTHEST.unsigned_abs() as usize))
+                self.layout.left.saturating_sub(before.max(farthest))
             } else {
                 let scale = self.layout.scale_of(unknown);
                 let is_touched = scale > self.layout.left && self.touches_scale(state, scale);

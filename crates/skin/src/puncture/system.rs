@@ -6,7 +6,7 @@ use solver::{Blocks, Change, Control, NoTangent, Residual, System, Tangent};
 use substrate::{Neighbour, RowStiffness, SubstrateLaw};
 
 use super::PunctureParameters;
-use super::needle::{FARTHEST, GuidedNeedle, Needle};
+use super::needle::{GuidedNeedle, Needle};
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
 use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
@@ -181,7 +181,7 @@ impl Chain {
         let needle = match parameters.needle {
             Needle::Free => None,
             Needle::Guided { friction } => {
-                Some(GuidedNeedle::new(friction, load_arm, critical_tilt, depth, contacts))
+                Some(GuidedNeedle::new(friction, parameters, load_arm, layout, contacts))
             }
         };
         let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
@@ -197,9 +197,9 @@ impl Chain {
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
         let contacts = Contacts::new(arrangement, law, scales, forces);
-        let of_needle = needle.iter().flat_map(|needle| needle.growing);
+        let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
         let growing = contacts.growing().iter().copied().chain(of_needle).collect();
-        Self {
+        let mut chain = Self {
             layout,
             contacts,
             growing,
@@ -208,8 +208,10 @@ impl Chain {
             half_base: a,
             direct,
             roll,
-            // Coupling beyond the neighbours fills the matrix: the band elimination takes it.
-            blocks: (neighbours.len() <= 1).then(|| layout.blocks()),
+            // Coupling beyond the neighbours fills the matrix, and so does a round tip that touches several scales: the band elimination
+            // takes it.
+            blocks: (neighbours.len() <= 1 && parameters.needle_radius.is_none())
+                .then(|| layout.blocks()),
             neighbours,
             bars,
             surroundings,
@@ -220,7 +222,13 @@ impl Chain {
             controls,
             whole_path: true,
             units: layout.units(direct),
+        };
+        let round = chain.needle.as_ref().filter(|needle| needle.is_round());
+        let centre = round.map(|needle| chain.centre_at_rest(needle, load_arm.x));
+        if let (Some(needle), Some(centre)) = (&mut chain.needle, centre) {
+            needle.set_centre(centre);
         }
+        chain
     }
 
     /// The three displacements of a scale.
@@ -338,7 +346,7 @@ impl System for Chain {
     fn half_bandwidth(&self) -> usize {
         // From x of a scale to φ of the last that it is coupled with, with the load between them. A guided needle is coupled with
         // all scales that it may come to.
-        let coupled = self.needle.as_ref().map_or(0, |_| FARTHEST.unsigned_abs() as usize);
+        let coupled = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
         self.layout.block() * self.coupled_scales().max(coupled) + 3 + self.layout.needle
     }
 

@@ -17,6 +17,7 @@
 //! | `tilts` | measures at tilts on the way, against paths that end there |
 //! | `places` | the weakest of several places of the load, against punctures with the load there |
 //! | `rubbing` | friction between scales: independent programs, steps, work |
+//! | `round_tip` | a needle with a radius: against a sharp one, a closed form, its mirror image |
 //! | `robustness` | the 720 designs of the reference study and random ones |
 //! | `widest` | random ones in the widest ranges of a definition |
 
@@ -30,6 +31,7 @@ mod neo_hookean;
 mod outputs;
 mod places;
 mod robustness;
+mod round_tip;
 mod rows;
 mod rubbing;
 #[path = "../samples/mod.rs"]

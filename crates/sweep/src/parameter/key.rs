@@ -12,6 +12,8 @@ pub const PITCH: &str = "pitch_mm";
 /// The slant of the scales.
 pub const SLANT: &str = "slant_deg";
 
+/// The radius of the tip of a needle.
+pub const NEEDLE_RADIUS: &str = "needle_radius_over_t";
 /// The width of the scales.
 pub const WIDTH: &str = "width_over_t";
 

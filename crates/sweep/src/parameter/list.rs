@@ -247,6 +247,17 @@ pub static PARAMETERS: &[Parameter] = &[
         },
     },
     Parameter {
+        key: key::NEEDLE_RADIUS,
+        section: "puncture",
+        unit: "t",
+        meaning: "radius of the round tip of a guided needle without friction, which may touch several scales; sharp unless it is given",
+        roles: NUMBER,
+        kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.needle_radius },
+    },
+    in_mm!("needle_radius", "puncture", POSITIVE, &[InMm(key::NEEDLE_RADIUS), Made], |c| &mut c
+        .in_mm
+        .needle_radius),
+    Parameter {
         key: key::UNLOAD,
         section: "puncture",
         unit: "-",

@@ -9,7 +9,7 @@ use crate::contacts::{Contacts, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
 
 /// Value of a condition that does not exist: any number above zero.
-const HOLDS: f64 = 1.0;
+pub(super) const HOLDS: f64 = 1.0;
 
 /// A foot may lie beyond the end of a face by this much, over `t`: corners that lie on it do so to round-off and their approach.
 const BESIDE: f64 = 1e-9;
@@ -18,7 +18,7 @@ const BESIDE: f64 = 1e-9;
 const AT_AN_END: f64 = 1e-6;
 
 /// Difference of the unknowns over which slopes of conditions are differences, relative to the largest rate.
-const STEP: f64 = 1e-6;
+pub(super) const STEP: f64 = 1e-6;
 
 impl Chain {
     /// Adds the equations of a guided needle: its balance (L1), the gaps that are closed, and the laws of its tangential forces (L2).
@@ -32,6 +32,9 @@ impl Chain {
         let load = self.layout.load();
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
+        if needle.is_round() {
+            return self.add_round(needle, state, residual, matrix);
+        }
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let Some(touch) = touch else {
                 // A touch that is not there has no tangential force.
@@ -73,8 +76,11 @@ impl Chain {
         values: &mut Vec<f64>,
     ) {
         let first = values.len();
-        values.resize(first + THROUGH + 1, HOLDS);
+        values.resize(first + needle.constraints().len(), HOLDS);
         let values = &mut values[first..];
+        if needle.is_round() {
+            return self.round_conditions(needle, state, values);
+        }
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let of_touch = &mut values[CONSTRAINTS * number..][..CONSTRAINTS];
             if let Some(touch) = touch {
@@ -218,13 +224,16 @@ impl Chain {
 
     /// Whether the needle touches a scale, by its index.
     pub(in crate::puncture) fn touches_scale(&self, state: &SkinState, scale: usize) -> bool {
-        let touches = state.mode.needle.touches.iter().flatten();
-        touches.into_iter().any(|touch| self.scale_numbered(touch.scale) == Some(scale))
+        let needle = &state.mode.needle;
+        needle.touched().any(|touched| self.scale_numbered(touched) == Some(scale))
     }
 
     /// The unknowns of a guided needle in its stiffness: its depth, and the forces that keep it on faces and in places.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
+        if needle.is_round() {
+            return Self::round_in_stiffness(needle, state);
+        }
         let mut unknowns = vec![needle.depth];
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let Some(touch) = touch else { continue };
@@ -244,6 +253,9 @@ impl Chain {
         mut entry: impl FnMut(usize, usize, f64),
     ) {
         let Some(needle) = &self.needle else { return };
+        if needle.is_round() {
+            return self.for_round_stiffness(needle, state, entry);
+        }
         for (number, touch) in state.mode.needle.touches.iter().enumerate() {
             let Some(touch) = touch else { continue };
             let Some(scale) = self.scale_numbered(touch.scale) else { continue };
@@ -272,6 +284,9 @@ impl Chain {
     /// Force of the needle on the scales along the row, to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
+        if needle.is_round() {
+            return self.round_lateral_force(needle, state);
+        }
         let touches = state.mode.needle.touches.iter().enumerate();
         let lateral = |(number, touch): (usize, &Option<Touch>)| {
             let touch = touch.as_ref()?;
@@ -380,7 +395,7 @@ fn add_law(
 }
 
 /// Adds `factor` times the slopes by the coordinates of a touch to a row.
-fn add_row(
+pub(super) fn add_row(
     row: usize,
     columns: [usize; COORDINATES],
     factor: f64,

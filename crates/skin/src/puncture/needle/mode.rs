@@ -1,5 +1,7 @@
 //! What a guided needle touches, and how it rubs there.
 
+use super::round::FARTHEST_TOUCH;
+
 /// A place on the outline of a scale, in the order in which one goes along it, from the left foot over the top to the right foot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
@@ -62,7 +64,38 @@ impl Touch {
 
 /// The state of a guided needle, history included: the scales that it touches, which are neighbours if they are two. Nothing in a row
 /// under a free needle.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct NeedleMode {
     pub(crate) touches: [Option<Touch>; 2],
+    /// Where a round tip touches each scale, from the left.
+    places: [Option<Place>; SLOTS],
+}
+
+/// Scales that a round tip may come to.
+const SLOTS: usize = 2 * FARTHEST_TOUCH + 1;
+
+impl Default for NeedleMode {
+    fn default() -> Self {
+        Self { touches: [None; 2], places: [None; SLOTS] }
+    }
+}
+
+impl NeedleMode {
+    /// Where a round tip touches a scale, counted from the punctured one.
+    pub(crate) fn place(&self, scale: i64) -> Option<Place> {
+        self.places.get((scale + FARTHEST_TOUCH as i64) as usize).copied().flatten()
+    }
+
+    /// Lets a round tip touch a scale at a place.
+    pub(crate) fn set_place(&mut self, scale: i64, place: Option<Place>) {
+        self.places[(scale + FARTHEST_TOUCH as i64) as usize] = place;
+    }
+
+    /// The scales that are touched, counted from the punctured one.
+    pub(crate) fn touched(&self) -> impl Iterator<Item = i64> {
+        let sharp = self.touches.iter().flatten().map(|touch| touch.scale);
+        let first = -(FARTHEST_TOUCH as i64);
+        let round = (first..).zip(&self.places).filter(|(_, place)| place.is_some());
+        sharp.chain(round.map(|(scale, _)| scale))
+    }
 }

@@ -7,8 +7,8 @@ use super::mode::Place;
 
 /// A face of a scale, in the frame of the scale; a corner is one without length, whose direction is half-way between its neighbours'.
 pub(super) struct Face {
-    origin: Vec2,
-    along: Vec2,
+    pub(super) origin: Vec2,
+    pub(super) along: Vec2,
     pub(super) length: f64,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct Tip {
 pub(super) const COORDINATES: usize = 4;
 
 /// Numbers of the rotation and of the depth among them.
-const TURN: usize = 2;
+pub(super) const TURN: usize = 2;
 const DEPTH: usize = 3;
 
 impl Tip {
@@ -73,6 +73,19 @@ impl Tip {
         let from_origin = arm - pose.turn(face.origin);
         let (gap, way) = (from_origin.dot(&normal), from_origin.dot(&along));
         Self { arm, normal, along, gap, way, length: face.length }
+    }
+
+    /// The tip in the frame of the line from a corner to it, which is the normal of a round one there.
+    pub(super) fn at_corner(self) -> Self {
+        let away = self.gap * self.normal + self.way * self.along;
+        let gap = away.norm();
+        let normal = away / gap;
+        Self { normal, along: Vec2::new(normal.y, -normal.x), gap, way: 0.0, ..self }
+    }
+
+    /// From the tip to a place on the face.
+    pub(super) fn to_end(&self, way: f64) -> Vec2 {
+        (way - self.way) * self.along - self.gap * self.normal
     }
 
     pub(super) fn gap_slopes(&self) -> [f64; COORDINATES] {

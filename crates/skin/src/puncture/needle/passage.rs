@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mode::{Place, Rub, Touch};
+use super::mode::{NeedleMode, Place, Rub, Touch};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -59,7 +59,7 @@ pub(in crate::puncture) struct PassageWatch {
 
 impl PassageWatch {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
-        if self.passed.is_none() && !is_on_its_face(&to.state) {
+        if self.passed.is_none() && has_passed(&from.state, &to.state) {
             self.passed = Some([(**from).clone(), to.clone()]);
         }
     }
@@ -71,7 +71,7 @@ impl PassageWatch {
         let left = self.passed.as_ref().map_or(end, |[_, at]| &at.state);
         Passage {
             critical_event: ended.map(|constraint| {
-                let is_through = constraint == needle.contacts + super::THROUGH;
+                let is_through = constraint == needle.contacts + needle.endings()[2];
                 if is_through { CriticalEvent::Through } else { CriticalEvent::Tilt }
             }),
             passing_force: passed.map(|point| point.force),
@@ -82,12 +82,21 @@ impl PassageWatch {
     }
 }
 
+/// Whether the needle comes to touch something else than the face on which it was set down.
+fn has_passed(from: &SkinState, to: &SkinState) -> bool {
+    is_on_its_face(from) && !is_on_its_face(to)
+}
+
 /// Whether the needle touches nothing but the face on which it was set down.
 fn is_on_its_face(state: &SkinState) -> bool {
     let on_top = |touch: &Touch| {
         touch.scale == 0 && touch.place == Place::Top && !matches!(touch.rub, Rub::Held { .. })
     };
-    state.mode.needle.touches.iter().flatten().all(on_top)
+    let NeedleMode { touches, .. } = &state.mode.needle;
+    let is_on_other_place = |place: Option<Place>| place.is_some_and(|place| place != Place::Top);
+    touches.iter().flatten().all(on_top)
+        && state.mode.needle.touched().all(|scale| scale == 0)
+        && !is_on_other_place(state.mode.needle.place(0))
 }
 
 impl Chain {

@@ -26,6 +26,9 @@ impl Chain {
         state: &mut SkinState,
         change: Change,
     ) -> Option<usize> {
+        if needle.is_round() {
+            return self.round_transition(needle, state, change);
+        }
         let number = change.constraint.checked_sub(needle.contacts)?;
         let (slot, constraint) = (number / CONSTRAINTS, number % CONSTRAINTS);
         let valid = match (constraint, change.activated) {

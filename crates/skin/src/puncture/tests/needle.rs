@@ -1,5 +1,7 @@
 //! Rows under a needle that is guided straight down.
 
+mod round_tip;
+
 use approx::assert_relative_eq;
 use substrate::Springs;
 

@@ -1,0 +1,160 @@
+//! A guided needle with a round tip.
+
+use approx::assert_relative_eq;
+use skin::puncture::{
+    self, CriticalEvent, Needle, Puncture, PunctureParameters, PuncturePoint, RowLength,
+};
+use skin::{Base, Common, Design, Status};
+use substrate::Calibrations;
+
+use crate::samples::{design, in_small_steps, solve_as, springs};
+use crate::{complete, end};
+
+const SMOOTH: Needle = Needle::Guided { friction: 0.0 };
+
+/// Designs whose sharp needle stays on its top, and some whose passes into the notch.
+const DESIGNS: [(f64, f64, f64); 7] = [
+    (0.1, 1.0, 0.0),
+    (0.5, 1.0, 0.0),
+    (0.1, 0.2, 0.0),
+    (0.3, 0.5, 45.0),
+    (0.1, 1.0, 45.0),
+    (0.1, 1.0, 60.0),
+    (0.1, 1.0, 75.0),
+];
+
+fn parameters(radius: Option<f64>) -> PunctureParameters {
+    PunctureParameters { needle: SMOOTH, needle_radius: radius, ..PunctureParameters::default() }
+}
+
+fn solve(design: &Design, parameters: &PunctureParameters) -> Puncture {
+    solve_as(&Calibrations::default(), design, &Common::default(), parameters)
+}
+
+/// The smaller its radius, the nearer a round tip comes to a sharp one: as the radius itself, in the notch too.
+#[test]
+fn small_radii_come_to_a_sharp_tip() {
+    for (gap, length, slant) in DESIGNS {
+        let design = design(gap, length, slant, Base::L);
+        let force = |radius: Option<f64>| {
+            let puncture = solve(&design, &parameters(radius));
+            complete(&puncture).critical_force.unwrap()
+        };
+        let sharp = force(None);
+        let off = [0.01, 0.001, 0.0001].map(|radius| (force(Some(radius)) / sharp - 1.0) / radius);
+        assert_relative_eq!(off[1], off[2], max_relative = 0.02);
+        assert_relative_eq!(off[0], off[2], max_relative = 0.2);
+        assert!(off[2].abs() < 3.0, "{off:?} {design:?}");
+    }
+}
+
+/// A scale alone, the circle of radius `R` on its top: `N` is the root of a square equation, with the arm `x` of the place at rest,
+///
+/// ```text
+/// N² sin φ / k_x − N (x + (1 + R) sin φ) − k_φ φ cos φ = 0                F = N cos φ
+/// ```
+#[test]
+fn a_scale_alone_has_a_closed_form() {
+    let known = Calibrations::default();
+    for (slant, place, radius) in [(0.0, 1.0, 0.1), (0.0, 0.9, 1.0), (10.0, 0.9, 0.5)] {
+        let design = design(0.1, 1.0, slant, Base::L);
+        let parameters = PunctureParameters {
+            scales: RowLength::Scales(1),
+            load_position: place,
+            ..parameters(Some(radius))
+        };
+        let a = design.half_base();
+        let [along, _, turn] = springs(&design, &parameters, &known).direct;
+        let (along, turn) = (a * along, a.powi(3) * turn);
+        let puncture = solve_as(&known, &design, &in_small_steps(), &parameters);
+        let expected = |point: &PuncturePoint| {
+            let (phi, arm) =
+                (-point.tilt_deg.to_radians(), slant.to_radians().tan() - a + 2.0 * a * place);
+            let (sin, cos) = phi.sin_cos();
+            let b = arm + (1.0 + radius) * sin;
+            let [two_a, c] = [2.0 * sin / along, -turn * phi * cos];
+            let root = (b * b - 2.0 * two_a * c).sqrt();
+            // The root that stays finite where the scale is not yet tilted.
+            2.0 * c / (b + root) * cos / design.length
+        };
+        assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
+        for point in &puncture.path {
+            assert_relative_eq!(point.force, expected(point), max_relative = 1e-8, epsilon = 1e-12);
+        }
+    }
+}
+
+/// A tip on the left of an upright scale does what one on its right does, in a mirror, and so does one that touches several scales.
+#[test]
+fn mirror_images() {
+    for radius in [0.2, 1.0] {
+        let upright = design(0.3, 0.6, 0.0, Base::L);
+        let [left, right] = [0.1, 0.9].map(|load_position| {
+            end(&solve(&upright, &PunctureParameters { load_position, ..parameters(Some(radius)) }))
+        });
+        assert_relative_eq!(left.force, right.force, max_relative = 1e-8);
+        assert_relative_eq!(left.displacement, right.displacement, max_relative = 1e-8);
+        assert_relative_eq!(left.lateral_force, -right.lateral_force, max_relative = 1e-8);
+        assert_relative_eq!(left.tilt_deg, -right.tilt_deg, max_relative = 1e-8);
+    }
+}
+
+/// Set down in the middle between two upright scales a tip presses on both alike.
+#[test]
+fn a_tip_between_two_scales() {
+    let upright = design(0.3, 0.6, 0.0, Base::L);
+    let between = PunctureParameters { load_position: 1.25, ..parameters(Some(0.5)) };
+    let puncture = solve(&upright, &between);
+    let (end, scale) = (end(&puncture), |number: i64| {
+        puncture.scales.iter().find(|scale| scale.scale == number).unwrap()
+    });
+    assert!(end.force > 0.05 && end.lateral_force.abs() < 1e-9 * end.force, "{end:?}");
+    assert_relative_eq!(scale(0).rotation_deg, -scale(1).rotation_deg, max_relative = 1e-8);
+    assert_relative_eq!(scale(0).displacement[1], scale(1).displacement[1], max_relative = 1e-8);
+}
+
+/// A tip that fits between two scales comes to the soft surface between their bases: its lowest point lies on the line from base to base.
+#[test]
+fn a_tip_that_comes_through() {
+    let open = design(1.0, 1.0, 60.0, Base::L);
+    let radius = 0.2;
+    let between = PunctureParameters {
+        load_position: 1.3,
+        critical_tilt_deg: 60.0,
+        ..parameters(Some(radius))
+    };
+    let puncture = solve(&open, &between);
+    assert_eq!(puncture.status, Status::Complete);
+    assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Through));
+    let (a, shift) = (open.half_base(), 60.0_f64.to_radians().tan());
+    let foot = |number: i64, x: f64| {
+        let scale = puncture.scales.iter().find(|scale| scale.scale == number).unwrap();
+        let (sin, cos) = scale.rotation_deg.to_radians().sin_cos();
+        let place = number as f64 * (2.0 * a + open.gap);
+        [place + scale.displacement[0] + x * cos, scale.displacement[1] + x * sin]
+    };
+    // At rest the circle stands on the left face of the next scale, whose normal is (-cos 60°, sin 60°).
+    let x = shift - a + 1.3 * 2.0 * a;
+    let along = x - (a + open.gap);
+    let height = (2.0 * radius + along) / 3.0_f64.sqrt();
+    let centre = [x, height - end(&puncture).displacement];
+    let (from, to) = (foot(0, a), foot(1, -a));
+    let line = [to[0] - from[0], to[1] - from[1]];
+    let area = line[0] * (centre[1] - from[1]) - line[1] * (centre[0] - from[0]);
+    assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
+}
+
+/// A radius is that of a guided needle without friction.
+#[test]
+fn a_radius_needs_a_smooth_guided_needle() {
+    let known = Calibrations::default();
+    let design = design(0.1, 1.0, 45.0, Base::L);
+    for (needle, radius) in
+        [(Needle::Free, 0.5), (Needle::Guided { friction: 0.1 }, 0.5), (SMOOTH, 100.0)]
+    {
+        let parameters = PunctureParameters { needle, ..parameters(Some(radius)) };
+        let springs = springs(&design, &parameters, &known);
+        let refused = puncture::solve(&design, &springs, &Common::default(), &parameters);
+        assert_eq!(refused.unwrap_err().quantity, "needle radius");
+    }
+}
