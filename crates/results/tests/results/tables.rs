@@ -32,8 +32,9 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         _ => p.default().to_toml(),
     };
     let axis = |p: &sweep::Parameter| format!("{} = {}\n", p.key, value(p));
-    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction, a depth one unit.
-    let names_without = |others: [&str; 4], in_mm: bool| {
+    // A strip has either a length or a number of gaps, a needle either a critical tilt or a friction, a depth one unit; only a guided
+    // needle without friction has a radius.
+    let names_without = |needle: &str, others: [&str; 4], in_mm: bool| {
         // A length is given in one unit, and none in mm has a place beside those that say it in other ways.
         let is_other = |p: &sweep::Parameter| {
             let unit = p.is_in_mm() != in_mm && (p.is_in_mm() || p.in_mm().next().is_some());
@@ -43,16 +44,29 @@ fn every_parameter_may_be_an_axis_with_a_column_of_its_own() {
         };
         let chosen = sweep::PARAMETERS.iter().filter(|p| !is_other(p));
         let axes: String = chosen.map(axis).collect();
-        let sweep = sweep(&format!("name = 'x'\n[designs]\n{axes}"));
+        let sweep = sweep(&format!("name = 'x'\n{needle}[designs]\n{axes}"));
         results::columns::design_columns(&sweep)
             .into_iter()
             .map(|c| c.name.into_owned())
             .collect::<Vec<_>>()
     };
-    let mut names = names_without(["gaps", "needle_friction", "load_inset_over_t", "-"], false);
+    let mut names = names_without(
+        "",
+        ["gaps", "needle_friction", "load_inset_over_t", "needle_radius_over_t"],
+        false,
+    );
     assert!(names.iter().any(|name| name == "membrane_length_over_t"));
-    let others =
-        names_without(["membrane_length_mm", "critical_tilt_deg", "load_position", "-"], true);
+    let others = names_without(
+        "",
+        ["membrane_length_mm", "critical_tilt_deg", "load_position", "needle_radius_mm"],
+        true,
+    );
+    let guided = names_without(
+        "puncture.needle = 'guided'\n",
+        ["gaps", "needle_friction", "load_inset_over_t", "needle"],
+        false,
+    );
+    assert!(guided.iter().any(|name| name == "needle_radius_over_t"));
     let expected =
         ["gaps_asked", "needle_friction", "gap_mm", "load_inset_mm", "scale_modulus_MPa"];
     assert!(expected.iter().all(|name| others.iter().any(|n| n == name)));
