@@ -22,7 +22,7 @@ pub use role::Role;
 pub use scalar::Scalar;
 
 /// A scalar that a sweep definition may set, in its section or as an axis of the grid.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Parameter {
     /// Key in the definition, the name of its axis and of its column.
     pub key: &'static str,
@@ -45,7 +45,7 @@ impl PartialEq for Parameter {
 }
 
 /// The values that the parameter takes, and the field of a case that it sets.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum ParameterKind {
     Number {
         range: Range,

@@ -1,0 +1,180 @@
+//! How a skin is punctured: the row, the load and its needle, and where the path ends.
+
+use skin::puncture::{Needle, NumberList, RowLength};
+
+use super::{ANY, AUTO, LENGTH, NUMBER, POSITIVE, STIFF};
+use crate::case::Case;
+use crate::parameter::Bound::{Excluded, Included};
+use crate::parameter::ParameterKind::{CountOrWord, Number, Numbers, OptionalNumber, Word};
+use crate::parameter::Role::{Continuous, EndsPuncture, InMm, InsteadOf, Made};
+use crate::parameter::{CountRange, Parameter, Range, Scalar, key};
+
+pub(super) const PARAMETERS: &[Parameter] = &[
+    Parameter {
+        key: "scales",
+        section: "puncture",
+        unit: "-",
+        meaning: "scales in the row",
+        roles: &[],
+        kind: CountOrWord {
+            word: AUTO,
+            range: CountRange { low: 1, high: 1_000_000 },
+            get: |c| match c.puncture.scales {
+                RowLength::Auto => None,
+                RowLength::Scales(count) => Some(count),
+            },
+            set: |c, count| {
+                c.puncture.scales = count.map_or(RowLength::Auto, RowLength::Scales);
+            },
+        },
+    },
+    Parameter {
+        key: key::LOAD_POSITION,
+        section: "puncture",
+        unit: "-",
+        meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
+        roles: NUMBER,
+        kind: Number { range: Range::closed(0.0, 1.0), field: |c| &mut c.puncture.load_position },
+    },
+    Parameter {
+        key: key::LOAD_INSET,
+        section: "puncture",
+        unit: "t",
+        meaning: "distance of the load from the right corner of the top, inward as far as the middle; instead of load_position",
+        roles: &[InsteadOf(key::LOAD_POSITION)],
+        kind: OptionalNumber { range: Range::closed(0.0, 1e6), field: |c| &mut c.load_inset },
+    },
+    in_mm!("load_inset", "puncture", ANY, &[InMm(key::LOAD_INSET)], |c| &mut c.in_mm.load_inset),
+    Parameter {
+        key: key::NEEDLE,
+        section: "puncture",
+        unit: "-",
+        meaning: "free: a load that follows its point of the scale sideways, as in the paper; guided: a tip that moves straight down and slides on the scale",
+        roles: &[EndsPuncture],
+        kind: Word {
+            words: &["free", "guided"],
+            get: |c| usize::from(c.puncture.needle.is_guided()),
+            set: |c, word| {
+                c.puncture.needle = [Needle::Free, Needle::Guided { friction: 0.0 }][word];
+                settle_needle(c);
+            },
+        },
+    },
+    Parameter {
+        key: key::NEEDLE_RADIUS,
+        section: "puncture",
+        unit: "t",
+        meaning: "radius of the round tip of a guided needle without friction, which may touch several scales; sharp unless it is given",
+        roles: NUMBER,
+        kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.needle_radius },
+    },
+    in_mm!("needle_radius", "puncture", POSITIVE, &[InMm(key::NEEDLE_RADIUS), Made], |c| &mut c
+        .in_mm
+        .needle_radius),
+    Parameter {
+        key: key::UNLOAD,
+        section: "puncture",
+        unit: "-",
+        meaning: "whether the load is taken away again at the end of the puncture",
+        roles: &[],
+        kind: Word {
+            words: &["false", "true"],
+            get: |c| usize::from(c.puncture.unload),
+            set: |c, word| c.puncture.unload = word == 1,
+        },
+    },
+    Parameter {
+        key: key::CRITICAL_TILT,
+        section: "puncture",
+        unit: "deg",
+        meaning: "tilt of the punctured scale at which the puncture ends; of several the largest, with columns for each",
+        roles: &[Continuous, EndsPuncture],
+        kind: Numbers {
+            // Below 1e-14 the path to it drowns in round-off.
+            range: Range { low: Included(1e-9), high: Excluded(90.0) },
+            word: None,
+            get: |c| match c.puncture.tilts_deg {
+                tilts if tilts.is_empty() => Scalar::Number(c.puncture.critical_tilt_deg),
+                tilts => Scalar::List(tilts),
+            },
+            set: |c, tilts| {
+                c.critical_tilt = tilts;
+                settle_needle(c);
+            },
+        },
+    },
+    Parameter {
+        key: key::NEEDLE_FRICTION,
+        section: "puncture",
+        unit: "-",
+        meaning: "friction between needle and scale; of a free needle its arctangent is the critical tilt, instead of that, of a guided one both may be given",
+        roles: &[Continuous, EndsPuncture, InsteadOf(key::CRITICAL_TILT)],
+        kind: Numbers {
+            // Of 1000 the arctangent is 89.94°; of 1e16 it is 90°, to the last digit.
+            range: Range::closed(0.0, 1e3),
+            word: Some("none"),
+            get: |c| c.needle_friction.unwrap_or(Scalar::Word("none")),
+            set: |c, friction| {
+                c.needle_friction = Some(friction).filter(|f| !matches!(f, Scalar::Word(_)));
+                settle_needle(c);
+            },
+        },
+    },
+    Parameter {
+        key: key::DEPTH,
+        section: "puncture",
+        unit: "t",
+        meaning: "depth of the punctured point at which the force is measured besides, in force_at_depth",
+        roles: &[],
+        kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.depth },
+    },
+    in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
+    Parameter {
+        key: key::PLACES,
+        section: "puncture",
+        unit: "-",
+        meaning: "places of the load that are tried besides, from the left corner of the top to the right, for weakest_force",
+        roles: &[],
+        kind: CountOrWord {
+            word: "none",
+            range: CountRange { low: 2, high: 1000 },
+            get: |c| c.puncture.places,
+            set: |c, count| c.puncture.places = count,
+        },
+    },
+    Parameter {
+        key: key::CONTACT_OVER_SUBSTRATE,
+        section: "puncture",
+        unit: "-",
+        meaning: "modulus of the scales in contact, E_ct, over that of the substrate, E_s",
+        roles: NUMBER,
+        kind: Number { range: STIFF, field: |c| &mut c.puncture.contact_modulus_over_substrate },
+    },
+];
+
+/// Makes tilts and friction of a puncture what the case says of them, in whatever order it was said.
+fn settle_needle(case: &mut Case) {
+    let friction = case.needle_friction;
+    if let Needle::Guided { friction: of_needle } = &mut case.puncture.needle {
+        *of_needle = friction.and_then(Scalar::number).unwrap_or(0.0);
+        return set_tilts(case, case.critical_tilt, |tilt| tilt);
+    }
+    match friction {
+        Some(friction) => set_tilts(case, friction, |friction| friction.atan().to_degrees()),
+        None => set_tilts(case, case.critical_tilt, |tilt| tilt),
+    }
+}
+
+/// Sets the tilt at which a puncture ends, and those on the way, to what is made of a number or a list; a word leaves them.
+fn set_tilts(case: &mut Case, value: Scalar, tilt: fn(f64) -> f64) {
+    let tilts = match value {
+        Scalar::Number(number) => {
+            case.puncture.critical_tilt_deg = tilt(number);
+            NumberList::default()
+        }
+        Scalar::List(numbers) => numbers.map(tilt),
+        Scalar::Count(_) | Scalar::Word(_) => return,
+    };
+    case.puncture.critical_tilt_deg = tilts.last().unwrap_or(case.puncture.critical_tilt_deg);
+    case.puncture.tilts_deg = tilts;
+}
