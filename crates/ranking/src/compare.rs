@@ -146,6 +146,7 @@ impl<'a> Difference<'a> {
     fn is_within(&self, tolerance: f64, noise: f64) -> bool {
         let [first, second] = self.texts();
         let is_small = |pair| relative(pair) <= tolerance || absolute(pair) <= noise;
+        // As texts first: words are compared here too.
         first == second || self.numbers().is_some_and(is_small)
     }
 }
@@ -178,6 +179,7 @@ pub fn compare<'r>(
     let matching = Matching::new(first, second)?;
     let place = |(column, name): (usize, &String)| {
         let other = second.column(name).ok()?;
+        // The first column is the number, which another grid gives to another design; parameters say which designs are the same.
         (column > 0 && parameter_of(name).is_none()).then_some([column, other])
     };
     let places: Vec<_> = first.header().iter().enumerate().filter_map(place).collect();
@@ -227,6 +229,7 @@ impl Comparison<'_> {
     fn compared(&self, places: [usize; 2]) -> ComparedColumn {
         let cells = self.matching.pairs.iter().map(|&rows| self.cell(rows, places));
         let sizes = cells.filter_map(|cell| cell.numbers()).flatten().map(f64::abs);
+        // Whoever asks for a tolerance of 0 wants every bit, zeros too.
         let largest = if self.tolerance > 0.0 { sizes.fold(0.0, f64::max) } else { 0.0 };
         ComparedColumn { places, noise: ROUND_OFF * largest }
     }

@@ -87,6 +87,7 @@ impl RescaledCriterion {
     pub fn rate(&self, value: f64) -> Option<f64> {
         let (worst, best) = self.ends?;
         let rescaled = self.of(value)?;
+        // Where small values are good, the criterion is the inverse (R1).
         let made = if self.goal == Goal::Maximize { 1.0 } else { -value.powi(-2) };
         Some(if best > worst { self.weight * made / ((best - worst) * rescaled) } else { 0.0 })
     }

@@ -119,6 +119,7 @@ fn divide(candidates: &mut [Point], best: &mut PrefixMaxima) {
 fn conquer(earlier: &[Point], later: &mut [Point], best: &mut PrefixMaxima) {
     let mut above = 0;
     for candidate in later {
+        // Of equal seconds too: what stands earlier is at least as good in the first, and equal points are one candidate.
         while above < earlier.len() && earlier[above].second >= candidate.second {
             best.raise(earlier[above].third, earlier[above].fourth);
             above += 1;

@@ -149,6 +149,7 @@ impl Preferences {
                 "weights" => {
                     let numbers: Vec<f64> = list(&entry.value).map_err(wrong)?;
                     let read = Weights::new(&numbers).map_err(|error| wrong(error.to_string()))?;
+                    // How many there must be is known at the end only: the criteria may stand behind them.
                     (weights, place) = (Some(read), entry.place);
                 }
                 _ => return Err(unknown(&entry)),

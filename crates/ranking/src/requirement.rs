@@ -142,6 +142,7 @@ impl FromStr for Requirement {
             let ((column, limit), relation) = Relation::ALL.into_iter().find_map(cut)?;
             let limit = limit.trim().parse().ok().filter(|limit: &f64| limit.is_finite())?;
             let column = column.trim().to_owned();
+            // Of `coverage => 0.6` the sign `>` leaves a `=` behind in the name.
             let is_name = !column.is_empty() && !column.contains(['<', '>', '=']);
             is_name.then_some(Self { column, relation, limit })
         };

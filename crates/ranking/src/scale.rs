@@ -39,6 +39,7 @@ impl Scale {
     /// The criterion that a value makes, larger being better; `None` if an inverse or a logarithm does not exist.
     pub fn criterion(self, goal: Goal, value: f64) -> Option<f64> {
         let criterion = match (self, goal) {
+            // A value as it is may be zero or negative; only inverses and logarithms may not.
             (Self::Paper | Self::Linear, Goal::Maximize) => return Some(value),
             (Self::Linear, Goal::Minimize) => return Some(-value),
             (Self::Paper, Goal::Minimize) => value.recip(),
@@ -50,6 +51,7 @@ impl Scale {
 
     /// The part that a rescaled criterion adds to the score of a design, once for each unit of weight.
     pub(crate) fn term(self, rescaled: f64) -> f64 {
+        // Of the worst −∞, so that no other criterion makes up for it: its fitness is 0.
         if self == Self::Paper { rescaled.ln() } else { rescaled }
     }
 

@@ -72,6 +72,7 @@ impl TetrahedralGrid {
     /// a node on a face lies inside; 7/36 of one on an edge, and 1/24 of one at a corner: the only
     /// numbers with which the parts sum to the whole for every resolution.
     pub fn cell(steps: Steps) -> u64 {
+        // In units of 1/72 of a cell all of these are whole, so that shares sum to 1 without round-off.
         match steps.iter().filter(|step| **step == 0).count() {
             0 => 72,
             1 => 36,

@@ -116,6 +116,7 @@ impl Weights {
     pub(crate) fn score(&self, terms: &Criteria) -> f64 {
         let mut sum = 0.0;
         for (weight, term) in self.values().iter().zip(terms) {
+            // 0 times −∞ would be no number.
             if *weight > 0.0 {
                 sum += weight * term;
             }

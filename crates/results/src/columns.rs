@@ -74,6 +74,7 @@ pub(crate) fn about(name: &str) -> Option<(&'static MeasuredValue, Option<Quanti
         name.strip_prefix(column.stem())
             .is_some_and(|rest| rest.is_empty() || rest.starts_with('_'))
     };
+    // The longest stem, because `critical_force_per_width` begins as `critical_force` does.
     let nearest = || COLUMNS.iter().filter(is_made_from).max_by_key(|column| column.stem().len());
     let column = ValueColumn::named(name).or_else(nearest)?;
     Some((column.value, column.quantity))
@@ -134,6 +135,7 @@ fn columns(sweep: &Sweep, table: Option<&str>) -> Vec<Column<DesignRow>> {
     columns.extend(axis_columns(sweep));
     columns.extend(made(others));
     columns.extend(tilt_columns(sweep, table));
+    // What a `[material]` adds stands last, so that the columns before it keep their places.
     if table.is_none() && sweep.gives(key::THICKNESS) {
         columns.extend(length_columns(sweep));
     }

@@ -71,12 +71,14 @@ impl Contents {
             "# What this folder held when its tables were written. Commands that read it check every file against this.\n\
              {table}"
         );
+        // Over the text as it stands, not over what it says: an edit that keeps the meaning is one too.
         let sealed = format!("# {SEAL}{}\n{text}", sha256(&text));
         folder.write_text(RunFolder::CONTENTS, &sealed).map(|_| ())
     }
 
     /// The contents that are stated in `folder`, if they are there and sound.
     pub fn stated_in(folder: &RunFolder) -> Option<Self> {
+        // What is wrong with a damaged statement `VerifiedFolder` says; here it is as good as none.
         let text = read_text(&folder.file(RunFolder::CONTENTS)).ok()?;
         Self::parse(&text).ok()
     }

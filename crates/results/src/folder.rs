@@ -129,6 +129,7 @@ pub static FILES: [FileEntry; 47] = [
     stated("fitted.toml", Maker::Fit, Role::Record),
     plain("design.toml", Maker::Design, Role::Record),
     plain(RunFolder::MEASURES, Maker::Design, Role::Record),
+    // A name that runs have too: who looks it up finds the entry of the run, which stands first and is checked.
     plain(RunFolder::SENSITIVITY, Maker::Design, Role::Record),
     plain(RunFolder::PUNCTURE[0], Maker::Design, Role::Record),
     plain(RunFolder::PUNCTURE[1], Maker::Design, Role::Record),

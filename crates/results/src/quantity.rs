@@ -133,6 +133,7 @@ fn force_unit(case: &Case) -> Option<f64> {
 fn bending_stiffness(case: &Case) -> Option<f64> {
     let (thickness, modulus) = (case.material.thickness_mm?, case.material.membrane_modulus_mpa?);
     let (width, height) = (case.design.width, case.flexure.membrane_thickness);
+    // Width and height are over `t`: four lengths in all.
     Some(modulus * width * height.powi(3) / 12.0 * thickness.powi(4))
 }
 
@@ -144,6 +145,7 @@ pub(crate) const MASS_NEEDS: [&str; 2] = [key::THICKNESS, key::DENSITY];
 pub fn areal_mass(case: &Case) -> Option<f64> {
     let (thickness, density) = (case.material.thickness_mm?, case.material.scale_density_kg_m3?);
     let base = 2.0 * Design::half_base(&case.design);
+    // kg/m³ times mm are 1e-3 kg/m².
     Some(density * base / (base + case.design.gap) * thickness * 1e-3)
 }
 

@@ -24,6 +24,7 @@ impl<T> Leader<T> {
     /// Enters a value in a contest, where `is_better` tells which of two values is better.
     pub fn enter(best: &mut Option<Self>, first: T, value: f64, is_better: fn(&f64, &f64) -> bool) {
         match best {
+            // Asked before which is better: of two that are the same, the later must not win by its last digits.
             Some(best) if same(value, best.value) => best.ties += 1,
             Some(best) if !is_better(&value, &best.value) => {}
             _ => *best = Some(Self { first, value, ties: 0 }),

@@ -66,9 +66,11 @@ fn key(run: &Results, parameters: &[&'static Parameter], row: usize) -> String {
     let mut key = String::new();
     for parameter in parameters {
         match run.parameter(row, parameter) {
+            // A table without that column: its run gives one value to all designs.
             "" => key.extend(shared(run, parameter).map(|value| value.to_string())),
             value => key.push_str(value),
         }
+        // Without a mark between them, 1 and 12 would be 11 and 2.
         key.push(',');
     }
     key

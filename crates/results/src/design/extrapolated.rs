@@ -134,6 +134,7 @@ impl DesignResult {
         if depends(Measure::Flexure)
             && let Some(flexure) = &mut result.flexure
         {
+            // Whether scales touch is no number that a derivative moves.
             let contact = flexure.measures.contact;
             flexure.measures = FlexureMeasures { contact, ..FlexureMeasures::default() };
         }

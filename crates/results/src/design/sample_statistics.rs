@@ -36,6 +36,7 @@ impl Statistics {
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let [low, middle, high] = QUANTILES.map(|(_, share)| quantile(&values, share));
+        // Without values this is 0/0, and so none.
         let mean = finite(values.iter().sum::<f64>() / values.len() as f64)?;
         Some(Self { mean, quantiles: [low?, middle?, high?] })
     }

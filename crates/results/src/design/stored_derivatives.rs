@@ -48,6 +48,7 @@ struct Kink(usize, Option<f64>, String);
 impl Matrix {
     /// Whether it is one of measures with the parameters of these derivatives.
     fn fits(&self, derivatives: &[ParameterDerivative]) -> bool {
+        // Bit by bit: of two values that are merely close, one would come back as the other.
         let parameters = derivatives.iter().map(|d| (d.parameter, d.at.to_bits()));
         self.by.iter().map(|(key, at)| (key.0, at.to_bits())).eq(parameters)
     }

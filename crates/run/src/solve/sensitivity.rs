@@ -158,7 +158,8 @@ impl Varied<'_> {
     }
 
     /// The stiffness of a case close by, on the straight lines of its derivatives.
-    // Read from the footprint that has moved, not from the parameter's name: a length in mm moves it, and so may a thickness in mm.
+    // Read from the lengths that have moved, not from the parameter's name: a length in mm moves them, and so may a thickness in mm.
+    // What moves the footprint by none of these fields needs a way of its own here.
     fn stiffness(&self, moved: &Case) -> Option<RowStiffness> {
         let (slopes, case) = (self.slopes?, self.case);
         let (from, to) = (&case.design, &moved.design);
