@@ -373,7 +373,9 @@ def test_an_interrupted_run_goes_on(tmp_path):
 
 def ended_early(begin, ending):
     """Whether a command was begun and interrupted before its end."""
-    process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # A shell that starts the tests in the background has them ignore the signal, which their children inherit.
+    heed = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)  # noqa: E731
+    process = subprocess.Popen(begin, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=heed)
     while process.poll() is None and not ending.exists():
         time.sleep(0.01)
     time.sleep(0.1)
