@@ -37,9 +37,9 @@ fn slots(law: &ContactLaw) -> usize {
     if law.friction() > 0.0 { FORCES + 2 } else { FORCES }
 }
 
-/// Value of the condition of a force that cannot act next: any number above zero, for it is neither violated nor solved
+/// Value of the condition of a force that cannot act next, or of one that does not exist: any number above zero, for it is neither violated nor solved
 /// for.
-const HOLDS: f64 = 1.0;
+pub(crate) const HOLDS: f64 = 1.0;
 
 /// A state of a skin.
 pub(crate) type SkinState = solver::State<SkinMode>;

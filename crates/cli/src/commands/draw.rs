@@ -8,7 +8,7 @@ use substrate::RowStiffness;
 use sweep::Case;
 
 use super::DONE;
-use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
+use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
 
@@ -63,7 +63,7 @@ const ROTATIONS_DEG: [f64; 4] = [0.0, 45.0, 90.0, 180.0];
 /// Draws designs.
 pub fn draw(arguments: &Arguments) -> anyhow::Result<u8> {
     check_places(arguments)?;
-    check_dpi(&arguments.output)?;
+    check_sizes(&arguments.output)?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let folder = || folder_within(&arguments.definition, &designs[0].sweep, "drawings");
     let mut files = FigureFiles::new(&arguments.output, folder)?;

@@ -62,7 +62,10 @@ impl<'a> FigureFiles<'a> {
     pub fn svg(&mut self, name: &str, svg: &str) -> anyhow::Result<()> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
-        let svg = output.width.map_or(svg.clone(), |width| Cow::Owned(resized(&svg, width)));
+        let svg = match output.width {
+            Some(width) => Cow::Owned(resized(&svg, width)),
+            None => svg,
+        };
         // An image that cannot be made leaves no drawing without it.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
         self.write(format!("{name}.svg"), svg.as_bytes())?;
@@ -113,10 +116,11 @@ pub fn joined(names: &[String], things: &str) -> String {
 const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
 
 /// Refuses a density of images that no image has, and a width that no paper has.
-pub fn check_dpi(output: &FigureOutput) -> anyhow::Result<()> {
+pub fn check_sizes(output: &FigureOutput) -> anyhow::Result<()> {
     let given = [("--dpi", Some(output.dpi), DPI), ("--width", output.width, WIDTHS)];
     for (option, value, range) in given {
-        let (value, low, high) = (value.unwrap_or(*range.start()), range.start(), range.end());
+        let Some(value) = value else { continue };
+        let (low, high) = (range.start(), range.end());
         ensure!(range.contains(&value), "{option} {value}: out of range, expected {low} to {high}");
     }
     Ok(())

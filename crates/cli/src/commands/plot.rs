@@ -12,7 +12,7 @@ use skin::puncture::{self, Puncture};
 use sweep::{Case, PARAMETERS};
 
 use super::draw::{check_place, substrate};
-use super::figure_file::{FigureFiles, FigureOutput, check_dpi, joined};
+use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
@@ -142,7 +142,7 @@ pub fn plot(arguments: &Arguments) -> anyhow::Result<u8> {
 }
 
 fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
-    check_dpi(&arguments.output)?;
+    check_sizes(&arguments.output)?;
     let results = ResultsFolder::read(
         &verified_folder(results, arguments.partial.completeness())?,
         usize::MAX,
@@ -158,7 +158,7 @@ fn plot_results(results: &Path, arguments: &Arguments) -> anyhow::Result<u8> {
 }
 
 fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
-    check_dpi(&arguments.output)?;
+    check_sizes(&arguments.output)?;
     let held = |text: &String| {
         let parts = text.split_once('=').map(|(axis, value)| (axis.trim(), value.trim()));
         let (axis, value) = parts.with_context(|| {
@@ -180,7 +180,7 @@ fn plot_map(arguments: &MapArguments) -> anyhow::Result<u8> {
 }
 
 fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
-    check_dpi(&arguments.output)?;
+    check_sizes(&arguments.output)?;
     check_place("--to", "a displacement u/t", arguments.to.as_slice())?;
     let designs = select(&arguments.definition, &arguments.selection)?;
     let cases: Vec<_> = designs.iter().map(SelectedDesign::case).collect();

@@ -194,6 +194,12 @@ impl GuidedNeedle {
         constraint.checked_sub(self.contacts).is_some_and(|number| self.endings().contains(&number))
     }
 
+    /// How many constraints it has.
+    fn constraint_count(&self) -> usize {
+        // Of a round tip all unknowns but the depth are those of constraints.
+        if self.is_round() { self.unknowns - 1 } else { THROUGH + 1 }
+    }
+
     /// The constraints that end a path, among its own: critical tilts, and last that of coming through.
     fn endings(&self) -> [usize; 3] {
         if self.is_round() {

@@ -5,11 +5,8 @@ use solver::{Residual, Tangent};
 use super::mode::{Place, Rub, Touch};
 use super::outline::{COORDINATES, Tip};
 use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
-use crate::contacts::{Contacts, SkinPoint, SkinState, product_integral};
+use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
-
-/// Value of a condition that does not exist: any number above zero.
-pub(super) const HOLDS: f64 = 1.0;
 
 /// A foot may lie beyond the end of a face by this much, over `t`: corners that lie on it do so to round-off and their approach.
 const BESIDE: f64 = 1e-9;
@@ -76,7 +73,7 @@ impl Chain {
         values: &mut Vec<f64>,
     ) {
         let first = values.len();
-        values.resize(first + needle.constraints().len(), HOLDS);
+        values.resize(first + needle.constraint_count(), HOLDS);
         let values = &mut values[first..];
         if needle.is_round() {
             return self.round_conditions(needle, state, values);

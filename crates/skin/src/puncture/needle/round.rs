@@ -7,10 +7,10 @@ use geometry::Vec2;
 use solver::{Change, Condition, Newton, Residual, Tangent};
 
 use super::GuidedNeedle;
-use super::forces::{HOLDS, STEP, add_row};
+use super::forces::{STEP, add_row};
 use super::mode::Place;
 use super::outline::{COORDINATES, Face, TURN, Tip};
-use crate::contacts::SkinState;
+use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
 /// Scales on each side of the punctured one that a round tip may come to.
@@ -59,7 +59,7 @@ impl Nearest {
 impl GuidedNeedle {
     /// Scales on each side of the punctured one that the tip may come to.
     pub(super) fn reach(&self) -> usize {
-        (self.unknowns - 5) / 4
+        (self.unknowns - unknowns(0)) / (unknowns(1) - unknowns(0))
     }
 
     /// Scales that a round tip may come to, by their slot and as they are counted from the punctured one.
