@@ -104,7 +104,7 @@ const FORCE: FigureText = FigureText {
 };
 const PLACES: FigureText = FigureText {
     title: "puncture force over the place of the load",
-    x: "place on the top: 0 left corner, 1 right corner",
+    x: "place: 0 left corner of the top, 1 right corner",
     y: FORCE.y,
     note: "○ the weakest place, if it is known;  fine dots: across places without a critical force",
 };

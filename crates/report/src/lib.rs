@@ -32,7 +32,7 @@
 //! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
-//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, guided: false, needle_radius: None, thickness_mm: None, states: &states }.svg()?;
+//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, needle_radius: None, thickness_mm: None, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
 //! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg, 96.0)?.starts_with(b"\x89PNG"));

@@ -38,9 +38,7 @@ pub struct PunctureDrawing<'a> {
     pub design: &'a Design,
     /// Place of the load on the top of the punctured scale.
     pub load_position: f64,
-    /// Whether the load is a needle that moves straight down, and not one that follows that place.
-    pub guided: bool,
-    /// Radius of the tip of that needle, over `t`; `None` of a sharp one.
+    /// Radius of the tip of a guided needle, over `t`; `None` of a sharp one.
     pub needle_radius: Option<f64>,
     /// Thickness of the scales, mm, if it is known: then there is a scale bar.
     pub thickness_mm: Option<f64>,
@@ -55,7 +53,6 @@ impl<'a> PunctureDrawing<'a> {
             name,
             design: &case.design,
             load_position: case.punctured().load_position,
-            guided: case.puncture.needle.is_guided(),
             needle_radius: case.puncture.needle_radius,
             thickness_mm: case.material.thickness_mm,
             states,
@@ -293,22 +290,21 @@ impl<'a> RowSheet<'a> {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Returns the place on the punctured scale on which the load was set down, at rest and as it stands; `None` without a load.
-    fn set_down(&self, state: &RowSnapshot) -> Option<[Vec2; 2]> {
+    /// Returns the place on the punctured scale on which the load was set down, as it stands; `None` without a load.
+    fn set_down(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let (pose, at_rest) =
             (pose(punctured), left + self.puncture.load_position * (right - left));
-        Some([at_rest, pose.displacement + pose.turn(at_rest)])
+        Some(pose.displacement + pose.turn(at_rest))
     }
 
     /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
-        let [at_rest, follows] = self.set_down(state)?;
+        let follows = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
-        let tip = at_rest + Vec2::new(0.0, -state.displacement);
-        let to = self.place(if self.puncture.guided { tip } else { follows }.into());
+        let to = self.place(state.tip.unwrap_or(follows.into()));
         let length = (self.force * state.force * self.puncture.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
@@ -320,7 +316,7 @@ impl<'a> RowSheet<'a> {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        let ring = self.set_down(state).filter(|_| self.puncture.guided).map(|[_, follows]| {
+        let ring = self.set_down(state).filter(|_| state.tip.is_some()).map(|follows| {
             let ring = circle(self.place(follows.into()), 3.5);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
@@ -328,13 +324,10 @@ impl<'a> RowSheet<'a> {
         Element::group("load").containing(drawn.into_iter().flatten().chain(ring).chain(tip))
     }
 
-    /// Returns the circle of a round tip, which stands on the top of the scale at rest.
+    /// Returns the circle of a round tip.
     fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let radius = self.puncture.needle_radius?;
-        let [at_rest, _] = self.set_down(state)?;
-        let lowest = at_rest + Vec2::new(0.0, -state.displacement);
-        let [lowest, centre] =
-            [lowest, lowest + Vec2::new(0.0, radius)].map(|place| self.place(place.into()));
+        let (radius, [x, y]) = (self.puncture.needle_radius?, state.tip?);
+        let [lowest, centre] = [[x, y], [x, y + radius]].map(|place| self.place(place));
         let tip = circle(centre, lowest[1] - centre[1]);
         Some(tip.with("fill", "none").with("stroke", INK).with("class", "tip"))
     }
