@@ -2,7 +2,7 @@
 
 use contact::Pose;
 use geometry::{Corner, OutOfRange, Row, Vec2};
-use skin::Design;
+use results::puncture_units;
 use skin::puncture::{RowSnapshot, ScaleState};
 use sweep::Case;
 
@@ -34,34 +34,13 @@ const AIR: f64 = LONGEST + 24.0;
 pub struct PunctureDrawing<'a> {
     /// The name of the design, which stands before the geometry in the title.
     pub name: &'a str,
-    /// The geometry.
-    pub design: &'a Design,
-    /// Place of the load on the top of the punctured scale.
-    pub load_position: f64,
-    /// Whether the load is a needle that moves straight down, and not one that follows that place.
-    pub guided: bool,
-    /// Radius of the tip of that needle, over `t`; `None` of a sharp one.
-    pub needle_radius: Option<f64>,
-    /// Thickness of the scales, mm, if it is known: then there is a scale bar.
-    pub thickness_mm: Option<f64>,
+    /// Geometry, needle and material: where the thickness is known, there is a scale bar.
+    pub case: &'a Case,
     /// The states, from the top; the row at rest is drawn above them.
     pub states: &'a [RowSnapshot],
 }
 
-impl<'a> PunctureDrawing<'a> {
-    /// The drawing of a design in these states.
-    pub fn of(name: &'a str, case: &'a Case, states: &'a [RowSnapshot]) -> Self {
-        Self {
-            name,
-            design: &case.design,
-            load_position: case.punctured().load_position,
-            guided: case.puncture.needle.is_guided(),
-            needle_radius: case.puncture.needle_radius,
-            thickness_mm: case.material.thickness_mm,
-            states,
-        }
-    }
-
+impl PunctureDrawing<'_> {
     /// Returns the drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
     ///
     /// # Errors
@@ -76,7 +55,7 @@ impl<'a> PunctureDrawing<'a> {
     }
 
     pub(super) fn title(&self) -> String {
-        format!("{}: {}", self.name, geometry_label(self.design))
+        format!("{}: {}", self.name, geometry_label(self.case))
     }
 
     pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
@@ -88,7 +67,7 @@ impl<'a> PunctureDrawing<'a> {
 
     /// The load of a state over `E* t²`.
     fn load(&self, state: &RowSnapshot) -> f64 {
-        state.force * self.design.length
+        state.force * self.case.design.length
     }
 }
 
@@ -111,7 +90,7 @@ struct RowSheet<'a> {
 
 impl<'a> RowSheet<'a> {
     fn new(puncture: &'a PunctureDrawing<'a>) -> Result<Self, OutOfRange> {
-        let row = puncture.design.row()?;
+        let row = puncture.case.design.row()?;
         let states = puncture.states;
         let (first, last) = window(&row, states);
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
@@ -162,7 +141,11 @@ impl<'a> RowSheet<'a> {
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
-        inside.extend(scale_bar(&self.view, self.puncture.thickness_mm, within_substrate));
+        inside.extend(scale_bar(
+            &self.view,
+            self.puncture.case.material.thickness_mm,
+            within_substrate,
+        ));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
@@ -207,10 +190,15 @@ impl<'a> RowSheet<'a> {
         } else {
             String::new()
         };
+        let (u, f) = (state.displacement, state.force);
+        let load = match puncture_units(self.puncture.case) {
+            Some([mm, newton, _]) => {
+                format!("$u$ = {} mm,  $F$ = {} N", short(u * mm), short(f * newton))
+            }
+            None => format!("$u^*$ = {},  $F^*$ = {}", short(u), short(f)),
+        };
         format!(
-            "$u^*$ = {},  $F^*$ = {},  tilt {:.2}°,  {}{force}",
-            short(state.displacement),
-            short(state.force),
+            "{load},  tilt {:.2}°,  {}{force}",
             state.tilt_deg + 0.0,
             contacts_label(&state.contacts)
         )
@@ -293,13 +281,18 @@ impl<'a> RowSheet<'a> {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
+    /// Whether the load is a needle that moves straight down, and not one that follows its place on the scale.
+    fn is_guided(&self) -> bool {
+        self.puncture.case.puncture.needle.is_guided()
+    }
+
     /// Returns the place on the punctured scale on which the load was set down, at rest and as it stands; `None` without a load.
     fn set_down(&self, state: &RowSnapshot) -> Option<[Vec2; 2]> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let (pose, at_rest) =
-            (pose(punctured), left + self.puncture.load_position * (right - left));
+            (pose(punctured), left + self.puncture.case.punctured().load_position * (right - left));
         Some([at_rest, pose.displacement + pose.turn(at_rest)])
     }
 
@@ -308,8 +301,8 @@ impl<'a> RowSheet<'a> {
         let [at_rest, follows] = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
         let tip = at_rest + Vec2::new(0.0, -state.displacement);
-        let to = self.place(if self.puncture.guided { tip } else { follows }.into());
-        let length = (self.force * state.force * self.puncture.design.length).max(9.0);
+        let to = self.place(if self.is_guided() { tip } else { follows }.into());
+        let length = (self.force * state.force * self.puncture.case.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
@@ -320,7 +313,7 @@ impl<'a> RowSheet<'a> {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        let ring = self.set_down(state).filter(|_| self.puncture.guided).map(|[_, follows]| {
+        let ring = self.set_down(state).filter(|_| self.is_guided()).map(|[_, follows]| {
             let ring = circle(self.place(follows.into()), 3.5);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
@@ -330,7 +323,7 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the circle of a round tip, which stands on the top of the scale at rest.
     fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let radius = self.puncture.needle_radius?;
+        let radius = self.puncture.case.puncture.needle_radius?;
         let [at_rest, _] = self.set_down(state)?;
         let lowest = at_rest + Vec2::new(0.0, -state.displacement);
         let [lowest, centre] =
