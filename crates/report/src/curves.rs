@@ -97,6 +97,8 @@ struct FigureText {
     units: fn(&Case) -> Option<[f64; 2]>,
 }
 
+const PLACE: &str = "place: 0 left corner of the top, 1 right corner";
+
 const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
     axes: [
@@ -111,10 +113,7 @@ const FORCE: FigureText = FigureText {
 };
 const PLACES: FigureText = FigureText {
     title: "puncture force over the place of the load",
-    axes: [
-        ["place on the top: 0 left corner, 1 right corner", FORCE.axes[0][1]],
-        ["place on the top: 0 left corner, 1 right corner", FORCE.axes[1][1]],
-    ],
+    axes: [[PLACE, FORCE.axes[0][1]], [PLACE, FORCE.axes[1][1]]],
     note: "○ the weakest place, if it is known;  fine dots: across places without a critical force",
     units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
 };

@@ -78,7 +78,7 @@ pub struct PunctureParameters {
     pub contact_modulus_over_substrate: f64,
     /// Row length.
     pub scales: RowLength,
-    /// Place of the load on the top of the punctured scale: 0 its left, 1 its right corner.
+    /// Place of the load on the top of the punctured scale: 0 its left, 1 its right corner. A round tip may stand beyond, between two scales.
     pub load_position: f64,
     /// Tilt `φ_c` of the punctured scale at which the puncture ends, degrees.
     pub critical_tilt_deg: f64,
@@ -94,7 +94,8 @@ pub struct PunctureParameters {
     pub depth: Option<f64>,
     /// Whether the load is taken away again at the end.
     pub unload: bool,
-    /// Places of the load that are tried besides, from the left corner of the top to the right one: at least two.
+    /// Places of the load that are tried besides, from the left corner of the top to the right one, or over a pitch with a round tip: at
+    /// least two.
     pub places: Option<usize>,
 }
 

@@ -79,14 +79,21 @@ pub struct Samples {
 }
 
 impl Case {
-    /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it.
+    /// The parameters of the puncture, lengths over the thickness. A load that would stand beyond the middle of a narrow top stands in it,
+    /// and one that would stand on the next scale on its left corner.
     pub fn punctured(&self) -> puncture::PunctureParameters {
         let top = 2.0 * self.design.half_base();
         let inside = |inset: f64| (1.0 - inset / top).max(0.5);
+        let position = self.puncture.load_position.min(1.0 + self.design.gap / top);
         puncture::PunctureParameters {
-            load_position: self.load_inset.map_or(self.puncture.load_position, inside),
+            load_position: self.load_inset.map_or(position, inside),
             ..self.puncture
         }
+    }
+
+    /// Whether the load stands on a top, or with a round tip that may stand between two.
+    pub fn load_can_stand(&self) -> bool {
+        self.puncture.load_position <= 1.0 || self.puncture.needle_radius.is_some()
     }
 
     /// The ratios and Poisson's ratio that the springs of the substrate depend on.

@@ -84,9 +84,9 @@ impl Deviation {
     /// As [`Self::moved`]; `None` if a parameter then leaves its bounds, so that there is no such skin.
     pub fn made(&self, case: &Case, by: f64) -> Option<Case> {
         let moved = self.moved(case, by)?;
-        Parameter::with(Role::Made)
-            .all(|parameter| parameter.contains(parameter.get(&moved)))
-            .then_some(moved)
+        let is_made =
+            Parameter::with(Role::Made).all(|parameter| parameter.contains(parameter.get(&moved)));
+        (is_made && moved.load_can_stand()).then_some(moved)
     }
 
     /// One unit of the parameter in the unit of the deviation.

@@ -74,7 +74,7 @@ fn tries_places_of_the_load() {
     assert_eq!([1, 2, 3].map(status), [Some("complete"); 3]);
     place.prints(&format!("plot curves x.toml {design} --out c"));
     let figure = place.read("c/force-over-place-of-0004.svg");
-    assert!(figure.contains("place on the top"), "{figure}");
+    assert!(figure.contains("place: 0 left corner of the top"), "{figure}");
 }
 
 #[test]

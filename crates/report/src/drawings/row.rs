@@ -281,27 +281,21 @@ impl<'a> RowSheet<'a> {
         View { origin: self.place([first as f64 * self.row.pitch(), 0.0]), ..self.view }
     }
 
-    /// Whether the load is a needle that moves straight down, and not one that follows its place on the scale.
-    fn is_guided(&self) -> bool {
-        self.puncture.case.puncture.needle.is_guided()
-    }
-
-    /// Returns the place on the punctured scale on which the load was set down, at rest and as it stands; `None` without a load.
-    fn set_down(&self, state: &RowSnapshot) -> Option<[Vec2; 2]> {
+    /// Returns the place on the punctured scale on which the load was set down, as it stands; `None` without a load.
+    fn set_down(&self, state: &RowSnapshot) -> Option<Vec2> {
         let punctured = state.scales.iter().find(|s| s.scale == 0 && state.force != 0.0)?;
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let (pose, at_rest) =
             (pose(punctured), left + self.puncture.case.punctured().load_position * (right - left));
-        Some([at_rest, pose.displacement + pose.turn(at_rest)])
+        Some(pose.displacement + pose.turn(at_rest))
     }
 
     /// Returns the ends of the arrow of the load; `None` without a load.
     fn load_arrow(&self, state: &RowSnapshot) -> Option<[Spot; 2]> {
-        let [at_rest, follows] = self.set_down(state)?;
+        let follows = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
-        let tip = at_rest + Vec2::new(0.0, -state.displacement);
-        let to = self.place(if self.is_guided() { tip } else { follows }.into());
+        let to = self.place(state.tip.unwrap_or(follows.into()));
         let length = (self.force * state.force * self.puncture.case.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
@@ -313,7 +307,7 @@ impl<'a> RowSheet<'a> {
             let name = label("$F$", [from[0], from[1] - 5.0], 14.0, Anchor::Middle);
             [arrow(from, to, INK, 2.2), name.with("fill", INK)]
         });
-        let ring = self.set_down(state).filter(|_| self.is_guided()).map(|[_, follows]| {
+        let ring = self.set_down(state).filter(|_| state.tip.is_some()).map(|follows| {
             let ring = circle(self.place(follows.into()), 3.5);
             ring.with("fill", "none").with("stroke", INK).with("class", "set-down")
         });
@@ -321,13 +315,10 @@ impl<'a> RowSheet<'a> {
         Element::group("load").containing(drawn.into_iter().flatten().chain(ring).chain(tip))
     }
 
-    /// Returns the circle of a round tip, which stands on the top of the scale at rest.
+    /// Returns the circle of a round tip.
     fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let radius = self.puncture.case.puncture.needle_radius?;
-        let [at_rest, _] = self.set_down(state)?;
-        let lowest = at_rest + Vec2::new(0.0, -state.displacement);
-        let [lowest, centre] =
-            [lowest, lowest + Vec2::new(0.0, radius)].map(|place| self.place(place.into()));
+        let (radius, [x, y]) = (self.puncture.case.puncture.needle_radius?, state.tip?);
+        let [lowest, centre] = [[x, y], [x, y + radius]].map(|place| self.place(place));
         let tip = circle(centre, lowest[1] - centre[1]);
         Some(tip.with("fill", "none").with("stroke", INK).with("class", "tip"))
     }

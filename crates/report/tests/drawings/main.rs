@@ -31,14 +31,14 @@ fn punctured(design: &Design, modulus: f64) -> Vec<RowSnapshot> {
 }
 
 fn svg(design: &Design, states: &[RowSnapshot]) -> String {
-    drawn(design, states, false)
+    drawn(design, states, None)
 }
 
-fn drawn(design: &Design, states: &[RowSnapshot], guided: bool) -> String {
-    let needle = if guided { "needle = 'guided'\nneedle_radius_over_t = 0.5" } else { "" };
-    drawings::PunctureDrawing { name: "test", case: &case(design, needle, ""), states }
-        .svg()
-        .expect("a drawing")
+fn drawn(design: &Design, states: &[RowSnapshot], needle_radius: Option<f64>) -> String {
+    let needle =
+        needle_radius.map(|radius| format!("needle = 'guided'\nneedle_radius_over_t = {radius}"));
+    let case = case(design, &needle.unwrap_or_default(), "");
+    drawings::PunctureDrawing { name: "test", case: &case, states }.svg().expect("a drawing")
 }
 
 /// The case of a design with these entries of `[puncture]` and `[material]`.
@@ -130,7 +130,7 @@ fn a_guided_needle_stays_where_it_was_set_down() {
     let solved =
         snapshots(&design, &springs, &Common::default(), &parameters, &at).expect("a design");
     let states: Vec<_> = solved.at.into_iter().map(|state| state.expect("reached")).collect();
-    let text = drawn(&design, &states, true);
+    let text = svg(&design, &states);
     // The first number of that name behind the beginning of each group of a load.
     let places = |name: &str| -> Vec<f64> {
         let loads = text.split("class=\"load\"").skip(1);
@@ -142,6 +142,29 @@ fn a_guided_needle_stays_where_it_was_set_down() {
     assert_eq!((needles.len(), rings.len()), (2, 2), "{text}");
     assert_eq!(needles[0], needles[1]);
     assert!(rings[0] > needles[0] + 1.0 && rings[1] > rings[0], "{rings:?} {needles:?}");
-    let follows = svg(&design, &states);
-    assert!(!follows.contains("set-down"));
+    assert!(!svg(&design, &punctured(&design, 9677.0)).contains("set-down"));
+}
+
+/// A round tip between two scales hangs between their corners: drawn at rest it is lower than their tops, and touches both.
+#[test]
+fn a_round_tip_stands_where_it_touches() {
+    let design = Design { gap: 0.6, ..design(0.0) };
+    let springs: Springs =
+        substrate::calibrate(&design.footprint(0.5).expect("a footprint")).expect("springs");
+    let parameters = PunctureParameters {
+        needle: Needle::Guided { friction: 0.0 },
+        needle_radius: Some(0.5),
+        // In the middle of the gap.
+        load_position: 1.3 / design.length,
+        ..PunctureParameters::default()
+    };
+    let at = [At::Displacement(0.05)];
+    let solved = snapshots(&design, &springs, &Common::default(), &parameters, &at);
+    let state = solved.expect("a design").at.remove(0).expect("reached");
+    // At rest its centre is 0.4 above the corners, 0.3 beside them.
+    let lowest = 1.0 + 0.4 - 0.5 - 0.05;
+    let [x, y] = state.tip.expect("a tip");
+    assert!((x - (0.5 * design.length + 0.3)).abs() < 1e-12 && (y - lowest).abs() < 1e-12);
+    let text = drawn(&design, &[state], Some(0.5));
+    assert!(text.contains("class=\"tip\""), "{text}");
 }

@@ -200,7 +200,7 @@ pub static LOADED_PLACES: &[Column<LoadedPlace>] = &[
     Column::new(
         "place",
         "-",
-        "place of the load: 0 the left corner of the top, 1 the right",
+        "place of the load: 0 the left corner of the top, 1 the right; beyond, a round tip between two scales",
         |p| p.position.into(),
     ),
     Column::new(

@@ -136,6 +136,11 @@ impl GuidedNeedle {
         self.tip = centre;
     }
 
+    /// The lowest point of its tip, from the node of the punctured scale at rest.
+    pub(super) fn lowest(&self, z: &[f64]) -> Vec2 {
+        self.tip - Vec2::new(0.0, self.radius + z[self.depth])
+    }
+
     /// Scales on each side of the punctured one that it may come to.
     pub(super) fn farthest(&self) -> usize {
         if self.is_round() { self.reach() } else { FARTHEST.unsigned_abs() as usize }

@@ -1,4 +1,5 @@
-//! Where does a load get through? The same puncture with the load at other places of the top, from its left corner to its right.
+//! Where does a load get through? The same puncture with the load at other places of the top, from its left corner to its right; with a
+//! round tip at those between two scales, too.
 
 use geometry::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -23,7 +24,7 @@ const SAME: f64 = 1e-6;
 /// A puncture with the load at one of several places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadedPlace {
-    /// Place of the load on the top: 0 its left, 1 its right corner.
+    /// Place of the load on the top: 0 its left, 1 its right corner; of a round tip also beyond.
     pub position: f64,
     /// How its path ended.
     pub status: Status,
@@ -133,8 +134,13 @@ impl Problem<'_> {
     /// The puncture at each of the places that are asked for.
     pub(super) fn loaded_places(&self) -> Result<Vec<LoadedPlace>, OutOfRange> {
         let count = self.parameters.places.unwrap_or(0);
-        let last = count.saturating_sub(1) as f64;
-        (0..count).map(|k| self.at_place(k as f64 / last)).collect()
+        // A round tip may stand anywhere. A pitch further right it stands as before, on the next scale: that place is not tried again.
+        let pitch = 1.0 + self.design.gap / (2.0 * self.design.half_base());
+        let (last, width) = match self.parameters.needle_radius {
+            Some(_) => (count as f64, pitch),
+            None => (count.saturating_sub(1) as f64, 1.0),
+        };
+        (0..count).map(|k| self.at_place(k as f64 * width / last)).collect()
     }
 
     fn at_place(&self, position: f64) -> Result<LoadedPlace, OutOfRange> {

@@ -48,6 +48,8 @@ pub struct RowSnapshot {
     pub force: f64,
     /// Tilt of the punctured scale, clockwise, degrees.
     pub tilt_deg: f64,
+    /// Lowest point of the tip of a guided needle, over `t`, from the node of the punctured scale at rest; `None` of a free one.
+    pub tip: Option<[f64; 2]>,
     /// Every scale, from the left.
     pub scales: Vec<ScaleState>,
     /// Every closed contact; forces over `E* t²`.
@@ -120,6 +122,7 @@ fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
         displacement: chain.depth(&state.z),
         force: chain.force(state),
         tilt_deg: chain.angle_deg(state),
+        tip: chain.needle.as_ref().map(|needle| needle.lowest(&state.z).into()),
         scales: scales(chain, state),
         contacts: chain.contacts.closed_contacts(state).into_iter().map(in_row).collect(),
     }

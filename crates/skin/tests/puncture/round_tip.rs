@@ -113,6 +113,28 @@ fn a_tip_between_two_scales() {
     assert_relative_eq!(scale(0).displacement[1], scale(1).displacement[1], max_relative = 1e-8);
 }
 
+/// Places of a round tip go over one pitch, those between two scales among them; a pitch further the tip finds what it found before.
+#[test]
+fn places_cover_the_pitch() {
+    let known = Calibrations::default();
+    let design = design(0.4, 0.8, 45.0, Base::L);
+    let parameters = PunctureParameters { places: Some(3), ..parameters(Some(0.5)) };
+    let springs = springs(&design, &parameters, &known);
+    let common = Common::default();
+    let places = puncture::loaded_places(&design, &springs, &common, &parameters).unwrap();
+    let positions: Vec<_> = places.iter().map(|place| place.position).collect();
+    assert_eq!(positions, [0.0, 0.5, 1.0]);
+    let parameters = PunctureParameters { places: Some(4), ..parameters };
+    let between = puncture::loaded_places(&design, &springs, &common, &parameters).unwrap()[3];
+    assert_relative_eq!(between.position, 1.125);
+    let at = |load_position: f64| {
+        let parameters = PunctureParameters { load_position, places: None, ..parameters };
+        complete(&solve(&design, &parameters)).critical_force.unwrap()
+    };
+    assert_eq!(between.force, Some(at(1.125)));
+    assert_relative_eq!(places[0].force.unwrap(), at(1.5), max_relative = 1e-8);
+}
+
 /// A tip that fits between two scales comes to the soft surface between their bases: its lowest point lies on the line from base to base.
 #[test]
 fn a_tip_that_comes_through() {

@@ -1,18 +1,36 @@
-//! Lengths in mm whose skins cannot be made: too thin, too thick, or scales longer than their pitch; and scales softer than what they lie on.
+//! Lengths in mm whose skins cannot be made: too thin, too thick, or scales longer than their pitch; scales softer than what they lie on;
+//! and sharp loads beside their scale.
 
 use super::invalid::Problem;
 use crate::case::Case;
 use crate::grid::{Axis, Grid};
 use crate::number;
-use crate::parameter::{Parameter, Scalar, key};
+use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::variable::{Variable, VariableValues};
 
 /// What is wrong with `given`, a length in mm or the modulus of the scales, in the designs of a grid and of its variables, if something is.
 pub(super) fn check(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
+    if given.key == key::LOAD_POSITION {
+        return check_place(given, grid, variables);
+    }
     let length = given.said_in(grid.base()).map(|of| (of, key::THICKNESS));
     let ratios = Parameter::ratios().filter(|_| given.key == key::SCALE_MODULUS);
     let mut all = length.into_iter().chain(ratios);
     all.try_for_each(|(of, unit)| check_one(given, (of, unit), grid, variables))
+}
+
+/// Refuses a place between two scales of a load that is no round tip.
+fn check_place(given: &Parameter, grid: &Grid, variables: &[Variable]) -> Result<(), Problem> {
+    let axis = grid.axes().iter().find(|axis| axis.parameter() == given);
+    let places = axis.map_or_else(|| vec![given.get(grid.base())], |axis| ends(axis, variables));
+    let stands = |place: &Scalar| given.put(&grid.case(0), *place).load_can_stand();
+    match places.iter().find(|place| !stands(place)) {
+        Some(place) => Err(Problem::Value(WrongValue::OutOfRange {
+            found: place.to_string(),
+            expected: "a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t".to_owned(),
+        })),
+        None => Ok(()),
+    }
 }
 
 /// The same of one parameter `of` that follows from it, over the parameter `unit`.

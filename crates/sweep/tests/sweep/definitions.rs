@@ -173,6 +173,25 @@ fn a_round_tip_is_that_of_a_smooth_guided_needle() {
     }
 }
 
+/// Between two scales a round tip alone may stand, as far as the left corner of the next; a sharp needle stands on its top.
+#[test]
+fn a_load_between_two_scales_has_a_radius() {
+    let read = |text: &str| Sweep::parse(&format!("name = 'x'\n{text}"), "x.toml", &[]);
+    let grid = "designs = { gap_over_t = [0.1, 0.5], length_over_t = 1 }\n";
+    let round = "puncture = { needle = 'guided', needle_radius_over_t = 0.5, load_position = 1.3 }";
+    let sweep = read(&format!("{grid}{round}")).unwrap();
+    let position = |index| sweep.grid().case(index).punctured().load_position;
+    assert_eq!([position(0), position(sweep.grid().len() - 1)], [1.1, 1.3]);
+    for sharp in [
+        "puncture.load_position = 1.3",
+        "puncture.needle = 'guided'\ndesigns.load_position = [0.5, 1.3]",
+        "variables.load_position = { from = 0.5, to = 1.3 }",
+    ] {
+        let refused = read(sharp).unwrap_err().to_string();
+        assert!(refused.contains("1.3 is out of range, expected a number of at least 0 and at most 1; beyond, between two scales, only with puncture.needle_radius_over_t"), "{refused}");
+    }
+}
+
 /// Several critical tilts, or the frictions whose arctangents they are: the largest is where a puncture ends.
 #[test]
 fn critical_tilts_are_given_in_degrees_or_by_friction() {

@@ -32,9 +32,9 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         key: key::LOAD_POSITION,
         section: "puncture",
         unit: "-",
-        meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right",
+        meaning: "place of the load on the top of the punctured scale, 0 its left corner, 1 its right; of a round tip also beyond, at most 1 + gap/base, the left corner of the next scale",
         roles: NUMBER,
-        kind: Number { range: Range::closed(0.0, 1.0), field: |c| &mut c.puncture.load_position },
+        kind: Number { range: Range::closed(0.0, 1e6), field: |c| &mut c.puncture.load_position },
     },
     Parameter {
         key: key::LOAD_INSET,
@@ -133,7 +133,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         key: key::PLACES,
         section: "puncture",
         unit: "-",
-        meaning: "places of the load that are tried besides, from the left corner of the top to the right, for weakest_force",
+        meaning: "places of the load that are tried besides, from the left corner of the top to the right, of a round tip over one pitch, for weakest_force",
         roles: &[],
         kind: CountOrWord {
             word: "none",
