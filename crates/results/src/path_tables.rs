@@ -7,6 +7,7 @@ use store::OutputError;
 use crate::columns::{
     BentScale, Cell, Column, DERIVATIVE_COLUMNS, EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES,
     FLEXURE_STEPS, LOADED_PLACES, PunctureEvent, SCALES, STEPS, flexure_path_columns, path_columns,
+    tip_force_columns,
 };
 use crate::design::row::SolvedDesign;
 use crate::folder::RunFolder;
@@ -75,6 +76,7 @@ fn of_puncture(puncture: &Puncture) -> Vec<PathTable> {
         PathTable::new(scales, SCALES, &puncture.scales),
         PathTable::new(steps, STEPS, &puncture.history),
     ];
+    tables[0].columns.extend(tip_force_columns(&puncture.tip_forces));
     if let Some(back) = &puncture.way_back {
         // Nothing is known of the stability of a row whose load is taken away.
         columns.retain(|column| !column.name.starts_with("unstable"));

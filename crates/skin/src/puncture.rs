@@ -41,7 +41,7 @@ use crate::{Common, Design, Sample, Status, WayBack};
 pub use fold::{Fold, GapStretch};
 pub use measures::PunctureMeasures;
 pub(crate) use needle::NeedleMode;
-pub use needle::{CriticalEvent, Needle, Passage};
+pub use needle::{CriticalEvent, Needle, Passage, TipForces};
 pub use number_list::{MOST_NUMBERS, NumberList};
 pub use odd_scale::OddScale;
 pub use places::{LoadedPlace, Weakest, loaded_places};
@@ -132,6 +132,8 @@ pub struct Puncture {
     pub path: Vec<PuncturePoint>,
     /// The instability of every equilibrium of the path, with the contacts with which the path leaves it.
     pub instability: Vec<Instability>,
+    /// The forces of a round tip at every equilibrium of the path; nothing of another needle.
+    pub tip_forces: Vec<TipForces>,
     /// Every contact event, in order.
     pub events: Vec<ContactEvent<PuncturePoint>>,
     /// Every snap of a row under a needle that only goes deeper, in order.
@@ -248,7 +250,8 @@ impl Followed {
     /// The result of the puncture; with `unload` the path is turned back at its end.
     fn puncture(self, unload: bool) -> Puncture {
         let Self { watch, passage, mut path, status } = self;
-        let PathWatch { record, needle, folds: FoldWatch { folds, .. }, tilts, depth, .. } = watch;
+        let PathWatch { record, needle, folds, passage: at_tip, tilts, depth, .. } = watch;
+        let FoldWatch { folds, .. } = folds;
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
@@ -264,6 +267,8 @@ impl Followed {
         };
         let chain = path.system();
         let scales = scales(chain, &path.point().state);
+        let mut tip_forces = at_tip.tip_forces;
+        tip_forces.extend(chain.tip_forces(&path.point().state));
         let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
         let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
         let Record { path: points, events, history, work, .. } = record;
@@ -277,6 +282,7 @@ impl Followed {
             at_tilts,
             path: points,
             instability,
+            tip_forces,
             events,
             snaps,
             folds,

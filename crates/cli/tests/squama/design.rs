@@ -61,6 +61,23 @@ fn takes_the_load_away_again() {
     }
 }
 
+/// A round tip between two scales presses on both: a column for each, whose parts along the load are the force.
+#[test]
+fn writes_the_forces_of_a_round_tip() {
+    let place = Place::with(FEW);
+    let design = "--gap 0.1 --length 1 --slant 45 --set puncture.needle=guided --set puncture.needle_radius_over_t=0.5 \
+                  --set puncture.load_position=1.05";
+    place.prints(&format!("design x.toml {design}"));
+    let path = place.read("results/few/designs/0004/path.csv");
+    let mut lines = path.lines();
+    let header = lines.next().expect("a header");
+    assert!(header.ends_with(",lateral_force,tip_force_0,tip_force_1"), "{header}");
+    let last: Vec<f64> =
+        lines.next_back().expect("a row").split(',').map(|x| x.parse().unwrap_or(0.0)).collect();
+    let [force, ref forces @ ..] = [last[1], last[last.len() - 2], last[last.len() - 1]];
+    assert!(forces.iter().all(|&of| of > 0.0) && forces[0] + forces[1] > force, "{path}");
+}
+
 #[test]
 fn tries_places_of_the_load() {
     let place = Place::with(FEW);

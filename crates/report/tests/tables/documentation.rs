@@ -10,7 +10,7 @@ use ranking::{
 };
 use results::columns::{
     EVENTS, FLEXURE_EVENTS, FLEXURE_SCALES, FLEXURE_STEPS, SCALES, STEPS, design_columns,
-    flexure_path_columns, path_columns,
+    flexure_path_columns, path_columns, tip_force_columns,
 };
 use results::{
     Column, DERIVATIVE_COLUMNS, MEASURE_COLUMNS, Outcome, RERUN_COLUMNS, failure_detail_columns,
@@ -90,6 +90,7 @@ fn the_guide_to_the_results_explains_every_column() {
         ("`reruns.csv`", columns(RERUN_COLUMNS)),
         ("`measures.csv`", columns(MEASURE_COLUMNS)),
         ("`path.csv`", columns(&path_columns(true, true))),
+        ("`path.csv`, of a round tip in addition", columns(&tip_force_columns(&[vec![(0, 0.0)]]))),
         ("`events.csv`", columns(EVENTS)),
         ("`scales.csv`", columns(SCALES)),
         ("`steps.csv`", columns(STEPS)),

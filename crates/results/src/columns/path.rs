@@ -3,6 +3,7 @@
 use skin::flexure;
 use skin::puncture::{
     CriticalEvent, Fold, Instability, LoadedPlace, Puncture, PuncturePoint, ScaleState, Snap,
+    TipForces,
 };
 use skin::{ContactEvent, Iteration};
 
@@ -75,6 +76,23 @@ pub fn path_columns(is_guided: bool, rubs: bool) -> Vec<Column<StabilityPoint>> 
         ));
     }
     columns
+}
+
+/// The columns of `path.csv` for a round tip, one for each scale between the outermost that it comes to touch.
+pub fn tip_force_columns(forces: &[TipForces]) -> Vec<Column<usize>> {
+    let scales = || forces.iter().flatten().map(|(scale, _)| *scale);
+    let (Some(first), Some(last)) = (scales().min(), scales().max()) else { return Vec::new() };
+    let column = |scale: i64| {
+        let on = |of: &TipForces| of.iter().find(|(touched, _)| *touched == scale).map(|of| of.1);
+        let values: Vec<f64> = forces.iter().map(|of| on(of).unwrap_or(0.0)).collect();
+        Column::made(
+            format!("tip_force_{scale}").into(),
+            "E_s L t/(1-nu^2)",
+            "normal force of a round tip on that scale: 0 is the punctured one, -1 its left neighbour",
+            move |&row: &usize| values[row].into(),
+        )
+    };
+    (first..=last).map(column).collect()
 }
 
 /// An event of a puncture.

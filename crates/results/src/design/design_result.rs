@@ -183,6 +183,7 @@ mod tests {
             history,
             way_back: None,
             places: vec![],
+            tip_forces: vec![],
         }
     }
 

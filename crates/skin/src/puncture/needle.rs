@@ -36,7 +36,7 @@ pub(crate) use mode::NeedleMode;
 use mode::{Place, Rub, Touch};
 use outline::{Face, Tip};
 pub(super) use passage::PassageWatch;
-pub use passage::{CriticalEvent, Passage};
+pub use passage::{CriticalEvent, Passage, TipForces};
 pub(super) use round::{reach, unknowns};
 
 /// How the needle is held.

@@ -52,7 +52,7 @@ impl PathWatch {
     pub(super) fn follow(&mut self, path: &mut Path<Chain>, segment: &Segment) {
         let Segment { from, to, left } = segment;
         self.history.follow(segment);
-        self.passage.follow(segment);
+        self.passage.follow(path.system(), segment);
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);

@@ -78,8 +78,10 @@ fn a_scale_alone_has_a_closed_form() {
             2.0 * c / (b + root) * cos / design.length
         };
         assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
-        for point in &puncture.path {
+        for (point, forces) in puncture.path.iter().zip(&puncture.tip_forces) {
             assert_relative_eq!(point.force, expected(point), max_relative = 1e-8, epsilon = 1e-12);
+            let on_scale = point.force / point.tilt_deg.to_radians().cos();
+            assert_relative_eq!(forces[0].1, on_scale, max_relative = 1e-8);
         }
     }
 }
@@ -111,6 +113,12 @@ fn a_tip_between_two_scales() {
     assert!(end.force > 0.05 && end.lateral_force.abs() < 1e-9 * end.force, "{end:?}");
     assert_relative_eq!(scale(0).rotation_deg, -scale(1).rotation_deg, max_relative = 1e-8);
     assert_relative_eq!(scale(0).displacement[1], scale(1).displacement[1], max_relative = 1e-8);
+    assert_eq!(puncture.tip_forces.len(), puncture.path.len());
+    for (point, forces) in puncture.path.iter().zip(&puncture.tip_forces) {
+        let [(0, left), (1, right)] = forces[..] else { panic!("{forces:?}") };
+        assert_relative_eq!(left, right, max_relative = 1e-8);
+        assert!(2.0 * left >= point.force);
+    }
 }
 
 /// Places of a round tip go over one pitch, those between two scales among them; a pitch further the tip finds what it found before.

@@ -50,15 +50,25 @@ impl Passage {
     }
 }
 
-/// Watches a path for the place at which the needle leaves its face.
+/// The scales that a round tip touches, 0 the punctured one, and its normal force on each, in the unit of `F*`.
+pub type TipForces = Vec<(i64, f64)>;
+
+/// Watches a path for the place at which the needle leaves its face, and notes the forces of a round tip.
 #[derive(Debug, Default)]
 pub(in crate::puncture) struct PassageWatch {
+    /// Of every point that the path has left.
+    pub(in crate::puncture) tip_forces: Vec<TipForces>,
     /// The segment at whose end it does.
     pub(in crate::puncture) passed: Option<[SkinPoint; 2]>,
 }
 
 impl PassageWatch {
-    pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
+    pub(in crate::puncture) fn follow(
+        &mut self,
+        chain: &Chain,
+        Segment { from, to, .. }: &Segment,
+    ) {
+        self.tip_forces.extend(chain.tip_forces(&from.state));
         if self.passed.is_none() && has_passed(&from.state, &to.state) {
             self.passed = Some([(**from).clone(), to.clone()]);
         }

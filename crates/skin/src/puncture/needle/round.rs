@@ -10,6 +10,7 @@ use super::GuidedNeedle;
 use super::forces::{STEP, add_row};
 use super::mode::Place;
 use super::outline::{COORDINATES, Face, TURN, Tip};
+use super::passage::TipForces;
 use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
@@ -311,6 +312,14 @@ impl Chain {
                 entry(push, row, -slope);
             }
         }
+    }
+
+    /// The normal forces of a round tip; `None` of another needle, and unless the whole path is noted.
+    pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
+        let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
+        let touched = needle.slots().filter(|(_, scale)| state.mode.needle.place(*scale).is_some());
+        let of = |(slot, scale)| (scale, state.z[needle.normal_force(slot)] / self.length);
+        Some(touched.map(of).collect())
     }
 
     /// Force of a round tip on the scales along the row, to the right.

@@ -384,14 +384,24 @@ const MEASURES: [(&str, Value); 10] = [
     ("needle_shift", |m| m.passage.needle_shift),
 ];
 
+/// A parameter, moved by so much.
+type Change = fn(&mut puncture::PunctureInput, f64);
+
+fn longer(input: &mut puncture::PunctureInput, by: f64) {
+    input.design.length += by;
+}
+
+fn set_down_further_right(input: &mut puncture::PunctureInput, by: f64) {
+    input.parameters.load_position += by;
+}
+
 /// Derivatives are those of differences of whole solutions: of a needle that slides, that sticks from the beginning, that slides and comes
 /// to rest, that is held in a notch.
 #[test]
 fn derivatives_with_a_way_behind_them() {
-    type Change = fn(&mut puncture::PunctureInput, f64);
     let changes: [(Change, f64); 4] = [
-        (|input, h| input.design.length += h, 2e-6),
-        (|input, h| input.parameters.load_position += h, 2e-6),
+        (longer, 2e-6),
+        (set_down_further_right, 2e-6),
         (|input, h| input.parameters.critical_tilt_deg += h, 2e-5),
         (
             |input, h| {
@@ -416,47 +426,62 @@ fn derivatives_with_a_way_behind_them() {
         (0.3, 0.8, 75.0, 0.3, 0.0125, 0.1),
     ] {
         let design = design(gap, length, slant);
-        let input = puncture::PunctureInput {
+        let common = Common { friction: of_scales, ..Common::default() };
+        let measures = derivatives_are_differences(
             design,
-            stiffness: (&springs(&design)).into(),
-            common: Common { friction: of_scales, ..Common::default() },
-            parameters: PunctureParameters {
-                depth: Some(0.15),
-                ..parameters(&design, friction, inside)
-            },
-            odd: None,
-        };
-        let moved = |change: Change, step: f64| {
-            let mut input = input.clone();
-            change(&mut input, step);
-            input
-        };
-        let variations = changes.map(|(change, step)| crate::Neighbours {
-            below: moved(change, -step),
-            above: moved(change, step),
-            step,
-        });
-        let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
-        ends.insert(puncture.measures.passage.passing_force.is_some());
-        for (parameter, (change, step)) in changes.into_iter().enumerate() {
-            let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
-            // Far enough apart for round-off, near enough for the second derivative.
-            let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
-            let mut compared = 0;
-            for (name, value) in MEASURES {
-                let Some([above, below]) = value(&above).zip(value(&below)).map(<[f64; 2]>::from)
-                else {
-                    assert!(name.starts_with("passing"), "{name}");
-                    continue;
-                };
-                let expected = (above - below) / (100.0 * step);
-                let of = derivatives.iter().find(|d| d.measure == name && d.parameter == parameter);
-                let found = of.and_then(|derivative| derivative.left).expect(name);
-                assert_relative_eq!(found, expected, max_relative = 1e-5, epsilon = 1e-8);
-                compared += 1;
-            }
-            assert!(compared >= 6);
-        }
+            common,
+            parameters(&design, friction, inside),
+            &changes,
+        );
+        ends.insert(measures.passage.passing_force.is_some());
     }
     assert_eq!(ends, [false, true].into());
+}
+
+/// Compares every derivative of a puncture by these changes, and their steps, with differences of whole solutions.
+fn derivatives_are_differences(
+    design: Design,
+    common: Common,
+    parameters: PunctureParameters,
+    changes: &[(Change, f64)],
+) -> puncture::PunctureMeasures {
+    let input = puncture::PunctureInput {
+        design,
+        stiffness: (&springs(&design)).into(),
+        common,
+        parameters: PunctureParameters { depth: Some(0.15), ..parameters },
+        odd: None,
+    };
+    let moved = |change: Change, step: f64| {
+        let mut input = input.clone();
+        change(&mut input, step);
+        input
+    };
+    let variation = |&(change, step): &(Change, f64)| crate::Neighbours {
+        below: moved(change, -step),
+        above: moved(change, step),
+        step,
+    };
+    let variations: Vec<_> = changes.iter().map(variation).collect();
+    let (puncture, derivatives) = puncture::differentiate(&input, &variations).unwrap();
+    for (parameter, &(change, step)) in changes.iter().enumerate() {
+        let solved = |step: f64| puncture::differentiate(&moved(change, step), &[]).unwrap().0;
+        // Far enough apart for round-off, near enough for the second derivative.
+        let [below, above] = [-50.0, 50.0].map(|times| solved(times * step).measures);
+        let mut compared = 0;
+        for (name, value) in MEASURES {
+            let Some([above, below]) = value(&above).zip(value(&below)).map(<[f64; 2]>::from)
+            else {
+                assert!(name.starts_with("passing"), "{name}");
+                continue;
+            };
+            let expected = (above - below) / (100.0 * step);
+            let of = derivatives.iter().find(|d| d.measure == name && d.parameter == parameter);
+            let found = of.and_then(|derivative| derivative.left).expect(name);
+            assert_relative_eq!(found, expected, max_relative = 1e-5, epsilon = 1e-8);
+            compared += 1;
+        }
+        assert!(compared >= 6);
+    }
+    puncture.measures
 }

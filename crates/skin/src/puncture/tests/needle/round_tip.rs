@@ -37,6 +37,32 @@ fn the_tangent_of_a_round_tip() {
     }
 }
 
+/// Derivatives by the radius, the place and the length are those of differences of whole solutions: on a face, on a corner, between two
+/// scales, on three of them.
+#[test]
+fn derivatives_of_a_round_tip() {
+    let by_radius: Change =
+        |input, h| input.parameters.needle_radius = input.parameters.needle_radius.map(|r| r + h);
+    let changes = [(by_radius, 2e-6), (set_down_further_right, 2e-6), (longer, 2e-6)];
+    for (gap, length, slant, radius, position) in [
+        (0.1, 1.0, 0.0, 0.5, 0.8),
+        (0.5, 1.0, 0.0, 0.2, 0.9),
+        (0.1, 1.0, 45.0, 0.03, 0.95),
+        (0.1, 1.0, 60.0, 0.5, 1.04),
+        (0.3, 0.5, 45.0, 0.5, 1.2),
+        (0.2, 0.2, 30.0, 1.0, 0.7),
+    ] {
+        let parameters = PunctureParameters {
+            needle: Needle::Guided { friction: 0.0 },
+            needle_radius: Some(radius),
+            load_position: position,
+            ..PunctureParameters::default()
+        };
+        let design = design(gap, length, slant);
+        derivatives_are_differences(design, Common::default(), parameters, &changes);
+    }
+}
+
 /// The path of a row of 21 scales under a round tip.
 fn round_path(design: &Design, radius: f64, step: f64) -> Path<Chain> {
     let reach = reach(radius, 2.0 * design.half_base() + design.gap).unwrap();
