@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use results::Quantity;
+use results::{Quantity, bending_units, puncture_units};
 use sweep::{Case, reason};
 
 /// The test that a curve was measured in.
@@ -59,14 +59,12 @@ impl Test {
     /// # Errors
     /// The keys of the material that this takes, if one is missing.
     pub fn units(self, case: &Case) -> Result<[f64; 2], String> {
-        let [x, y] = match self {
-            Self::Puncture => [Quantity::Length, Quantity::Force],
-            Self::Bending => [Quantity::Radius, Quantity::Moment],
+        let (units, load) = match self {
+            Self::Puncture => (puncture_units(case), Quantity::Force),
+            Self::Bending => (bending_units(case), Quantity::Moment),
         };
-        let worth = x.physical(1.0, case).zip(y.physical(1.0, case));
-        let keys = || y.needs().iter().map(|key| format!("material.{key}")).collect::<Vec<_>>();
-        let (x, y) = worth.ok_or_else(|| keys().join(" and "))?;
-        Ok([if self == Self::Bending { x.recip() } else { x }, y])
+        let keys = || load.needs().iter().map(|key| format!("material.{key}")).collect::<Vec<_>>();
+        units.map(|[x, y, _]| [x, y]).ok_or_else(|| keys().join(" and "))
     }
 }
 

@@ -240,7 +240,7 @@ impl Skin {
             let at = [At::Tilt(case.puncture.critical_tilt_deg)];
             let solved = snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at);
             let states: Vec<_> = solved.or_failed("drawing")?.at.into_iter().flatten().collect();
-            PunctureDrawing::of(NAME, &case, &states).svg().or_failed("drawing")
+            PunctureDrawing { name: NAME, case: &case, states: &states }.svg().or_failed("drawing")
         })
     }
 

@@ -1,9 +1,10 @@
 //! Curves of designs: force–displacement, moment–curvature, energies; a × at every contact event, a ring where the surface of the
 //! substrate first folds over.
 
-use skin::Design;
+use results::{bending_units, puncture_units};
 use skin::flexure::Flexure;
 use skin::puncture::{Puncture, Weakest};
+use sweep::Case;
 
 use crate::axis::ChartAxis;
 use crate::chart::{Area, ChartPanel};
@@ -36,8 +37,8 @@ const SHADES: [f64; 4] = [0.0, -0.35, -0.6, 0.3];
 pub struct DesignCurves<'a> {
     /// The number of the design.
     pub number: String,
-    /// The geometry.
-    pub design: &'a Design,
+    /// Its parameters: where each design has a thickness and a modulus, curves are in mm and N.
+    pub case: &'a Case,
     /// The path in puncture, if it was solved.
     pub puncture: Option<&'a Puncture>,
     /// The path in bending, if it was solved.
@@ -49,8 +50,8 @@ pub struct DesignCurves<'a> {
 pub struct MeasuredCurves {
     /// Whether they are of bending, moment over curvature; otherwise force over displacement of a puncture.
     pub bending: bool,
-    /// For each design what its own units are worth in mm and N, or 1/mm and N mm; nothing, if the curves are in those units.
-    pub units: Vec<[f64; 2]>,
+    /// Whether they are in mm and N, or 1/mm and N mm, and not in the units of the model.
+    pub is_physical: bool,
     /// The curves, each with its name.
     pub curves: Vec<(String, Vec<[f64; 2]>)>,
 }
@@ -74,13 +75,11 @@ pub fn curves(
     measured: Option<&MeasuredCurves>,
 ) -> Vec<Figure> {
     let over = |bending: bool| measured.filter(|measured| measured.bending == bending);
-    let is_physical = |bending| over(bending).is_some_and(|measured| !measured.units.is_empty());
-    let force = if is_physical(false) { &FORCE_IN_N } else { &FORCE };
-    let moment = if is_physical(true) { &MOMENT_IN_N_MM } else { &MOMENT };
+    let one_panel = |text, values, measured| one_panel(name, text, designs, values, measured);
     let candidates = [
-        ("force-displacement-curves", one_panel(name, force, designs, puncture, over(false))),
-        ("force-over-place", one_panel(name, &PLACES, designs, places, None)),
-        ("moment-curvature-curves", one_panel(name, moment, designs, flexure, over(true))),
+        ("force-displacement-curves", one_panel(&FORCE, puncture, over(false))),
+        ("force-over-place", one_panel(&PLACES, places, None)),
+        ("moment-curvature-curves", one_panel(&MOMENT, flexure, over(true))),
         ("puncture-energies", panels(name, &PUNCTURE_ENERGY, designs, puncture_energies)),
         ("flexure-energies", panels(name, &FLEXURE_ENERGY, designs, flexure_energies)),
     ];
@@ -91,44 +90,70 @@ pub fn curves(
 /// The texts of a kind of figure.
 struct FigureText {
     title: &'static str,
-    x: &'static str,
-    y: &'static str,
+    /// Labels of the axes: dimensionless, and in physical units.
+    axes: [[&'static str; 2]; 2],
     note: &'static str,
+    /// What the units of both axes are worth in the physical ones, where the material tells.
+    units: fn(&Case) -> Option<[f64; 2]>,
 }
+
+const PLACE: &str = "place: 0 left corner of the top, 1 right corner";
 
 const FORCE: FigureText = FigureText {
     title: "puncture force against displacement",
-    x: "displacement $u^*$ = $u/t$, dimensionless",
-    y: "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
+    axes: [
+        [
+            "displacement $u^*$ = $u/t$, dimensionless",
+            "force $F^*$ = $F$(1 − $ν$^2)/($E_s L t$), dimensionless",
+        ],
+        ["displacement $u$, mm", "force $F$, N"],
+    ],
     note: "× a contact closes, opens or passes a corner;  ○ the surface folds over;  fine dots: unstable under a held depth",
+    units: |case| puncture_units(case).map(|[mm, newton, _]| [mm, newton]),
 };
 const PLACES: FigureText = FigureText {
     title: "puncture force over the place of the load",
-    x: "place: 0 left corner of the top, 1 right corner",
-    y: FORCE.y,
+    axes: [[PLACE, FORCE.axes[0][1]], [PLACE, FORCE.axes[1][1]]],
     note: "○ the weakest place, if it is known;  fine dots: across places without a critical force",
+    units: |case| puncture_units(case).map(|[_, newton, _]| [1.0, newton]),
 };
 const MOMENT: FigureText = FigureText {
     title: "moment against curvature",
-    x: "curvature $κ^*$ = $κ t$, dimensionless",
-    y: "moment $M^*$ = $M t$/($E_m I_m$), dimensionless",
+    axes: [
+        [
+            "curvature $κ^*$ = $κ t$, dimensionless",
+            "moment $M^*$ = $M t$/($E_m I_m$), dimensionless",
+        ],
+        ["curvature $κ$, 1/mm", "moment $M$, N mm"],
+    ],
     note: "× a contact closes, opens or passes a corner",
+    units: |case| bending_units(case).map(|[per_mm, moment, _]| [per_mm, moment]),
 };
-const FORCE_IN_N: FigureText = FigureText { x: "displacement $u$, mm", y: "force $F$, N", ..FORCE };
-const MOMENT_IN_N_MM: FigureText =
-    FigureText { x: "curvature $κ$, 1/mm", y: "moment $M$, N mm", ..MOMENT };
 const PUNCTURE_ENERGY: FigureText = FigureText {
     title: "energies of a puncture",
-    x: "displacement $u^*$ = $u/t$, dimensionless",
-    y: "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless",
+    axes: [
+        [FORCE.axes[0][0], "energy $U$(1 − $ν$^2)/($E_s t$^3), dimensionless"],
+        [FORCE.axes[1][0], "energy $U$, mJ"],
+    ],
     note: "solid: substrate, dotted: contacts",
+    units: |case| puncture_units(case).map(|[mm, _, energy]| [mm, energy]),
 };
 const FLEXURE_ENERGY: FigureText = FigureText {
     title: "energies of bending",
-    x: "curvature $κ^*$ = $κ t$, dimensionless",
-    y: "energy $U$/($E_m t$^3), dimensionless",
+    axes: [
+        [MOMENT.axes[0][0], "energy $U$/($E_m t$^3), dimensionless"],
+        [MOMENT.axes[1][0], "energy $U$, mJ"],
+    ],
     note: "solid: bending, dashed: axial, dotted: contacts",
+    units: |case| bending_units(case).map(|[per_mm, _, energy]| [per_mm, energy]),
 };
+
+impl FigureText {
+    /// For each design what its units are worth in the physical ones; `None` where one of them has no such units.
+    fn physical(&self, designs: &[DesignCurves]) -> Option<Vec<[f64; 2]>> {
+        designs.iter().map(|solved| (self.units)(solved.case)).collect()
+    }
+}
 
 fn puncture(solved: &DesignCurves) -> Option<CurveValues> {
     let puncture = solved.puncture?;
@@ -208,16 +233,18 @@ fn one_panel(
     values: ValuesOf,
     measured: Option<&MeasuredCurves>,
 ) -> Option<String> {
-    let units = measured.map_or(&[][..], |measured| &measured.units);
-    let curves = curves_of(designs, values, units);
+    let is_wanted = measured.is_none_or(|measured| measured.is_physical);
+    let units = text.physical(designs).filter(|_| is_wanted);
+    let labels = text.axes[usize::from(units.is_some())];
+    let curves = curves_of(designs, values, &units.unwrap_or_default());
     if curves.is_empty() {
         return None;
     }
     let measured = measured.map_or(&[][..], |measured| &measured.curves);
     let solved = curves.iter().flat_map(|curve| &curve.points);
     let points = solved.chain(measured.iter().flat_map(|(_, points)| points)).copied();
-    let (x, y) = axes(text, &points.collect::<Vec<_>>());
-    let y = logarithmic(text, &curves).unwrap_or(y);
+    let (x, y) = axes(labels, &points.collect::<Vec<_>>());
+    let y = logarithmic(labels[1], &curves).unwrap_or(y);
     let lines = curves.len() + measured.len();
     let area = Area {
         left: MARGINS[0],
@@ -269,11 +296,12 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
         let in_units = |points: Vec<[f64; 2]>| points.into_iter().map(|p| [p[0] * x, p[1] * y]);
         let [points, crosses, rings] =
             [points, crosses, rings].map(|points| in_units(points).collect());
-        let slant = solved.design.slant_deg;
-        let before = designs[..k].iter().filter(|other| other.design.slant_deg == slant).count();
+        let slant = solved.case.design.slant_deg;
+        let before = designs[..k].iter().filter(|other| other.case.design.slant_deg == slant);
+        let before = before.count();
         let color = shaded(&palette.color(slant), SHADES[before % SHADES.len()]);
         let dashes = DASHES[before % DASHES.len()];
-        let name = format!("{}:  {}", solved.number, geometry_label(solved.design));
+        let name = format!("{}:  {}", solved.number, geometry_label(solved.case));
         curves.push(Curve { name, color, dashes, points, crosses, rings, unstable });
     }
     curves
@@ -281,23 +309,23 @@ fn curves_of(designs: &[DesignCurves], values: ValuesOf, units: &[[f64; 2]]) -> 
 
 /// Returns the colours of the slants of some designs.
 fn palette(designs: &[DesignCurves]) -> SlantPalette {
-    SlantPalette::new(designs.iter().map(|solved| solved.design.slant_deg))
+    SlantPalette::new(designs.iter().map(|solved| solved.case.design.slant_deg))
 }
 
 /// Fits axes to points, both from zero.
-fn axes(text: &FigureText, points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
+fn axes(labels: [&str; 2], points: &[[f64; 2]]) -> (ChartAxis, ChartAxis) {
     let axis = |name: &str, k: usize| {
         let (low, high) = crate::axis::ends(points.iter().map(|point| point[k]));
         ChartAxis::linear(name, low.min(0.0), high)
     };
-    (axis(text.x, 0), axis(text.y, 1))
+    (axis(labels[0], 0), axis(labels[1], 1))
 }
 
 /// Returns an axis that shows the smallest of curves whose ends differ by decades.
-fn logarithmic(text: &FigureText, curves: &[Curve]) -> Option<ChartAxis> {
+fn logarithmic(label: &str, curves: &[Curve]) -> Option<ChartAxis> {
     let ends = curves.iter().map(|curve| curve.points.iter().map(|p| p[1]).fold(0.0, f64::max));
     let (low, high) = crate::axis::ends(ends);
-    (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(text.y, [low / 30.0, high].into_iter()))
+    (low > 0.0 && high > 30.0 * low).then(|| ChartAxis::fit(label, [low / 30.0, high].into_iter()))
 }
 
 impl Curve {
@@ -362,7 +390,16 @@ fn panels(
     designs: &[DesignCurves],
     values: fn(&DesignCurves) -> Option<Energies>,
 ) -> Option<String> {
-    let solved: Vec<_> = designs.iter().filter_map(|d| Some((d, values(d)?))).collect();
+    let units = text.physical(designs);
+    let labels = text.axes[usize::from(units.is_some())];
+    let scaled = |(k, solved)| {
+        let mut energies = values(solved)?;
+        let [x, y] = units.as_ref().map_or([1.0; 2], |units| units[k]);
+        let points = energies.iter_mut().flat_map(|(_, points)| points);
+        points.for_each(|point| *point = [point[0] * x, point[1] * y]);
+        Some((solved, energies))
+    };
+    let solved: Vec<_> = designs.iter().enumerate().filter_map(scaled).collect();
     if solved.is_empty() {
         return None;
     }
@@ -373,8 +410,8 @@ fn panels(
     for (k, (design, energies)) in solved.iter().enumerate() {
         let [left, top] = [(k % columns) as f64 * (w + 84.0), (k / columns) as f64 * (h + 84.0)];
         let area = Area { left: MARGINS[0] + left, top: 86.0 + top, width: w, height: h };
-        let color = palette.color(design.design.slant_deg);
-        inside.extend(energies_of(text, (design, &color), energies, area));
+        let color = palette.color(design.case.design.slant_deg);
+        inside.extend(energies_of(labels, (design, &color), energies, area));
     }
     let rows = solved.len().div_ceil(columns) as f64;
     let title = format!("{name}: {}", text.title);
@@ -385,14 +422,14 @@ fn panels(
 
 /// Returns the energies of one design.
 fn energies_of(
-    text: &FigureText,
+    labels: [&str; 2],
     (solved, color): (&DesignCurves, &str),
     energies: &Energies,
     area: Area,
 ) -> Vec<Element> {
     let points: Vec<_> = energies.iter().flat_map(|(_, points)| points.iter().copied()).collect();
-    let (x, y) = axes(text, &points);
-    let title = format!("{}:  {}", solved.number, geometry_label(solved.design));
+    let (x, y) = axes(labels, &points);
+    let title = format!("{}:  {}", solved.number, geometry_label(solved.case));
     let panel = ChartPanel { title, ..ChartPanel::new(area, &x, &y) };
     let curve = |(dashes, points): &(&'static str, Vec<[f64; 2]>)| Curve {
         name: String::new(),

@@ -14,7 +14,7 @@ pub use row::PunctureDrawing;
 pub use strip::FlexureDrawing;
 
 use skin::{Contact, Design};
-use sweep::number;
+use sweep::{Case, number};
 
 use crate::colors::INK;
 use crate::label::{Anchor, label, plain, width};
@@ -63,12 +63,18 @@ fn placed(DrawingPanel { caption, inside, .. }: DrawingPanel, top: f64, number: 
         .containing([caption, body])
 }
 
-/// Returns the geometry of a design as labels have it.
-pub fn geometry_label(design: &Design) -> String {
+/// Returns the geometry of a case as labels have it, in mm where its thickness is known.
+pub fn geometry_label(case: &Case) -> String {
+    let Design { gap, length, slant_deg, .. } = case.design;
+    let thickness = case.material.thickness_mm;
+    let unit = thickness.unwrap_or(1.0);
     // Designs that a search has found have sixteen digits.
-    let [gap, length, slant] =
-        [design.gap, design.length, design.slant_deg].map(|value| number::rounded(value, 6));
-    format!("$d/t$ = {gap}, $L/t$ = {length}, $α$ = {slant}°")
+    let [gap, length, slant, unit] =
+        [gap * unit, length * unit, slant_deg, unit].map(|value| number::rounded(value, 6));
+    match thickness {
+        Some(_) => format!("$d$ = {gap} mm, $L$ = {length} mm, $t$ = {unit} mm, $α$ = {slant}°"),
+        None => format!("$d/t$ = {gap}, $L/t$ = {length}, $α$ = {slant}°"),
+    }
 }
 
 /// Formats a number of contacts in words.

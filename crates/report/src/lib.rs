@@ -21,18 +21,18 @@
 //!
 //! ```
 //! use report::drawings::PunctureDrawing;
-//! use skin::puncture::{At, PunctureParameters, RowLength, snapshots};
-//! use skin::{Base, Common, Design};
+//! use skin::puncture::{At, snapshots};
 //! use substrate::calibrate;
+//! use sweep::Sweep;
 //!
 //! // A row of five scales at rest and when the middle one has tilted by 10°.
-//! let design = Design { gap: 0.2, length: 0.5, slant_deg: 60.0, base: Base::L, width: 1.0 };
-//! let springs = calibrate(&design.footprint(0.5)?)?;
-//! let parameters = PunctureParameters { scales: RowLength::Scales(5), ..PunctureParameters::default() };
-//! let solved = snapshots(&design, &springs, &Common::default(), &parameters, &[At::Tilt(10.0)])?;
+//! let text = "name = 'x'\npuncture.scales = 5\ndesigns.gap_over_t = 0.2\ndesigns.length_over_t = 0.5\ndesigns.slant_deg = 60";
+//! let case = Sweep::parse(text, "x.toml", &[])?.grid().case(0);
+//! let springs = calibrate(&case.footprint()?)?;
+//! let solved = snapshots(&case.design, &springs, &case.common, &case.punctured(), &[At::Tilt(10.0)])?;
 //! let states: Vec<_> = solved.at.into_iter().flatten().collect();
 //! let name = "five scales";
-//! let svg = PunctureDrawing { name, design: &design, load_position: 1.0, needle_radius: None, thickness_mm: None, states: &states }.svg()?;
+//! let svg = PunctureDrawing { name, case: &case, states: &states }.svg()?;
 //! assert!(svg.contains("five scales"));
 //! # #[cfg(feature = "png")]
 //! assert!(report::png(&svg, 96.0)?.starts_with(b"\x89PNG"));

@@ -16,7 +16,7 @@
 //! | [`ParameterDerivative`], [`DerivativeRow`] | the derivative of a measure, and the row of `sensitivity.csv` |
 //! | [`SlopeSide`] | which of two one-sided derivatives a neighbouring row is extrapolated by |
 //! | [`columns`], [`Column`], [`Cell`] | the list of everything that stands in a table |
-//! | [`Quantity`], [`areal_mass()`] | from dimensionless values to millimetres, newtons and kilograms |
+//! | [`Quantity`], [`areal_mass()`], [`puncture_units`], [`bending_units`] | from dimensionless values to millimetres, newtons and kilograms |
 //! | [`CsvFormat`], [`CsvFile`] | how tables are written |
 //! | [`RunFolder`], [`FILES`], [`FileEntry`] | the folder, and an entry for every file in it: name, maker, whether its SHA-256 is stated |
 //! | [`write_measures`] | writes the measures of one design, a row each |
@@ -79,7 +79,7 @@ pub use design::sample_statistics::{
 pub use folder::{FILES, FileEntry, MEASURE_TABLES, Maker, Role, RunFolder};
 pub use measure_table::{DesignMeasure, MEASURE_COLUMNS, write_measures};
 pub use path_tables::{PathTable, path_tables, write_path_tables};
-pub use quantity::{Quantity, areal_mass};
+pub use quantity::{Quantity, areal_mass, bending_units, puncture_units};
 pub use reader::{InvalidResults, Results, words};
 pub use shell::{quoted, shell_word};
 pub use store::{

@@ -122,6 +122,23 @@ impl Quantity {
     }
 }
 
+/// What the units of the curves of a puncture are worth: those of displacement, force and energy in mm, N and mJ. `None` if the
+/// material does not say what it needs.
+pub fn puncture_units(case: &Case) -> Option<[f64; 3]> {
+    let (length, force) =
+        (Quantity::Length.physical(1.0, case)?, Quantity::Force.physical(1.0, case)?);
+    // Energies are over E_s/(1 − ν²) t³, forces over E_s/(1 − ν²) L t².
+    Some([length, force, force / case.design.length * length])
+}
+
+/// What the units of the curves of bending are worth: those of curvature, moment and energy in 1/mm, N mm and mJ. `None` if the
+/// material does not say what it needs.
+pub fn bending_units(case: &Case) -> Option<[f64; 3]> {
+    let (length, modulus) =
+        (Quantity::Length.physical(1.0, case)?, case.material.membrane_modulus_mpa?);
+    Some([length.recip(), Quantity::Moment.physical(1.0, case)?, modulus * length.powi(3)])
+}
+
 /// `E_s/(1 − ν²) L t`, N.
 fn force_unit(case: &Case) -> Option<f64> {
     let (thickness, modulus) = (case.material.thickness_mm?, case.material.substrate_modulus_mpa?);

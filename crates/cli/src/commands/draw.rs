@@ -120,7 +120,7 @@ impl Drawing<'_> {
         };
         let states = self.puncture_states(&at)?;
         let name = self.design.title();
-        let drawing = drawings::PunctureDrawing::of(&name, case, &states);
+        let drawing = drawings::PunctureDrawing { name: &name, case, states: &states };
         if self.arguments.animate {
             let file = self.file("puncture-animation");
             return files.html(&file, &drawing.animation()?);
@@ -169,13 +169,7 @@ impl Drawing<'_> {
         };
         let states = at.iter().zip(solved).map(reached).collect::<anyhow::Result<Vec<_>>>()?;
         let name = self.design.title();
-        let drawing = drawings::FlexureDrawing {
-            name: &name,
-            design: &self.case.design,
-            membrane_thickness: parameters.membrane_thickness,
-            thickness_mm: self.case.material.thickness_mm,
-            states: &states,
-        };
+        let drawing = drawings::FlexureDrawing { name: &name, case: &self.case, states: &states };
         if self.arguments.animate {
             let file = self.file("flexure-animation");
             return files.html(&file, &drawing.animation()?);

@@ -100,8 +100,8 @@ Examples:
 
 A measured file is a CSV table whose first line names its columns with their units, in any order and among others:
 displacement_mm (or _um, _m) and force_N (_mN, _kN), or curvature_per_m (_per_mm) and moment_N_mm (_mN_m, _N_m).
-The curves are then in mm and N, which takes a [material] with a thickness and a modulus. displacement and force,
-or curvature and moment, without a unit are those of path.csv and flexure_path.csv.")]
+Curves are in mm, N and mJ where a [material] has a thickness and a modulus, which such a file takes. displacement and
+force, or curvature and moment, without a unit are those of path.csv and flexure_path.csv.")]
 pub struct CurvesArguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -198,7 +198,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     let shown: Vec<_> = shown
         .map(|(((puncture, flexure), design), case)| DesignCurves {
             number: number(design, &cases),
-            design: &case.design,
+            case,
             puncture: Some(puncture),
             flexure: Some(flexure),
         })
@@ -222,7 +222,7 @@ fn plot_curves(arguments: &CurvesArguments) -> anyhow::Result<u8> {
     Ok(if failed { INCOMPLETE } else { DONE })
 }
 
-/// The measured curves, with the units in which those of the designs stand beside them.
+/// The measured curves, if the designs can stand beside them in their units.
 fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Option<MeasuredCurves>> {
     let read = |file: &PathBuf| MeasuredCurve::read(file, arguments.measured_columns.as_deref());
     let read = arguments.measured.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -232,16 +232,15 @@ fn measured(arguments: &CurvesArguments, cases: &[Case]) -> anyhow::Result<Optio
         bail!("{}: is of another test than {}, or in other units", other.file, first.file);
     }
     let units = |case: &Case| {
-        first.test.units(case).map_err(|missing| {
+        first.test.units(case).map(|_| ()).map_err(|missing| {
             let definition = arguments.definition.path.display();
             anyhow::anyhow!("{definition}: {} is in mm and N, which needs {missing}", first.file)
         })
     };
-    let physical = cases.iter().filter(|_| first.is_physical);
-    let units = physical.map(units).collect::<anyhow::Result<_>>()?;
-    let bending = first.test == Test::Bending;
+    cases.iter().filter(|_| first.is_physical).try_for_each(units)?;
+    let (bending, is_physical) = (first.test == Test::Bending, first.is_physical);
     let curves = read.into_iter().map(|curve| (curve.file, curve.points)).collect();
-    Ok(Some(MeasuredCurves { bending, units, curves }))
+    Ok(Some(MeasuredCurves { bending, is_physical, curves }))
 }
 
 /// The puncture of a design, to the critical tilt or to a displacement, and its bending.

@@ -9,7 +9,7 @@ use ranking::{CRITERIA, Preferences, Ranking, Weights};
 use rayon::prelude::*;
 use report::{Explorer, GapFactors, Page, PageDesign, drawings};
 use results::columns::design_columns;
-use results::{Quantity, shell_word};
+use results::{bending_units, puncture_units, shell_word};
 use run::{GapChange, MeasureChange};
 use skin::{flexure, puncture};
 use sweep::Case;
@@ -110,7 +110,7 @@ fn page(results: &ResultsFolder) -> anyhow::Result<Page> {
         columns: results.designs.headers().iter().map(column).collect(),
         run: results.run.clone(),
         shared: shared.collect(),
-        is_physical: is_physical(&grid.case(0)),
+        is_physical: [puncture_units, bending_units].map(|units| units(&grid.case(0)).is_some()),
         solved: solved(results, &rankings),
         opening: Preferences::read(results.verified())?
             .map_or_else(String::new, |own| opening(&own)),
@@ -194,31 +194,22 @@ fn solve(results: &ResultsFolder, row: usize, is_drawn: bool) -> Option<PageDesi
         puncture::snapshots(&case.design, &substrate, &case.common, &case.punctured(), &at).ok()?;
     let states: Vec<_> = solved.at.into_iter().flatten().collect();
     let name = format!("{} design {number}", results.sweep.name());
-    let drawing = drawings::PunctureDrawing::of(&name, &case, &states);
+    let drawing = drawings::PunctureDrawing { name: &name, case: &case, states: &states };
     let path = solved.puncture.path.iter().map(|point| [point.displacement, point.force]);
     Some(PageDesign {
         number: number.to_owned(),
         svg: if is_drawn { drawing.svg().ok()? } else { String::new() },
-        puncture: path.map(|point| scaled(point, units(&case)[0])).collect(),
-        flexure: bending(&case).into_iter().map(|point| scaled(point, units(&case)[1])).collect(),
+        puncture: path.map(|point| scaled(point, puncture_units(&case))).collect(),
+        flexure: bending(&case)
+            .into_iter()
+            .map(|point| scaled(point, bending_units(&case)))
+            .collect(),
         gap_factors: gap_factors(results, number),
     })
 }
 
-/// A millimetre and a newton of a puncture, 1/mm and N mm of bending: what the units of its curves are, where the material tells.
-fn units(case: &Case) -> [Option<[f64; 2]>; 2] {
-    let unit = |quantity: Quantity| quantity.physical(1.0, case);
-    let curvature = unit(Quantity::Length).map(f64::recip);
-    let both = |x: Option<f64>, y: Option<f64>| Some([x?, y?]);
-    [both(unit(Quantity::Length), unit(Quantity::Force)), both(curvature, unit(Quantity::Moment))]
-}
-
-fn is_physical(case: &Case) -> [bool; 2] {
-    units(case).map(|units| units.is_some())
-}
-
-fn scaled([x, y]: [f64; 2], units: Option<[f64; 2]>) -> [f64; 2] {
-    units.map_or([x, y], |[unit_x, unit_y]| [x * unit_x, y * unit_y])
+fn scaled([x, y]: [f64; 2], units: Option<[f64; 3]>) -> [f64; 2] {
+    units.map_or([x, y], |[unit_x, unit_y, _]| [x * unit_x, y * unit_y])
 }
 
 /// How the criteria of a design move with its gap.

@@ -22,8 +22,11 @@ fn a_measured_curve_lies_over_the_solved_one_in_its_units() {
         figure.split("class=\"measured\"").nth(1).expect("points").matches("<circle").count(),
         3
     );
-    // What was not measured stays as it is.
-    assert!(place.read("o/moment-curvature-curves-of-0001.svg").contains("dimensionless"));
+    // What was measured without units has the other in those of the model, too.
+    fs::write(place.path("c.csv"), "displacement,force\n0,0\n0.1,0.4\n").expect("writable");
+    place.prints("plot curves x.toml --design 1 --measured c.csv --out o");
+    assert!(place.read(name).contains("dimensionless"));
+    assert!(!place.read("o/moment-curvature-curves-of-0001.svg").contains("dimensionless"));
 
     fs::write(place.path("b.csv"), "Kappa;M\n2,5;0,1\n").expect("writable");
     place.prints("plot curves x.toml --design 1 --measured b.csv --measured-columns curvature_per_m,moment_N_mm --out o");

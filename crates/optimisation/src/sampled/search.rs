@@ -20,6 +20,9 @@ const NOMINAL_POINTS: usize = 10;
 /// Nominal designs, for each objective, that are sampled at first.
 const SEEDS: usize = 16;
 
+/// Designs, of different regions where there are some, that are looked at with more samples.
+const REFINED: usize = 2;
+
 /// The searches among nominal designs, among sampled ones, and near the best of these with more samples.
 #[derive(Clone, Copy)]
 pub(crate) struct Searches<'s> {
@@ -59,7 +62,7 @@ impl Searches<'_> {
         let mut answer = answer(sampled, history, plan)?;
         match &mut answer {
             Answer::Optimum(best) => {
-                let is_refined = refine(finer, best, history)?;
+                let is_refined = refine(self, best, history)?;
                 check(
                     if is_refined { finer } else { sampled },
                     std::slice::from_mut(best.as_mut()),
@@ -72,24 +75,30 @@ impl Searches<'_> {
     }
 }
 
-/// Takes the best design to where more samples want it: one that was chosen by few looks better on them than it is. Returns whether there
-/// is one near by that meets everything.
+/// Takes the best designs of the coarse search to where more samples want them: what was chosen by few looks better on them than it is. Returns
+/// whether there is one that meets everything.
 fn refine(
-    finer: &Search<'_>,
+    searches: &Searches<'_>,
     best: &mut BestDesign,
     history: &mut Vec<Candidate>,
 ) -> Result<bool, Halt> {
-    finer.meter.begin(SearchPart::Refine, 1);
-    let start = finer.look(SearchStage::Tolerance, &best.candidate.point, false)?.0;
-    let mut looked = finer.improve(&best.target, &start, Effort::SHORT)?;
-    looked.push(start);
+    let Searches { sampled, finer, .. } = searches;
+    let starts = starts(sampled, history, &best.target, REFINED);
+    finer.meter.begin(SearchPart::Refine, starts.len());
+    let mut looked = Vec::new();
+    for start in starts {
+        let start = finer.look(SearchStage::Tolerance, &start.point, false)?.0;
+        // The whole way: a yield that falls by a tenth under more samples is seldom mended near by.
+        looked.extend(finer.improve(&best.target, &start, Effort::WHOLE)?);
+        looked.push(start);
+        finer.meter.step();
+    }
     let is_met = |candidate| matches!(finer.merit(candidate, &best.target), Merit::Met(_));
     let is_refined = looked.iter().any(is_met);
     if is_refined {
         *best = best_design(finer, &looked, best.target.clone())?;
     }
     history.append(&mut looked);
-    finer.meter.step();
     Ok(is_refined)
 }
 

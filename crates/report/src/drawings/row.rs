@@ -2,7 +2,7 @@
 
 use contact::Pose;
 use geometry::{Corner, OutOfRange, Row, Vec2};
-use skin::Design;
+use results::puncture_units;
 use skin::puncture::{RowSnapshot, ScaleState};
 use sweep::Case;
 
@@ -34,31 +34,13 @@ const AIR: f64 = LONGEST + 24.0;
 pub struct PunctureDrawing<'a> {
     /// The name of the design, which stands before the geometry in the title.
     pub name: &'a str,
-    /// The geometry.
-    pub design: &'a Design,
-    /// Place of the load on the top of the punctured scale.
-    pub load_position: f64,
-    /// Radius of the tip of a guided needle, over `t`; `None` of a sharp one.
-    pub needle_radius: Option<f64>,
-    /// Thickness of the scales, mm, if it is known: then there is a scale bar.
-    pub thickness_mm: Option<f64>,
+    /// Geometry, needle and material: where the thickness is known, there is a scale bar.
+    pub case: &'a Case,
     /// The states, from the top; the row at rest is drawn above them.
     pub states: &'a [RowSnapshot],
 }
 
-impl<'a> PunctureDrawing<'a> {
-    /// The drawing of a design in these states.
-    pub fn of(name: &'a str, case: &'a Case, states: &'a [RowSnapshot]) -> Self {
-        Self {
-            name,
-            design: &case.design,
-            load_position: case.punctured().load_position,
-            needle_radius: case.puncture.needle_radius,
-            thickness_mm: case.material.thickness_mm,
-            states,
-        }
-    }
-
+impl PunctureDrawing<'_> {
     /// Returns the drawing as SVG: the row at rest, with the line that measures its coverage, then each state.
     ///
     /// # Errors
@@ -73,7 +55,7 @@ impl<'a> PunctureDrawing<'a> {
     }
 
     pub(super) fn title(&self) -> String {
-        format!("{}: {}", self.name, geometry_label(self.design))
+        format!("{}: {}", self.name, geometry_label(self.case))
     }
 
     pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
@@ -85,7 +67,7 @@ impl<'a> PunctureDrawing<'a> {
 
     /// The load of a state over `E* t²`.
     fn load(&self, state: &RowSnapshot) -> f64 {
-        state.force * self.design.length
+        state.force * self.case.design.length
     }
 }
 
@@ -108,7 +90,7 @@ struct RowSheet<'a> {
 
 impl<'a> RowSheet<'a> {
     fn new(puncture: &'a PunctureDrawing<'a>) -> Result<Self, OutOfRange> {
-        let row = puncture.design.row()?;
+        let row = puncture.case.design.row()?;
         let states = puncture.states;
         let (first, last) = window(&row, states);
         let (a, shift, pitch) = (row.scale().half_base(), row.scale().shift(), row.pitch());
@@ -159,7 +141,11 @@ impl<'a> RowSheet<'a> {
         let mut inside = vec![self.substrate(&poses, bottom), self.scales(&poses)];
         inside.extend(self.coverage_line());
         let within_substrate = [WIDTH - 2.0 * MARGIN, bottom - 6.0];
-        inside.extend(scale_bar(&self.view, self.puncture.thickness_mm, within_substrate));
+        inside.extend(scale_bar(
+            &self.view,
+            self.puncture.case.material.thickness_mm,
+            within_substrate,
+        ));
         let caption = format!("at rest, coverage $λ$ = {:.3}", self.row.coverage());
         // Neither a load nor reactions: the panel needs less room.
         lifted(AIR - 14.0, bottom + 10.0, caption, inside)
@@ -204,10 +190,15 @@ impl<'a> RowSheet<'a> {
         } else {
             String::new()
         };
+        let (u, f) = (state.displacement, state.force);
+        let load = match puncture_units(self.puncture.case) {
+            Some([mm, newton, _]) => {
+                format!("$u$ = {} mm,  $F$ = {} N", short(u * mm), short(f * newton))
+            }
+            None => format!("$u^*$ = {},  $F^*$ = {}", short(u), short(f)),
+        };
         format!(
-            "$u^*$ = {},  $F^*$ = {},  tilt {:.2}°,  {}{force}",
-            short(state.displacement),
-            short(state.force),
+            "{load},  tilt {:.2}°,  {}{force}",
             state.tilt_deg + 0.0,
             contacts_label(&state.contacts)
         )
@@ -296,7 +287,7 @@ impl<'a> RowSheet<'a> {
         let scale = self.row.scale();
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
         let (pose, at_rest) =
-            (pose(punctured), left + self.puncture.load_position * (right - left));
+            (pose(punctured), left + self.puncture.case.punctured().load_position * (right - left));
         Some(pose.displacement + pose.turn(at_rest))
     }
 
@@ -305,7 +296,7 @@ impl<'a> RowSheet<'a> {
         let follows = self.set_down(state)?;
         // A guided tip is straight below its place at rest, whatever the scale does.
         let to = self.place(state.tip.unwrap_or(follows.into()));
-        let length = (self.force * state.force * self.puncture.design.length).max(9.0);
+        let length = (self.force * state.force * self.puncture.case.design.length).max(9.0);
         Some([[to[0], to[1] - length], to])
     }
 
@@ -326,7 +317,7 @@ impl<'a> RowSheet<'a> {
 
     /// Returns the circle of a round tip.
     fn round_tip(&self, state: &RowSnapshot) -> Option<Element> {
-        let (radius, [x, y]) = (self.puncture.needle_radius?, state.tip?);
+        let (radius, [x, y]) = (self.puncture.case.puncture.needle_radius?, state.tip?);
         let [lowest, centre] = [[x, y], [x, y + radius]].map(|place| self.place(place));
         let tip = circle(centre, lowest[1] - centre[1]);
         Some(tip.with("fill", "none").with("stroke", INK).with("class", "tip"))

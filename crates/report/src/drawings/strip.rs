@@ -2,8 +2,10 @@
 
 use contact::Pose;
 use geometry::{OutOfRange, Row};
+use results::bending_units;
+use skin::Contact;
 use skin::flexure::StripSnapshot;
-use skin::{Contact, Design};
+use sweep::Case;
 
 use super::bodies::{corners, overlaps};
 use super::contacts::{self, LONGEST};
@@ -29,12 +31,8 @@ const TALLEST: f64 = 430.0;
 pub struct FlexureDrawing<'a> {
     /// The name of the design, which stands before the geometry in the title.
     pub name: &'a str,
-    /// The geometry.
-    pub design: &'a Design,
-    /// Thickness `h/t` of the membrane.
-    pub membrane_thickness: f64,
-    /// Thickness of the scales, mm, if it is known: then there are scale bars.
-    pub thickness_mm: Option<f64>,
+    /// Geometry, membrane and material: where the thickness is known, there are scale bars.
+    pub case: &'a Case,
     /// The states, from the top.
     pub states: &'a [StripSnapshot],
 }
@@ -49,11 +47,11 @@ impl FlexureDrawing<'_> {
     }
 
     pub(super) fn title(&self) -> String {
-        format!("{}, bending: {}", self.name, geometry_label(self.design))
+        format!("{}, bending: {}", self.name, geometry_label(self.case))
     }
 
     pub(super) fn frames(&self) -> Result<Vec<DrawingPanel>, OutOfRange> {
-        let row = self.design.row()?;
+        let row = self.case.design.row()?;
         Ok(self.states.iter().map(|state| self.panel(&row, state)).collect())
     }
 
@@ -73,14 +71,14 @@ impl FlexureDrawing<'_> {
             origin: [MARGIN + 0.5 * area[0] - scale * middle[0], 0.5 * tall + scale * middle[1]],
         };
         let whole = Element::group("strip").containing([
-            shape.membrane(&view, (scale * self.membrane_thickness).max(1.0)),
+            shape.membrane(&view, (scale * self.case.flexure.membrane_thickness).max(1.0)),
             shape.scales(&view, outline(row, scale).clamp(0.08, 0.4)),
             contacts::halos(&view, &shape.contacts, (0.25 * scale).clamp(2.0, 7.0)),
         ]);
         let cell = self.cell(row, &enlarged, tall);
-        let bar = scale_bar(&view, self.thickness_mm, [MARGIN + area[0], 14.0]);
+        let bar = scale_bar(&view, self.case.material.thickness_mm, [MARGIN + area[0], 14.0]);
         let inside = [whole, cell].into_iter().chain(bar).collect();
-        DrawingPanel { height: tall + 8.0, caption: caption(state), inside }
+        DrawingPanel { height: tall + 8.0, caption: caption(self.case, state), inside }
     }
 
     /// Draws an enlarged gap with the forces and the overlap.
@@ -96,11 +94,14 @@ impl FlexureDrawing<'_> {
         };
         let unit = LONGEST / contacts::largest(&shape.contacts).max(f64::MIN_POSITIVE);
         let [border, name] = enlargement(frame, *height);
-        let bar =
-            scale_bar(&view, self.thickness_mm, [frame[0] + ENLARGED - 12.0, frame[1] + 22.0]);
+        let bar = scale_bar(
+            &view,
+            self.case.material.thickness_mm,
+            [frame[0] + ENLARGED - 12.0, frame[1] + 22.0],
+        );
         let parts = [
             border,
-            shape.membrane(&view, (scale * self.membrane_thickness).max(1.5)),
+            shape.membrane(&view, (scale * self.case.flexure.membrane_thickness).max(1.5)),
             shape.scales(&view, outline(row, *scale).clamp(0.4, 0.9)),
             contacts::overlaps(&view, &shape.overlaps),
             contacts::halos(&view, &shape.contacts, 8.0),
@@ -155,11 +156,16 @@ fn outline(row: &Row, scale: f64) -> f64 {
     0.12 * scale * row.pitch()
 }
 
-fn caption(state: &StripSnapshot) -> String {
+fn caption(case: &Case, state: &StripSnapshot) -> String {
+    let (kappa, m) = (state.curvature, state.moment);
+    let bend = match bending_units(case) {
+        Some([per_mm, n_mm, _]) => {
+            format!("$κ$ = {} 1/mm,  $M$ = {} N mm", short(kappa * per_mm), short(m * n_mm))
+        }
+        None => format!("$κ^*$ = {},  $M^*$ = {}", short(kappa), short(m)),
+    };
     format!(
-        "$κ^*$ = {},  $M^*$ = {},  each end turned by {}°,  {}",
-        short(state.curvature),
-        short(state.moment),
+        "{bend},  each end turned by {}°,  {}",
         format!("{:.2}", state.end_rotation_deg + 0.0).replace('-', "−"),
         contacts_label(&state.contacts)
     )

@@ -3,10 +3,11 @@
 mod overlap;
 mod page;
 
-use report::drawings;
+use report::{DesignCurves, drawings};
 use skin::puncture::{At, Needle, PunctureParameters, RowSnapshot, snapshots};
 use skin::{Base, Common, Design};
 use substrate::Springs;
+use sweep::{Case, Sweep};
 
 /// A design whose scales touch before the critical tilt.
 fn design(slant_deg: f64) -> Design {
@@ -34,15 +35,69 @@ fn svg(design: &Design, states: &[RowSnapshot]) -> String {
 }
 
 fn drawn(design: &Design, states: &[RowSnapshot], needle_radius: Option<f64>) -> String {
-    let drawing = drawings::PunctureDrawing {
-        name: "test",
-        design,
-        load_position: 1.0,
-        needle_radius,
-        thickness_mm: None,
-        states,
+    let needle =
+        needle_radius.map(|radius| format!("needle = 'guided'\nneedle_radius_over_t = {radius}"));
+    let case = case(design, &needle.unwrap_or_default(), "");
+    drawings::PunctureDrawing { name: "test", case: &case, states }.svg().expect("a drawing")
+}
+
+/// The case of a design with these entries of `[puncture]` and `[material]`.
+fn case(design: &Design, puncture: &str, material: &str) -> Case {
+    let text = format!("name = 'x'\n[puncture]\n{puncture}\n[material]\n{material}");
+    let sweep = Sweep::parse(&text, "x.toml", &[]).expect("a definition");
+    Case { design: *design, ..sweep.grid().case(0) }
+}
+
+/// With a material, captions, axes and titles are in mm and N: a scale bar in mm beside a force without a unit misleads.
+#[test]
+fn with_a_material_everything_is_in_millimetres_and_newtons() {
+    let design = design(60.0);
+    let material = "thickness_mm = 2\nsubstrate_modulus_MPa = 0.75\nmembrane_modulus_MPa = 3";
+    let case = case(&design, "", material);
+    let states = punctured(&design, 9677.0);
+    let svg = drawings::PunctureDrawing { name: "x", case: &case, states: &states[..1] }.svg();
+    let tags = ["<tspan font-style=\"italic\">", "<tspan>", "</tspan>"];
+    let text = tags.iter().fold(svg.expect("a drawing"), |text, tag| text.replace(tag, ""));
+    // 0.15 t; E_s/(1 − ν²) L t = 4 N.
+    let newtons = format!("u = 0.300 mm,  F = {:.3} N", 4.0 * states[0].force);
+    assert!(text.contains(&newtons), "{newtons} in {text}");
+    assert!(text.contains("d = 0.2 mm, L = 2 mm, t = 2 mm, α = 60°"), "{text}");
+
+    let springs = substrate::calibrate(&case.footprint().expect("a footprint")).expect("springs");
+    let puncture = skin::puncture::solve(&design, &springs, &case.common, &case.punctured());
+    let puncture = puncture.expect("a design");
+    let flexure = skin::flexure::solve(&design, &case.common, &case.flexure).expect("a design");
+    let of = |case| DesignCurves {
+        number: "1".to_owned(),
+        case,
+        puncture: Some(&puncture),
+        flexure: Some(&flexure),
     };
-    drawing.svg().expect("a drawing")
+    let figures = report::curves("x", &[of(&case)], None);
+    assert_eq!(figures.len(), 4);
+    for figure in &figures {
+        let is_physical = ["N<", "N mm", "mJ"].iter().any(|unit| figure.svg.contains(unit));
+        assert!(is_physical && !figure.svg.contains("dimensionless"), "{}", figure.name);
+    }
+    // Beside a design without a material both are in the units of the model.
+    let plain = Case { material: sweep::Material::default(), ..case };
+    for figure in report::curves("x", &[of(&case), of(&plain)], None) {
+        assert!(figure.svg.contains("dimensionless"), "{}", figure.name);
+    }
+
+    // The work of the force in N mm is the energy in mJ.
+    let [mm, newton, energy] = results::puncture_units(&case).expect("units");
+    let work: f64 = puncture
+        .path
+        .windows(2)
+        .map(|ends| {
+            let [a, b] = [&ends[0], &ends[1]];
+            0.5 * (a.force + b.force) * newton * (b.displacement - a.displacement) * mm
+        })
+        .sum();
+    let end = puncture.path.last().expect("an end");
+    let stored = (end.substrate_energy + end.contact_energy) * energy;
+    assert!((work / stored - 1.0).abs() < 1e-2, "{work} {stored}");
 }
 
 /// Where scales rub, contacts that slip have rings, and the others discs; the caption counts them.
