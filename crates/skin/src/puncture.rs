@@ -343,7 +343,7 @@ impl<'a> Problem<'a> {
             Self { rows, design, stiffness, endless, law, settings, whole_path, parameters };
         match parameters.needle_radius.filter(|_| problem.reach().is_none()) {
             Some(value) => {
-                let expected = "at most 14 pitches of the row";
+                let expected = "at most 62 pitches of the row";
                 Err(OutOfRange { quantity: "needle radius", value, expected })
             }
             None => Ok(problem),

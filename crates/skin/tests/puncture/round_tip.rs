@@ -201,6 +201,16 @@ fn a_tip_that_comes_through() {
     assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
 }
 
+/// A tip of a radius of twenty pitches is borne by several scales.
+#[test]
+fn a_tip_on_many_scales() {
+    let dense = design(0.1, 0.05, 30.0, Base::L);
+    let puncture = solve(&dense, &parameters(Some(3.0)));
+    let most = puncture.tip_forces.iter().map(Vec::len).max();
+    assert!(most > Some(3), "{most:?}");
+    assert_eq!(puncture.status, Status::Complete);
+}
+
 /// A radius is that of a guided needle.
 #[test]
 fn a_radius_needs_a_guided_needle() {

@@ -16,7 +16,7 @@ use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
 /// Scales on each side of the punctured one that a round tip may come to.
-pub(crate) const FARTHEST_TOUCH: usize = 16;
+pub(crate) const FARTHEST_TOUCH: usize = 64;
 
 /// Those that it may come to besides the ones below it at rest, since rows are pushed along.
 const PUSHED_ALONG: usize = 2;
