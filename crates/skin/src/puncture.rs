@@ -223,10 +223,10 @@ impl PunctureParameters {
             (depth > 0.0, "depth", depth, "a length above 0"),
             (radius >= 0.0, "needle radius", radius, "a length"),
             (
-                radius == 0.0 || self.needle == Needle::Guided { friction: 0.0 },
+                radius == 0.0 || self.needle.is_guided(),
                 "needle radius",
                 radius,
-                "that of a needle that is guided and has no friction",
+                "that of a needle that is guided",
             ),
             (places >= 2.0, "number of places", places, "at least 2"),
             (scales >= 1.0, "number of scales", scales, "at least 1"),
@@ -377,7 +377,7 @@ impl<'a> Problem<'a> {
     /// Unknowns of the needle behind the load.
     fn needle_unknowns(&self) -> usize {
         match self.reach() {
-            Some(reach) => needle::unknowns(reach),
+            Some(reach) => needle::unknowns(reach, self.parameters.needle.rubs()),
             None if self.parameters.needle.is_guided() => NEEDLE_UNKNOWNS,
             None => 0,
         }

@@ -194,7 +194,7 @@ impl Chain {
                 &point.state.mode.rubs,
             );
         }
-        state.mode.needle = point.state.mode.needle;
+        state.mode.needle = point.state.mode.needle.clone();
         SkinPoint {
             state,
             arriving: unknowns(&point.arriving),

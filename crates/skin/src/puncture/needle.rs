@@ -33,10 +33,12 @@ use crate::contacts::{Contacts, SkinState};
 
 pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
-use mode::{Place, Rub, Touch};
-use outline::{Face, Tip};
+pub(super) use mode::Place;
+use mode::{Rub, Touch};
+use outline::{Face, Meeting, Tip};
 pub(super) use passage::PassageWatch;
 pub use passage::{CriticalEvent, Passage, TipForces};
+use round::of_scale;
 pub(super) use round::{reach, unknowns};
 
 /// How the needle is held.
@@ -56,6 +58,11 @@ impl Needle {
     /// Whether the tip keeps its place along the row.
     pub fn is_guided(self) -> bool {
         self != Self::Free
+    }
+
+    /// Whether it is guided and rubs.
+    pub fn rubs(self) -> bool {
+        matches!(self, Self::Guided { friction } if friction > 0.0)
     }
 }
 
@@ -80,6 +87,9 @@ pub(super) const NEEDLE_UNKNOWNS: usize = 1 + 2 * OF_TOUCH + 1;
 /// Number of the constraint of coming through.
 const THROUGH: usize = 2 * CONSTRAINTS;
 
+/// Conditions that end the path of a round tip: a tilt, and coming through.
+const ENDINGS: usize = 2;
+
 /// A guided needle on a row.
 #[derive(Clone, Debug)]
 pub(crate) struct GuidedNeedle {
@@ -95,11 +105,14 @@ pub(crate) struct GuidedNeedle {
     contacts: usize,
     /// Numbers of the constraints that only grow.
     pub(super) growing: Vec<usize>,
-    /// Number of its unknowns behind the load.
+    /// Touches that there may be.
+    slots: usize,
+    /// Unknowns of a touch, and how many of them are constraints: of a round tip those of its place are the last.
     unknowns: usize,
+    of_touch: usize,
     /// Touches that keep something else of the way to a neighbour of a row than that row does, for a parameter that differs, and by how
     /// much.
-    moved: [Option<(Touch, f64)>; 2],
+    moved: Vec<(Touch, f64)>,
 }
 
 impl GuidedNeedle {
@@ -111,8 +124,18 @@ impl GuidedNeedle {
         contacts: usize,
     ) -> Self {
         let radius = parameters.needle_radius.unwrap_or(0.0);
-        let growing = [FORWARD, BACKWARD, CONSTRAINTS + FORWARD, CONSTRAINTS + BACKWARD];
-        let growing = growing.map(|number| contacts + number);
+        let (slots, unknowns, of_touch) = if radius > 0.0 {
+            let of_scale = of_scale(friction > 0.0);
+            // All but the tangential force.
+            let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
+            ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
+        } else {
+            (2, OF_TOUCH, CONSTRAINTS)
+        };
+        let slides = radius == 0.0 || friction > 0.0;
+        let ways = (0..slots)
+            .filter(|_| slides)
+            .flat_map(|slot| [FORWARD, BACKWARD].map(|way| of_touch * slot + way));
         Self {
             friction,
             radius,
@@ -120,9 +143,11 @@ impl GuidedNeedle {
             critical_tilt: parameters.critical_tilt_deg.to_radians(),
             depth: layout.load() + 1,
             contacts,
-            growing: if radius > 0.0 { Vec::new() } else { growing.to_vec() },
-            unknowns: layout.needle,
-            moved: [None; 2],
+            growing: ways.map(|number| contacts + number).collect(),
+            slots,
+            unknowns,
+            of_touch,
+            moved: Vec::new(),
         }
     }
 
@@ -153,33 +178,31 @@ impl GuidedNeedle {
 
     /// The unknowns of its constraints, in their order.
     pub(super) fn constraints(&self) -> Vec<usize> {
-        if self.is_round() {
-            return (self.depth + 1..self.depth + self.unknowns).collect();
-        }
-        let of_touch = |touch: usize| {
-            let first = self.push(touch);
-            [first, first + 2, first + 3, first + 4, first + 5, first + 6]
+        let ends = if self.is_round() { ENDINGS } else { 1 };
+        let behind = self.push(self.slots);
+        let drag = |first: usize| (self.of_touch < self.unknowns).then_some(first + 1);
+        let of_slot = |slot: usize| {
+            let first = self.push(slot);
+            (first..first + self.unknowns).filter(move |unknown| Some(*unknown) != drag(first))
         };
-        let mut constraints: Vec<usize> = (0..2).flat_map(of_touch).collect();
-        constraints.push(self.depth + NEEDLE_UNKNOWNS - 1);
-        constraints
+        (0..self.slots).flat_map(of_slot).chain(behind..behind + ends).collect()
     }
 
     /// Unknown of the normal force of a touch; that of the tangential one is the next.
     fn push(&self, touch: usize) -> usize {
-        self.depth + 1 + OF_TOUCH * touch
+        self.depth + 1 + self.unknowns * touch
     }
 
     /// Number of a constraint of a touch among those of the row.
     fn number(&self, touch: usize, constraint: usize) -> usize {
-        self.contacts + CONSTRAINTS * touch + constraint
+        self.contacts + self.of_touch * touch + constraint
     }
 
     /// Those of the push and of the slip of a tip that rubs: as it comes off a face it holds to, its friction goes with it.
     pub(super) fn companions(&self, constraint: usize) -> Range<usize> {
         let number = constraint - self.contacts;
-        let first = constraint - number % CONSTRAINTS;
-        let is_of_touch = !self.is_round() && number < THROUGH && number % CONSTRAINTS <= BACKWARD;
+        let first = constraint - number % self.of_touch;
+        let is_of_touch = number < self.tilt_number() && number % self.of_touch <= BACKWARD;
         if is_of_touch && self.rubs() { first..first + 3 } else { constraint..constraint + 1 }
     }
 
@@ -201,8 +224,33 @@ impl GuidedNeedle {
 
     /// How many constraints it has.
     fn constraint_count(&self) -> usize {
-        // Of a round tip all unknowns but the depth are those of constraints.
-        if self.is_round() { self.unknowns - 1 } else { THROUGH + 1 }
+        self.tilt_number() + if self.is_round() { ENDINGS } else { 1 }
+    }
+
+    /// Number of the first constraint behind those of the touches: of a round tip that on tilts.
+    fn tilt_number(&self) -> usize {
+        self.of_touch * self.slots
+    }
+
+    /// The slot of a touch of a round tip.
+    fn slot(&self, touch: &Touch) -> usize {
+        (touch.scale + self.reach() as i64) as usize
+    }
+
+    /// Whether there is a touch in a slot.
+    fn has_touch(&self, mode: &NeedleMode, slot: usize) -> bool {
+        if self.is_round() {
+            return mode.round.iter().any(|touch| self.slot(touch) == slot);
+        }
+        mode.touches[slot].is_some()
+    }
+
+    /// A touch by its slot.
+    fn touch_mut<'m>(&self, mode: &'m mut NeedleMode, slot: usize) -> Option<&'m mut Touch> {
+        if self.is_round() {
+            return mode.round.iter_mut().find(|touch| self.slot(touch) == slot);
+        }
+        mode.touches[slot].as_mut()
     }
 
     /// The constraints that end a path, among its own: critical tilts, and last that of coming through.
@@ -239,10 +287,7 @@ impl Chain {
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[push], rates[push + 1]];
             if tangential.abs() > needle.friction * normal {
-                let (sign, constraint) =
-                    if tangential > 0.0 { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
-                rest.mode.needle.touches = touch(Rub::Slip { sign, from: at });
-                rest.active[needle.number(0, constraint)] = true;
+                needle.slide(&mut rest, 0, tangential > 0.0, at);
             }
         }
         rest
@@ -256,6 +301,34 @@ impl Chain {
         let face = Face::new(&self.contacts.scale(number), place);
         let at = needle.tip - Vec2::new(away, z[needle.depth]);
         Some(Tip::new(&face, &self.contacts.pose(z, number), at))
+    }
+
+    /// The tip where it touches a scale, at this place.
+    fn meeting(&self, z: &[f64], scale: i64, place: Place) -> Option<Meeting> {
+        let (needle, tip) = (self.needle.as_ref()?, self.tip(z, scale, place)?);
+        if !needle.is_round() {
+            return Some(Meeting::of_sharp(tip));
+        }
+        let shape = self.contacts.scale(self.scale_numbered(scale)?);
+        let behind = [Place::Left, Place::Top].into_iter().filter(|face| *face < place);
+        let before = behind.map(|face| Face::new(&shape, face).length).sum();
+        Some(Meeting::of_round(tip, needle.radius, before))
+    }
+
+    /// All touches: slot, touch, index of the scale, and the tip there.
+    fn touches<'a>(
+        &'a self,
+        needle: &'a GuidedNeedle,
+        state: &'a SkinState,
+    ) -> impl Iterator<Item = (usize, &'a Touch, usize, Meeting)> {
+        let NeedleMode { touches, round } = &state.mode.needle;
+        let sharp = touches.iter().enumerate();
+        let sharp = sharp.filter_map(|(slot, touch)| Some((slot, touch.as_ref()?)));
+        let round = round.iter().map(|touch| (needle.slot(touch), touch));
+        sharp.chain(round).filter_map(|(slot, touch)| {
+            let meeting = self.meeting(&state.z, touch.scale, touch.place)?;
+            Some((slot, touch, self.scale_numbered(touch.scale)?, meeting))
+        })
     }
 
     /// Index of a scale, counted from the punctured one.

@@ -41,7 +41,7 @@ pub(crate) fn first_contact<S: Skin>(
     for &force in contacts {
         state.z[force] = 0.0;
     }
-    state.mode.needle = point.state.mode.needle;
+    state.mode.needle = point.state.mode.needle.clone();
     state.active[contacts.len()..].copy_from_slice(&point.state.active[contacts.len()..]);
     let direction = point.arriving.clone();
     Some(AnchoredPoint { state, direction, anchor: PathAnchor::Guard(constraint) })

@@ -15,7 +15,6 @@ use crate::number;
 use crate::parameter::{Parameter, Scalar, WrongValue, key};
 use crate::toml_source::{KeyValue, KeyValues, Place, Value};
 use crate::variable::Variable;
-use skin::puncture::Needle;
 
 /// Keys that are refused before the rest is left unread: nobody corrects more at a time.
 const MOST: usize = 50;
@@ -252,25 +251,17 @@ impl Reader {
         Err(refuse(place, &parameter.path(), wrong))
     }
 
-    /// Refuses a radius of a needle that is not guided, or that rubs: a round tip is known without friction only.
+    /// Refuses a radius of a needle that is not guided.
     fn check_radius(&self) -> Result<(), InvalidDefinition> {
         let is_radius = |of: &Parameter| of.is_or_says(key::NEEDLE_RADIUS) && !self.leaves_open(of);
         let radius = self.written().find(|(_, parameter, _)| is_radius(parameter));
         let Some((key, _, place)) = radius else { return Ok(()) };
-        let varies = |key: &str| {
-            self.axes.iter().any(|written| written.axis.parameter().key == key)
-                || self.variables.iter().any(|(variable, _)| variable.parameter().key == key)
-        };
-        if !self.case.puncture.needle.is_guided() || varies(key::NEEDLE) {
-            let needed = r#"puncture.needle = "guided""#.to_owned();
-            return Err(refuse(place, &key, Problem::Needs(needed)));
+        let varies = self.axes.iter().any(|written| written.axis.parameter().key == key::NEEDLE);
+        if self.case.puncture.needle.is_guided() && !varies {
+            return Ok(());
         }
-        let is_smooth = self.case.puncture.needle == Needle::Guided { friction: 0.0 };
-        if !is_smooth || varies(key::NEEDLE_FRICTION) {
-            let needed = "puncture.needle_friction = 0".to_owned();
-            return Err(refuse(place, &key, Problem::Needs(needed)));
-        }
-        Ok(())
+        let needed = r#"puncture.needle = "guided""#.to_owned();
+        Err(refuse(place, &key, Problem::Needs(needed)))
     }
 
     /// Every length in mm of scales whose thickness is not given.

@@ -3,7 +3,7 @@
 use solver::{Residual, Tangent};
 
 use super::mode::{Place, Rub, Touch};
-use super::outline::{COORDINATES, Tip};
+use super::outline::{COORDINATES, Meeting};
 use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH, THROUGH, TILT};
 use crate::contacts::{Contacts, HOLDS, SkinPoint, SkinState, product_integral};
 use crate::puncture::system::Chain;
@@ -29,38 +29,39 @@ impl Chain {
         let load = self.layout.load();
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
-        if needle.is_round() {
-            return self.add_round(needle, state, residual, matrix);
-        }
-        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
-            let Some(touch) = touch else {
-                // A touch that is not there has no tangential force.
-                let drag = needle.push(number) + 1;
+        if needle.of_touch < needle.unknowns {
+            // A touch that is not there has no tangential force.
+            for slot in
+                (0..needle.slots).filter(|slot| !needle.has_touch(&state.mode.needle, *slot))
+            {
+                let drag = needle.push(slot) + 1;
                 residual.add(drag, state.z[drag]);
                 matrix.add(drag, drag, 1.0);
-                continue;
-            };
-            let Some(scale) = self.scale_numbered(touch.scale) else { continue };
-            let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { continue };
+            }
+        }
+        for (slot, touch, scale, meeting) in self.touches(needle, state) {
             let at = self.layout.scale(scale);
             let rows = [at, at + 1, at + 2, needle.depth];
-            let push = needle.push(number);
-            add_balance(&tip, rows, push, &state.z, residual, matrix);
-            residual.add(push, tip.gap);
-            add_row(push, rows, 1.0, tip.gap_slopes(), matrix);
-            add_law(needle, (number, touch), &tip, rows, &state.z, residual, matrix);
+            let push = needle.push(slot);
+            add_balance(&meeting, rows, push, &state.z, residual, matrix);
+            residual.add(push, meeting.gap());
+            add_row(push, rows, 1.0, meeting.tip.gap_slopes(), matrix);
+            if needle.of_touch == needle.unknowns {
+                continue;
+            }
+            add_law(needle, (touch, push), &meeting, rows, &state.z, residual, matrix);
             for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
                 // How far the tip has slid: it only counts, and tells the path where it turns back.
                 let (Rub::Slip { from, .. }, true) =
-                    (touch.rub, state.active[needle.number(number, constraint)])
+                    (touch.rub, state.active[needle.number(slot, constraint)])
                 else {
                     continue;
                 };
                 let slid = push + 1 + constraint;
                 residual.add(slid, state.z[slid]);
-                residual.add(slid, sign * (from - tip.way));
+                residual.add(slid, sign * (from - meeting.way()));
                 matrix.add(slid, slid, 1.0);
-                add_row(slid, rows, -sign, tip.way_slopes(), matrix);
+                add_row(slid, rows, -sign, meeting.way_slopes(), matrix);
             }
         }
     }
@@ -110,25 +111,20 @@ impl Chain {
         let forces = [state.z[push], state.z[push + 1]];
         let friction = needle.friction;
         values[PUSH] = tip.gap;
+        let way = tip.way;
+        let length = tip.length;
+        let meeting = Meeting::of_sharp(tip);
+        needle.rub_conditions(state, number, touch, &meeting, values);
+        let tip = meeting.tip;
         match touch.rub {
-            Rub::Slip { from, .. } => {
-                for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
-                    if state.active[needle.number(number, constraint)] {
-                        values[constraint] =
-                            state.z[push + 1 + constraint] + sign * (from - tip.way);
-                    }
-                }
+            Rub::Slip { .. } => {
                 if touch.place != Place::Left {
-                    values[LOW] = tip.way;
+                    values[LOW] = way;
                 }
                 let is_stopped = touch.place == Place::Top && self.is_notched(state, touch.scale);
                 if touch.place != Place::Right && !is_stopped {
-                    values[HIGH] = tip.length - tip.way;
+                    values[HIGH] = length - way;
                 }
-            }
-            Rub::Stick { .. } => {
-                values[FORWARD] = friction * forces[0] - forces[1];
-                values[BACKWARD] = friction * forces[0] + forces[1];
             }
             Rub::Passing { forward } => {
                 let force = tip.force(forces);
@@ -144,7 +140,7 @@ impl Chain {
                     [-friction * before[0] - before[1], after[1] + friction * after[0]]
                 };
             }
-            Rub::Held { .. } => {}
+            Rub::Stick { .. } | Rub::Held { .. } => {}
         }
         if let Some(scale) = self.scale_numbered(touch.scale) {
             let [_, _, rotation] = self.displacement(&state.z, scale);
@@ -212,7 +208,7 @@ impl Chain {
             return true;
         }
         let Some(needle) = &self.needle else { return false };
-        state.mode.needle.touches.iter().flatten().any(|touch| match touch.rub {
+        state.mode.needle.all().any(|touch| match touch.rub {
             Rub::Slip { sign, .. } => sign * needle.friction != 0.0,
             Rub::Held { ratio } => ratio != 0.0,
             Rub::Stick { .. } | Rub::Passing { .. } => false,
@@ -221,22 +217,18 @@ impl Chain {
 
     /// Whether the needle touches a scale, by its index.
     pub(in crate::puncture) fn touches_scale(&self, state: &SkinState, scale: usize) -> bool {
-        let needle = &state.mode.needle;
-        needle.touched().any(|touched| self.scale_numbered(touched) == Some(scale))
+        let mut touches = state.mode.needle.all();
+        touches.any(|touch| self.scale_numbered(touch.scale) == Some(scale))
     }
 
     /// The unknowns of a guided needle in its stiffness: its depth, and the forces that keep it on faces and in places.
     pub(in crate::puncture) fn needle_in_stiffness(&self, state: &SkinState) -> Vec<usize> {
         let Some(needle) = &self.needle else { return Vec::new() };
-        if needle.is_round() {
-            return Self::round_in_stiffness(needle, state);
-        }
         let mut unknowns = vec![needle.depth];
-        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
-            let Some(touch) = touch else { continue };
-            unknowns.push(needle.push(number));
-            if matches!(touch.rub, Rub::Stick { .. } | Rub::Passing { .. }) {
-                unknowns.push(needle.push(number) + 1);
+        for (slot, touch, ..) in self.touches(needle, state) {
+            unknowns.push(needle.push(slot));
+            if touch.is_at_a_place() {
+                unknowns.push(needle.push(slot) + 1);
             }
         }
         unknowns
@@ -250,25 +242,18 @@ impl Chain {
         mut entry: impl FnMut(usize, usize, f64),
     ) {
         let Some(needle) = &self.needle else { return };
-        if needle.is_round() {
-            return self.for_round_stiffness(needle, state, entry);
-        }
-        for (number, touch) in state.mode.needle.touches.iter().enumerate() {
-            let Some(touch) = touch else { continue };
-            let Some(scale) = self.scale_numbered(touch.scale) else { continue };
-            let Some(tip) = self.tip(&state.z, touch.scale, touch.place) else { continue };
+        for (slot, touch, scale, meeting) in self.touches(needle, state) {
             let at = self.layout.scale(scale);
             let unknowns = [at, at + 1, at + 2, needle.depth];
-            let push = needle.push(number);
-            let curvature = tip.curvature([state.z[push], state.z[push + 1]]);
+            let push = needle.push(slot);
+            let curvature = meeting.curvature(needle.forces(&state.z, slot));
             for (row, curvature) in unknowns.into_iter().zip(curvature) {
                 for (column, value) in unknowns.into_iter().zip(curvature) {
                     entry(row, column, value);
                 }
             }
-            let sticks = matches!(touch.rub, Rub::Stick { .. } | Rub::Passing { .. });
-            let gap = (push, tip.gap_slopes().map(|slope| -slope));
-            let way = sticks.then(|| (push + 1, tip.way_slopes()));
+            let gap = (push, meeting.tip.gap_slopes().map(|slope| -slope));
+            let way = touch.is_at_a_place().then(|| (push + 1, meeting.way_slopes()));
             for (force, slopes) in std::iter::once(gap).chain(way) {
                 for (unknown, slope) in unknowns.into_iter().zip(slopes) {
                     entry(unknown, force, slope);
@@ -281,17 +266,8 @@ impl Chain {
     /// Force of the needle on the scales along the row, to the right.
     pub(in crate::puncture) fn lateral_force(&self, state: &SkinState) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        if needle.is_round() {
-            return self.round_lateral_force(needle, state);
-        }
-        let touches = state.mode.needle.touches.iter().enumerate();
-        let lateral = |(number, touch): (usize, &Option<Touch>)| {
-            let touch = touch.as_ref()?;
-            let push = needle.push(number);
-            let tip = self.tip(&state.z, touch.scale, touch.place)?;
-            Some(tip.force([state.z[push], state.z[push + 1]]).x)
-        };
-        touches.filter_map(lateral).sum()
+        let touches = self.touches(needle, state);
+        touches.map(|(slot, _, _, at)| at.tip.force(needle.forces(&state.z, slot)).x).sum()
     }
 
     /// What friction takes at the tip between two neighbouring points, `∫ μ_n N |dξ|`.
@@ -302,47 +278,83 @@ impl Chain {
         spans: [f64; 2],
     ) -> f64 {
         let Some(needle) = &self.needle else { return 0.0 };
-        let of_touch = |slot: usize| -> f64 {
-            let Some(Touch { rub: Rub::Slip { sign, from: start }, scale, place }) =
-                from.state.mode.needle.touches[slot]
-            else {
+        let of_touch = |(slot, touch, ..): (usize, &Touch, usize, Meeting)| {
+            let Rub::Slip { sign, from: start } = touch.rub else { return 0.0 };
+            let Some(end) = self.meeting(&to.state.z, touch.scale, touch.place) else { return 0.0 };
+            if sign == 0.0 {
                 return 0.0;
-            };
-            let Some(end) = self.tip(&to.state.z, scale, place) else { return 0.0 };
+            }
             let slid = needle.push(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
             let push = needle.push(slot);
             let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
             let pushes = [from.state.z[push], to.state.z[push]];
-            let ways = [from.state.z[slid], sign * (end.way - start)];
+            let ways = [from.state.z[slid], sign * (end.way() - start)];
             needle.friction * product_integral([pushes, along(push)], [ways, along(slid)])
         };
-        of_touch(0) + of_touch(1)
+        self.touches(needle, &from.state).map(of_touch).sum()
     }
 
-    /// `T` and `ξ` of both touches: friction takes `∫ T dξ`.
+    /// `T` and `ξ` of all touches, by their slots: friction takes `∫ T dξ`.
     #[cfg(test)]
-    pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> [[f64; 2]; 2] {
-        std::array::from_fn(|number| {
-            let touch = state.mode.needle.touches[number].as_ref();
-            let tip = touch.and_then(|t| self.tip(&state.z, t.scale, t.place));
-            let push = self.needle.as_ref().map(|needle| needle.push(number));
-            push.zip(tip).map_or([0.0; 2], |(push, tip)| [state.z[push + 1], tip.way])
-        })
+    pub(in crate::puncture) fn rubbing(&self, state: &SkinState) -> Vec<[f64; 2]> {
+        let Some(needle) = &self.needle else { return Vec::new() };
+        let mut all = vec![[0.0; 2]; needle.slots];
+        for (slot, _, _, meeting) in self.touches(needle, state) {
+            all[slot] = [needle.forces(&state.z, slot)[1], meeting.way()];
+        }
+        all
+    }
+}
+
+impl GuidedNeedle {
+    /// `N` and `T` of a touch.
+    fn forces(&self, z: &[f64], slot: usize) -> [f64; 2] {
+        let push = self.push(slot);
+        let rubs = self.of_touch < self.unknowns;
+        [z[push], if rubs { z[push + 1] } else { 0.0 }]
+    }
+
+    /// The conditions of a touch that sticks (L2), and of one that slides.
+    pub(super) fn rub_conditions(
+        &self,
+        state: &SkinState,
+        slot: usize,
+        touch: &Touch,
+        meeting: &Meeting,
+        values: &mut [f64],
+    ) {
+        let [push, drag] = self.forces(&state.z, slot);
+        match touch.rub {
+            Rub::Slip { from, .. } => {
+                for (constraint, sign) in [(FORWARD, 1.0), (BACKWARD, -1.0)] {
+                    if state.active[self.number(slot, constraint)] {
+                        let slid = state.z[self.push(slot) + 1 + constraint];
+                        values[constraint] = slid + sign * (from - meeting.way());
+                    }
+                }
+            }
+            Rub::Stick { .. } => {
+                values[FORWARD] = self.friction * push - drag;
+                values[BACKWARD] = self.friction * push + drag;
+            }
+            Rub::Passing { .. } | Rub::Held { .. } => {}
+        }
     }
 }
 
 /// The force of a touch in the balances of its scale and, with the other sign, of the needle.
 fn add_balance(
-    tip: &Tip,
+    meeting: &Meeting,
     rows: [usize; COORDINATES],
     push: usize,
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
+    // Of a round tip that does not rub the next unknown is one that stays 0.
     let forces = [z[push], z[push + 1]];
-    let (by_gap, by_way) = (tip.gap_slopes(), tip.way_slopes());
-    let curvature = tip.curvature(forces);
+    let (by_gap, by_way) = (meeting.tip.gap_slopes(), meeting.way_slopes());
+    let curvature = meeting.curvature(forces);
     for (i, row) in rows.into_iter().enumerate() {
         let sign = if i + 1 == COORDINATES { -1.0 } else { 1.0 };
         residual.add(row, -sign * forces[0] * by_gap[i]);
@@ -356,20 +368,19 @@ fn add_balance(
 /// The law of the tangential force, in its row.
 fn add_law(
     needle: &GuidedNeedle,
-    (number, touch): (usize, &Touch),
-    tip: &Tip,
+    (touch, push): (&Touch, usize),
+    meeting: &Meeting,
     rows: [usize; COORDINATES],
     z: &[f64],
     residual: &mut Residual,
     matrix: &mut impl Tangent,
 ) {
-    let push = needle.push(number);
     let row = push + 1;
     match touch.rub {
         Rub::Slip { .. } | Rub::Held { .. } => {
             let ratio = match touch.rub {
                 Rub::Slip { sign, .. } => sign * needle.friction,
-                Rub::Held { ratio } => needle.keeps(number, touch, ratio),
+                Rub::Held { ratio } => needle.keeps(touch, ratio),
                 Rub::Stick { .. } | Rub::Passing { .. } => 0.0,
             };
             residual.add(row, z[row]);
@@ -379,14 +390,14 @@ fn add_law(
         }
         Rub::Stick { .. } | Rub::Passing { .. } => {
             let at = match touch.rub {
-                Rub::Stick { at } => needle.keeps(number, touch, at),
+                Rub::Stick { at } => needle.keeps(touch, at),
                 _ => 0.0,
             };
             // With this sign the determinant keeps its own where a tip that slides comes to rest. With the other one the path would
             // take the equilibria behind that place for another branch, and stop there.
             residual.add(row, at);
-            residual.add(row, -tip.way);
-            add_row(row, rows, -1.0, tip.way_slopes(), matrix);
+            residual.add(row, -meeting.way());
+            add_row(row, rows, -1.0, meeting.way_slopes(), matrix);
         }
     }
 }

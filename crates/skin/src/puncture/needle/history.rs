@@ -12,7 +12,7 @@
 use solver::{AnchoredPoint, Linearisation, Neighbours, Path, PathAnchor};
 
 use super::GuidedNeedle;
-use super::mode::{Rub, Touch};
+use super::mode::{NeedleMode, Rub, Touch};
 use crate::contacts::{Contacts, SkinMode, SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -21,20 +21,10 @@ use crate::sensitivity::vanished;
 /// What the equations keep of the way to a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::puncture) enum Kept {
-    /// Where a touch of the needle, by its slot, sticks, or how it is held.
-    Touch(usize, Touch),
+    /// Where a touch of the needle sticks, or how it is held.
+    Touch(Touch),
     /// Where a contact, by its number, sticks, or how it is held.
     Contact(usize, f64),
-}
-
-impl Kept {
-    /// Whether both are one: a touch may change its slot.
-    fn is(self, other: Self) -> bool {
-        match (self, other) {
-            (Self::Touch(_, one), Self::Touch(_, other)) => one == other,
-            (one, other) => one == other,
-        }
-    }
 }
 
 /// The segments of a path at whose ends the row comes to keep something of its way.
@@ -108,7 +98,7 @@ pub(in crate::puncture) fn with(
 ) -> Option<Vec<Neighbours<Chain>>> {
     let mut varied = variations.to_vec();
     for kept in history(state) {
-        let anchor = anchors.iter().rev().find(|anchor| anchor.kept.is(kept))?;
+        let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
         for (neighbours, rate) in varied.iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
             neighbours.below.move_kept(kept, -change);
@@ -120,16 +110,16 @@ pub(in crate::puncture) fn with(
 
 /// What the equations of a state keep of the way to it.
 pub(in crate::puncture) fn history(state: &SkinState) -> Vec<Kept> {
-    let touches = state.mode.needle.touches.into_iter().enumerate();
-    let touches = touches.filter_map(|(slot, touch)| Some(Kept::Touch(slot, touch?)));
-    let touches =
-        touches.filter(|kept| matches!(kept, Kept::Touch(_, touch) if touch.has_history()));
+    let NeedleMode { touches, round } = &state.mode.needle;
+    let round = round.iter().map(Touch::anywhere);
+    let touches = touches.iter().flatten().copied().chain(round);
+    let touches = touches.filter(Touch::has_history).map(Kept::Touch);
     let contacts = Contacts::kept(state).map(|(contact, kept)| Kept::Contact(contact, kept));
     touches.chain(contacts).collect()
 }
 
 fn is_in(kept: Kept, state: &SkinState) -> bool {
-    history(state).into_iter().any(|other| other.is(kept))
+    history(state).into_iter().any(|other| other == kept)
 }
 
 /// The event at the end of a segment, seen from before it.
@@ -165,19 +155,21 @@ fn moved_to(
 impl Chain {
     /// What will be kept, in the state `to`, of a state in which it is not yet: a place, or a ratio of forces.
     fn keeps(&self, state: &SkinState, kept: Kept, to: &SkinState) -> Option<f64> {
-        let (slot, touch) = match kept {
+        let touch = match kept {
             Kept::Contact(contact, _) => return self.contacts.keeps(state, contact, to),
-            Kept::Touch(slot, touch) => (slot, touch),
+            Kept::Touch(touch) => touch,
         };
         let Rub::Held { .. } = touch.rub else {
-            return Some(self.tip(&state.z, touch.scale, touch.place)?.way);
+            let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
+            return Some(self.meeting(&state.z, touch.scale, place)?.way());
         };
-        let before = state.mode.needle.touches[slot];
-        let is_there = |before: Touch| (before.scale, before.place) == (touch.scale, touch.place);
-        if !before.is_some_and(is_there) {
+        let before = state.mode.needle.touches;
+        let is_there = |before: &Touch| (before.scale, before.place) == (touch.scale, touch.place);
+        let Some(slot) = before.iter().position(|before| before.as_ref().is_some_and(is_there))
+        else {
             // The corner has come to the tip: it is held without a tangential force.
             return Some(0.0);
-        }
+        };
         let push = self.needle.as_ref()?.push(slot);
         Some(state.z[push + 1] / state.z[push])
     }
@@ -185,7 +177,7 @@ impl Chain {
     /// Takes what is kept to that of a neighbour.
     fn move_kept(&mut self, kept: Kept, by: f64) {
         match (kept, &mut self.needle) {
-            (Kept::Touch(slot, touch), Some(needle)) => needle.moved[slot] = Some((touch, by)),
+            (Kept::Touch(touch), Some(needle)) => needle.moved.push((touch, by)),
             (Kept::Touch(..), None) => {}
             (Kept::Contact(contact, _), _) => self.contacts.move_kept(contact, by),
         }
@@ -194,10 +186,9 @@ impl Chain {
 
 impl GuidedNeedle {
     /// The anchor of a touch, or its ratio of forces, on the way to this row.
-    pub(super) fn keeps(&self, slot: usize, touch: &Touch, of_mode: f64) -> f64 {
-        match self.moved[slot] {
-            Some((moved, by)) if moved == *touch => of_mode + by,
-            _ => of_mode,
-        }
+    pub(super) fn keeps(&self, touch: &Touch, of_mode: f64) -> f64 {
+        let touch = if self.is_round() { touch.anywhere() } else { *touch };
+        let moved = self.moved.iter().find(|(moved, _)| *moved == touch);
+        of_mode + moved.map_or(0.0, |(_, by)| *by)
     }
 }

@@ -1,9 +1,7 @@
 //! What a guided needle touches, and how it rubs there.
 
-use super::round::FARTHEST_TOUCH;
-
 /// A place on the outline of a scale, in the order in which one goes along it, from the left foot over the top to the right foot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
 pub(crate) enum Place {
     /// The left face.
     Left,
@@ -56,46 +54,39 @@ impl Touch {
         matches!(self.rub, Rub::Held { .. })
     }
 
+    /// The same wherever a round tip touches the scale: it rolls from place to place without sliding.
+    pub(crate) fn anywhere(&self) -> Self {
+        Self { place: Place::Top, ..*self }
+    }
+
+    /// Whether its tangential force is unknown, since it stays at a place.
+    pub(crate) fn is_at_a_place(&self) -> bool {
+        matches!(self.rub, Rub::Stick { .. } | Rub::Passing { .. })
+    }
+
     /// Whether the equations keep something of the way to the state: where the tip sticks, or with what force it is held.
     pub(crate) fn has_history(&self) -> bool {
         matches!(self.rub, Rub::Stick { .. } | Rub::Held { .. })
     }
 }
 
-/// The state of a guided needle, history included: the scales that it touches, which are neighbours if they are two. Nothing in a row
-/// under a free needle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The state of a guided needle, history included: the scales that it touches. Nothing in a row under a free needle.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct NeedleMode {
+    /// Of a sharp tip: neighbours, if they are two.
     pub(crate) touches: [Option<Touch>; 2],
-    /// Where a round tip touches each scale, from the left.
-    places: [Option<Place>; SLOTS],
-}
-
-/// Scales that a round tip may come to.
-const SLOTS: usize = 2 * FARTHEST_TOUCH + 1;
-
-impl Default for NeedleMode {
-    fn default() -> Self {
-        Self { touches: [None; 2], places: [None; SLOTS] }
-    }
+    /// Of a round tip.
+    pub(crate) round: Vec<Touch>,
 }
 
 impl NeedleMode {
     /// Where a round tip touches a scale, counted from the punctured one.
     pub(crate) fn place(&self, scale: i64) -> Option<Place> {
-        self.places.get((scale + FARTHEST_TOUCH as i64) as usize).copied().flatten()
+        self.round.iter().find(|touch| touch.scale == scale).map(|touch| touch.place)
     }
 
-    /// Lets a round tip touch a scale at a place.
-    pub(crate) fn set_place(&mut self, scale: i64, place: Option<Place>) {
-        self.places[(scale + FARTHEST_TOUCH as i64) as usize] = place;
-    }
-
-    /// The scales that are touched, counted from the punctured one.
-    pub(crate) fn touched(&self) -> impl Iterator<Item = i64> {
-        let sharp = self.touches.iter().flatten().map(|touch| touch.scale);
-        let first = -(FARTHEST_TOUCH as i64);
-        let round = (first..).zip(&self.places).filter(|(_, place)| place.is_some());
-        sharp.chain(round.map(|(scale, _)| scale))
+    /// All touches.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Touch> {
+        self.touches.iter().flatten().chain(&self.round)
     }
 }

@@ -119,3 +119,74 @@ impl Tip {
         [-force.dot(&self.normal), force.dot(&self.along)]
     }
 }
+
+/// The tip where it touches a scale: on a face, or a round one on a corner.
+///
+/// A round tip slides along `ξ`: from the left foot on, by the way of the place of touching on the faces less that by which the circle
+/// rolls, with the angle `ψ` of the normal, clockwise from upward. It goes on from face to corner without a step.
+///
+/// ```text
+/// ξ = (C − E)·t + R ψ  on a face,   R ψ  on a corner,   both behind the faces before;     ∂ξ = −t, (P − O)·n, −t_y        (L9)
+/// ```
+pub(super) struct Meeting {
+    pub(super) tip: Tip,
+    radius: f64,
+    /// Whether a round tip is on a corner.
+    is_corner: bool,
+    /// Length of the faces before the place.
+    before: f64,
+}
+
+impl Meeting {
+    pub(super) fn of_sharp(tip: Tip) -> Self {
+        Self { tip, radius: 0.0, is_corner: false, before: 0.0 }
+    }
+
+    pub(super) fn of_round(tip: Tip, radius: f64, before: f64) -> Self {
+        let is_corner = tip.length == 0.0;
+        Self { tip: if is_corner { tip.at_corner() } else { tip }, radius, is_corner, before }
+    }
+
+    /// How far the tip is from the scale.
+    pub(super) fn gap(&self) -> f64 {
+        self.tip.gap - self.radius
+    }
+
+    /// `ξ`.
+    pub(super) fn way(&self) -> f64 {
+        if self.radius == 0.0 {
+            return self.tip.way;
+        }
+        self.before + self.tip.way + self.radius * self.tip.normal.x.atan2(self.tip.normal.y)
+    }
+
+    /// `∂ξ`.
+    pub(super) fn way_slopes(&self) -> [f64; COORDINATES] {
+        let mut slopes = self.tip.way_slopes();
+        if !self.is_corner {
+            slopes[TURN] -= self.radius;
+            return slopes;
+        }
+        slopes[TURN] -= self.tip.gap;
+        slopes.map(|slope| slope * self.radius / self.tip.gap)
+    }
+
+    /// Second derivatives of `−N g + T ξ` (L8).
+    pub(super) fn curvature(&self, [push, drag]: [f64; 2]) -> [[f64; COORDINATES]; COORDINATES] {
+        let tip = &self.tip;
+        if !self.is_corner {
+            return tip.curvature([push, drag]);
+        }
+        let (off, mut along) = (tip.gap_slopes(), tip.way_slopes());
+        along[TURN] -= tip.gap;
+        let rolled = drag * self.radius / tip.gap;
+        let entry = |i: usize, j: usize| {
+            let turning = off[i] * along[j] + along[i] * off[j];
+            -(push * along[i] * along[j] + rolled * turning) / tip.gap
+        };
+        let mut curvature: [[f64; COORDINATES]; COORDINATES] =
+            std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        curvature[TURN][TURN] += rolled * tip.arm.dot(&tip.along) - push * along[TURN];
+        curvature
+    }
+}

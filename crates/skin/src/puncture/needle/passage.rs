@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::mode::{NeedleMode, Place, Rub, Touch};
+use super::mode::{Place, Rub, Touch};
 use crate::contacts::{SkinPoint, SkinState};
 use crate::puncture::growing::Segment;
 use crate::puncture::system::Chain;
@@ -102,11 +102,7 @@ fn is_on_its_face(state: &SkinState) -> bool {
     let on_top = |touch: &Touch| {
         touch.scale == 0 && touch.place == Place::Top && !matches!(touch.rub, Rub::Held { .. })
     };
-    let NeedleMode { touches, .. } = &state.mode.needle;
-    let is_on_other_place = |place: Option<Place>| place.is_some_and(|place| place != Place::Top);
-    touches.iter().flatten().all(on_top)
-        && state.mode.needle.touched().all(|scale| scale == 0)
-        && !is_on_other_place(state.mode.needle.place(0))
+    state.mode.needle.all().all(on_top)
 }
 
 impl Chain {

@@ -1,16 +1,17 @@
 //! A needle with a round tip: a circle that is guided straight down and touches faces and corners of all scales that it reaches.
 //!
-//! A scale is convex, so a circle touches it at one place at most. Without friction that is one normal force for each scale in reach, and
-//! faces and corners go over into each other smoothly: the mode only says of which the second derivatives are.
+//! A scale is convex, so a circle touches it at one place at most: there is one normal force for each scale in reach. Faces and corners go
+//! over into each other smoothly: the mode only says of which the second derivatives are. With friction the circle sticks or slides at each
+//! scale by itself, as a sharp tip does, along a way that goes on from face to corner (L9).
 
 use geometry::Vec2;
-use solver::{Change, Condition, Newton, Residual, Tangent};
+use solver::{Change, Condition, Newton};
 
-use super::GuidedNeedle;
-use super::forces::{STEP, add_row};
-use super::mode::Place;
-use super::outline::{COORDINATES, Face, TURN, Tip};
+use super::forces::STEP;
+use super::mode::{Place, Rub, Touch};
+use super::outline::Face;
 use super::passage::TipForces;
+use super::{ENDINGS, GuidedNeedle, PUSH};
 use crate::contacts::{HOLDS, SkinState};
 use crate::puncture::system::Chain;
 
@@ -23,6 +24,9 @@ const PUSHED_ALONG: usize = 2;
 /// Scales that are touched at rest differ in their gaps by round-off.
 const AT_REST: f64 = 1e-10;
 
+/// Set down on two scales a tip is on one of them alone, sticks or slides, after fewer trials than this.
+const SETTLES: usize = 8;
+
 const FACES: [Place; 3] = [Place::Left, Place::Top, Place::Right];
 
 /// Scales on each side of the punctured one that a round tip may come to on a row of this pitch; `None` if they are too many.
@@ -31,58 +35,41 @@ pub(in crate::puncture) fn reach(radius: f64, pitch: f64) -> Option<usize> {
     (reach <= FARTHEST_TOUCH).then_some(reach)
 }
 
-/// Unknowns of a round tip: its depth, a normal force and a condition on the place for each scale in reach, and what ends the path.
-pub(in crate::puncture) fn unknowns(reach: usize) -> usize {
-    1 + 2 * (2 * reach + 1) + 2
+/// Unknowns of a round tip for each scale in reach: a normal force and a condition on the place; between them, of one that rubs, the
+/// tangential force and the ways slid forward and backward.
+pub(super) fn of_scale(rubs: bool) -> usize {
+    if rubs { 5 } else { 2 }
 }
 
-/// The centre of a tip, seen from the place of a scale that is nearest to it.
-struct Nearest {
-    tip: Tip,
-    /// Of a corner.
-    is_corner: bool,
-}
-
-impl Nearest {
-    /// Second derivatives of `−N g` (L8).
-    fn curvature(&self, push: f64) -> [[f64; COORDINATES]; COORDINATES] {
-        if !self.is_corner {
-            return self.tip.curvature([push, 0.0]);
-        }
-        let mut along = self.tip.way_slopes();
-        along[TURN] -= self.tip.gap;
-        let mut curvature = along.map(|a| along.map(|b| -push * a * b / self.tip.gap));
-        curvature[TURN][TURN] -= push * along[TURN];
-        curvature
-    }
+/// Unknowns of a round tip: its depth, those for each scale in reach, and what ends the path.
+pub(in crate::puncture) fn unknowns(reach: usize, rubs: bool) -> usize {
+    1 + of_scale(rubs) * (2 * reach + 1) + ENDINGS
 }
 
 impl GuidedNeedle {
     /// Scales on each side of the punctured one that the tip may come to.
     pub(super) fn reach(&self) -> usize {
-        (self.unknowns - unknowns(0)) / (unknowns(1) - unknowns(0))
+        self.slots / 2
     }
 
     /// Scales that a round tip may come to, by their slot and as they are counted from the punctured one.
-    fn slots(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
+    fn scales(&self) -> impl Iterator<Item = (usize, i64)> + use<> {
         let reach = self.reach() as i64;
         (-reach..=reach).enumerate()
     }
 
-    /// Unknown of the normal force on the scale of a slot.
-    fn normal_force(&self, slot: usize) -> usize {
-        self.depth + 1 + 2 * slot
-    }
-
-    /// Lets the tip touch the scale of a slot at a place, or let go of it.
-    fn touch(&self, state: &mut SkinState, slot: usize, place: Option<Place>) {
-        state.mode.needle.set_place(slot as i64 - self.reach() as i64, place);
-        state.active[self.contacts + 2 * slot] = place.is_some();
-    }
-
-    /// Number of the condition on tilts among those of the needle; that of coming through is the next.
-    pub(super) fn tilt_number(&self) -> usize {
-        self.unknowns - 3
+    /// Lets the tip touch a scale, or let go of it.
+    fn set_touch(&self, state: &mut SkinState, scale: i64, touch: Option<Touch>) {
+        let slot = (scale + self.reach() as i64) as usize;
+        if touch.is_none() && self.rubs() {
+            self.end_sliding(state, slot);
+            state.z[self.push(slot) + 1] = 0.0;
+        }
+        let touches = &mut state.mode.needle.round;
+        touches.retain(|touch| touch.scale != scale);
+        touches.extend(touch);
+        touches.sort_by_key(|touch| touch.scale);
+        state.active[self.number(slot, PUSH)] = touch.is_some();
     }
 }
 
@@ -90,7 +77,7 @@ impl Chain {
     /// The centre of the tip at rest, from the node of the punctured scale: where the circle comes to rest on the row, coming from above.
     pub(in crate::puncture) fn centre_at_rest(&self, needle: &GuidedNeedle, x: f64) -> Vec2 {
         let mut highest = f64::NEG_INFINITY;
-        for (_, scale) in needle.slots() {
+        for (_, scale) in needle.scales() {
             let Some(number) = self.scale_numbered(scale) else { continue };
             let away = self.contacts.place(number) - self.contacts.place(self.layout.left);
             for place in FACES {
@@ -99,13 +86,6 @@ impl Chain {
             }
         }
         Vec2::new(x, highest)
-    }
-
-    /// The tip at a place of a scale, a gap of 0 where its centre is there.
-    fn seen_from(&self, z: &[f64], scale: i64, place: Place) -> Option<Nearest> {
-        let tip = self.tip(z, scale, place)?;
-        let is_corner = tip.length == 0.0;
-        Some(Nearest { tip: if is_corner { tip.at_corner() } else { tip }, is_corner })
     }
 
     /// The place of a scale that is nearest to the centre of the tip, and its distance; negative within the scale.
@@ -134,64 +114,49 @@ impl Chain {
 
     /// The state of rest, with the scales that the tip stands on.
     pub(super) fn round_at_rest(&self, needle: &GuidedNeedle, mut rest: SkinState) -> SkinState {
-        for (slot, scale) in needle.slots() {
-            let Some((place, distance)) = self.nearest(&rest.z, scale) else { continue };
-            if distance < needle.radius + AT_REST {
-                needle.touch(&mut rest, slot, Some(place));
+        for (_, scale) in needle.scales() {
+            let nearest = self.nearest(&rest.z, scale);
+            if nearest.is_some_and(|(_, distance)| distance < needle.radius + AT_REST) {
+                let touch = self.round_touch(needle, &rest.z, scale);
+                needle.set_touch(&mut rest, scale, touch);
             }
         }
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
-        let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) else { return rest };
-        let largest = rates.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
-        // At the end of a face the tip goes on to the corner or back on the face: without forces both have the same rates, which say it.
-        let ahead = rest.moved(STEP / largest, &rates);
-        for (slot, scale) in needle.slots() {
-            if rest.mode.needle.place(scale).is_some() {
-                let is_pushed = rates[needle.normal_force(slot)] > 0.0;
-                let place = self.nearest(&ahead.z, scale).map(|(place, _)| place);
-                needle.touch(&mut rest, slot, place.filter(|_| is_pushed));
+        for _ in 0..SETTLES {
+            let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) else { return rest };
+            let largest = rates.iter().fold(f64::MIN_POSITIVE, |max, x| max.max(x.abs()));
+            // At the end of a face the tip goes on to the corner or back on the face: without forces both have the same rates, which say it.
+            let ahead = rest.moved(STEP / largest, &rates);
+            let before = rest.clone();
+            for touch in before.mode.needle.round {
+                let slot = needle.slot(&touch);
+                let [push, drag] = [0, 1].map(|k| rates[needle.push(slot) + k]);
+                if push <= 0.0 {
+                    needle.set_touch(&mut rest, touch.scale, None);
+                    continue;
+                }
+                if let Some((place, _)) = self.nearest(&ahead.z, touch.scale) {
+                    needle.set_touch(&mut rest, touch.scale, Some(Touch { place, ..touch }));
+                }
+                if let Rub::Stick { at } = touch.rub
+                    && drag.abs() > needle.friction * push
+                {
+                    needle.slide(&mut rest, slot, drag > 0.0, at);
+                }
+            }
+            if rest.active == before.active {
+                break;
             }
         }
         rest
     }
 
-    /// The scales that a round tip touches: slot, index, and the tip seen from there.
-    fn touched(
-        &self,
-        needle: &GuidedNeedle,
-        state: &SkinState,
-    ) -> impl Iterator<Item = (usize, usize, Nearest)> {
-        needle.slots().filter_map(|(slot, scale)| {
-            let place = state.mode.needle.place(scale)?;
-            Some((slot, self.scale_numbered(scale)?, self.seen_from(&state.z, scale, place)?))
-        })
-    }
-
-    /// Adds the equations of a round tip: the balances and the gaps that are closed.
-    pub(super) fn add_round(
-        &self,
-        needle: &GuidedNeedle,
-        state: &SkinState,
-        residual: &mut Residual,
-        matrix: &mut impl Tangent,
-    ) {
-        for (slot, scale, nearest) in self.touched(needle, state) {
-            let at = self.layout.scale(scale);
-            let rows = [at, at + 1, at + 2, needle.depth];
-            let push = needle.normal_force(slot);
-            let slopes = nearest.tip.gap_slopes();
-            let curvature = nearest.curvature(state.z[push]);
-            for (i, row) in rows.into_iter().enumerate() {
-                // The balance of the needle has the other sign.
-                let sign = if i + 1 == COORDINATES { -1.0 } else { 1.0 };
-                residual.add(row, -sign * state.z[push] * slopes[i]);
-                add_row(row, rows, sign, curvature[i], matrix);
-                matrix.add(row, push, -sign * slopes[i]);
-            }
-            residual.add(push, nearest.tip.gap - needle.radius);
-            add_row(push, rows, 1.0, slopes, matrix);
-        }
+    /// A round tip that has come to rest on the nearest place of a scale.
+    fn round_touch(&self, needle: &GuidedNeedle, z: &[f64], scale: i64) -> Option<Touch> {
+        let (place, _) = self.nearest(z, scale)?;
+        let at = if needle.rubs() { self.meeting(z, scale, place)?.way() } else { 0.0 };
+        Some(Touch { scale, place, rub: needle.resting(at) })
     }
 
     /// Writes the conditions of the constraints of a round tip.
@@ -202,23 +167,26 @@ impl Chain {
         values: &mut [f64],
     ) {
         let (tilt, through) = (needle.tilt_number(), needle.tilt_number() + 1);
-        for (slot, scale) in needle.slots() {
-            let Some(place) = state.mode.needle.place(scale) else {
-                let distance = self.nearest(&state.z, scale).map(|(_, distance)| distance);
-                values[2 * slot] = distance.map_or(HOLDS, |distance| distance - needle.radius);
-                continue;
-            };
-            let Some(number) = self.scale_numbered(scale) else { continue };
-            let [before, after] = self.to_ends(state, scale, place);
-            let nearest = self.seen_from(&state.z, scale, place);
-            values[2 * slot] = nearest.map_or(HOLDS, |nearest| nearest.tip.gap - needle.radius);
-            values[2 * slot + 1] = before.min(after);
+        for (slot, scale) in needle.scales() {
+            let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
+            if state.mode.needle.place(scale).is_none() {
+                let nearest = self.nearest(&state.z, scale);
+                of_scale[PUSH] = nearest.map_or(HOLDS, |(_, distance)| distance - needle.radius);
+            }
+        }
+        for (slot, touch, number, meeting) in self.touches(needle, state) {
+            let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
+            of_scale[PUSH] = meeting.gap();
+            let [before, after] = self.to_ends(state, touch.scale, touch.place);
+            of_scale[needle.of_touch - 1] = before.min(after);
+            if needle.rubs() {
+                needle.rub_conditions(state, slot, touch, &meeting, of_scale);
+            }
             let [_, _, rotation] = self.displacement(&state.z, number);
             values[tilt] = values[tilt].min(needle.critical_tilt - rotation.abs());
-            let tip = self.tip(&state.z, scale, place);
-            let to_foot = match (place, tip) {
-                (Place::Left, Some(tip)) => tip.way,
-                (Place::Right, Some(tip)) => tip.length - tip.way,
+            let to_foot = match touch.place {
+                Place::Left => meeting.tip.way,
+                Place::Right => meeting.tip.length - meeting.tip.way,
                 _ => HOLDS,
             };
             values[through] = values[through].min(to_foot);
@@ -243,7 +211,7 @@ impl Chain {
     /// Distance of the circle from the soft surface between two bases, which is straight from corner to corner.
     fn above_surface(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
         let mut least = HOLDS;
-        for (_, scale) in needle.slots() {
+        for (_, scale) in needle.scales() {
             let foot = |scale: i64, place: Place, at_end: bool| {
                 let tip = self.tip(&state.z, scale, place)?;
                 Some(tip.to_end(if at_end { tip.length } else { 0.0 }))
@@ -258,7 +226,7 @@ impl Chain {
         least
     }
 
-    /// Takes a round tip to its next mode.
+    /// Takes a round tip to another place or scale.
     pub(super) fn round_transition(
         &self,
         needle: &GuidedNeedle,
@@ -266,69 +234,32 @@ impl Chain {
         change: Change,
     ) -> Option<usize> {
         let number = change.constraint - needle.contacts;
-        let (slot, of_place) = (number / 2, number % 2 == 1);
         if number >= needle.tilt_number() {
             return None;
         }
-        let scale = slot as i64 - needle.reach() as i64;
-        if of_place {
+        let scale = (number / needle.of_touch) as i64 - needle.reach() as i64;
+        if number % needle.of_touch == needle.of_touch - 1 {
             // It has no force: it never acts.
             state.active[change.constraint] = false;
             let place = state.mode.needle.place(scale)?;
             let [before, after] = self.to_ends(state, scale, place);
-            needle.touch(state, slot, place.next(after < before));
+            let next = place.next(after < before)?;
+            // The way goes on without a step, and the force with it.
+            let here = state.mode.needle.round.iter_mut().find(|touch| touch.scale == scale)?;
+            here.place = next;
         } else {
-            let place = self.nearest(&state.z, scale).map(|(place, _)| place);
-            needle.touch(state, slot, place.filter(|_| change.activated));
+            let touch = self.round_touch(needle, &state.z, scale);
+            needle.set_touch(state, scale, touch.filter(|_| change.activated));
         }
         Some(change.constraint)
-    }
-
-    /// The unknowns of a round tip in its stiffness.
-    pub(super) fn round_in_stiffness(needle: &GuidedNeedle, state: &SkinState) -> Vec<usize> {
-        let touched = needle.slots().filter(|(_, scale)| state.mode.needle.place(*scale).is_some());
-        let forces = touched.map(|(slot, _)| needle.normal_force(slot));
-        std::iter::once(needle.depth).chain(forces).collect()
-    }
-
-    /// Shows every entry of the stiffness of a round tip: second derivatives of `−N g`, with `N` as unknowns.
-    pub(super) fn for_round_stiffness(
-        &self,
-        needle: &GuidedNeedle,
-        state: &SkinState,
-        mut entry: impl FnMut(usize, usize, f64),
-    ) {
-        for (slot, scale, nearest) in self.touched(needle, state) {
-            let at = self.layout.scale(scale);
-            let unknowns = [at, at + 1, at + 2, needle.depth];
-            let push = needle.normal_force(slot);
-            let curvature = nearest.curvature(state.z[push]);
-            for (i, (row, slope)) in unknowns.into_iter().zip(nearest.tip.gap_slopes()).enumerate()
-            {
-                for (column, value) in unknowns.into_iter().zip(curvature[i]) {
-                    entry(row, column, value);
-                }
-                entry(row, push, -slope);
-                entry(push, row, -slope);
-            }
-        }
     }
 
     /// The normal forces of a round tip; `None` of another needle, and unless the whole path is noted.
     pub(in crate::puncture) fn tip_forces(&self, state: &SkinState) -> Option<TipForces> {
         let needle = self.needle.as_ref().filter(|needle| self.whole_path && needle.is_round())?;
-        let touched = needle.slots().filter(|(_, scale)| state.mode.needle.place(*scale).is_some());
-        let of = |(slot, scale)| (scale, state.z[needle.normal_force(slot)] / self.length);
-        Some(touched.map(of).collect())
-    }
-
-    /// Force of a round tip on the scales along the row, to the right.
-    pub(super) fn round_lateral_force(&self, needle: &GuidedNeedle, state: &SkinState) -> f64 {
-        let touched = self.touched(needle, state);
-        let lateral = |(slot, _, nearest): (usize, usize, Nearest)| {
-            nearest.tip.force([state.z[needle.normal_force(slot)], 0.0]).x
-        };
-        touched.map(lateral).sum()
+        let of =
+            |touch: &Touch| (touch.scale, state.z[needle.push(needle.slot(touch))] / self.length);
+        Some(state.mode.needle.round.iter().map(of).collect())
     }
 }
 

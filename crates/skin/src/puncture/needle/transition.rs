@@ -3,7 +3,7 @@
 use solver::Change;
 
 use super::mode::{Place, Rub, Touch};
-use super::{BACKWARD, CONSTRAINTS, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
+use super::{BACKWARD, FORWARD, GuidedNeedle, HIGH, LOW, PUSH};
 use crate::contacts::SkinState;
 use crate::puncture::system::Chain;
 
@@ -26,23 +26,23 @@ impl Chain {
         state: &mut SkinState,
         change: Change,
     ) -> Option<usize> {
-        if needle.is_round() {
+        let number = change.constraint.checked_sub(needle.contacts)?;
+        let (slot, constraint) = (number / needle.of_touch, number % needle.of_touch);
+        let slides = number < needle.tilt_number() && (FORWARD..=BACKWARD).contains(&constraint);
+        if needle.is_round() && !(slides && needle.rubs()) {
             return self.round_transition(needle, state, change);
         }
-        let number = change.constraint.checked_sub(needle.contacts)?;
-        let (slot, constraint) = (number / CONSTRAINTS, number % CONSTRAINTS);
         let valid = match (constraint, change.activated) {
             (PUSH, true) => self.enter_notch(needle, state, slot)?,
             (PUSH, false) => return self.leave(needle, state, slot),
             (FORWARD | BACKWARD, true) => {
-                let at = self.way(state, slot)?;
-                let sign = if constraint == FORWARD { 1.0 } else { -1.0 };
-                rub(state, slot, Rub::Slip { sign, from: at })?;
+                let at = self.way(needle, state, slot)?;
+                needle.slide(state, slot, constraint == FORWARD, at);
                 constraint
             }
             (FORWARD | BACKWARD, false) => {
-                let at = self.way(state, slot)?;
-                rub(state, slot, Rub::Stick { at })?;
+                let at = self.way(needle, state, slot)?;
+                needle.touch_mut(&mut state.mode.needle, slot)?.rub = Rub::Stick { at };
                 constraint
             }
             (LOW | HIGH, _) => {
@@ -68,20 +68,21 @@ impl Chain {
 
     /// Lets the tip stick where it slides.
     pub(in crate::puncture) fn stop_tip(&self, needle: &GuidedNeedle, state: &mut SkinState) {
-        for slot in 0..2 {
-            let touch = state.mode.needle.touches[slot];
+        for slot in (0..needle.slots).filter(|_| needle.rubs()) {
+            let touch = needle.touch_mut(&mut state.mode.needle, slot).copied();
             let slides = touch.is_some_and(|touch| matches!(touch.rub, Rub::Slip { .. }));
-            if let Some(at) = self.way(state, slot).filter(|_| slides && needle.friction > 0.0) {
-                needle.end_sliding(state, slot);
-                rub(state, slot, Rub::Stick { at });
+            let Some(at) = self.way(needle, state, slot).filter(|_| slides) else { continue };
+            needle.end_sliding(state, slot);
+            if let Some(touch) = needle.touch_mut(&mut state.mode.needle, slot) {
+                touch.rub = Rub::Stick { at };
             }
         }
     }
 
     /// `ξ` of a touch.
-    fn way(&self, state: &SkinState, slot: usize) -> Option<f64> {
-        let touch = state.mode.needle.touches[slot]?;
-        Some(self.tip(&state.z, touch.scale, touch.place)?.way)
+    fn way(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<f64> {
+        let touch = *needle.touch_mut(&mut state.mode.needle, slot)?;
+        Some(self.meeting(&state.z, touch.scale, touch.place)?.way())
     }
 
     /// The tip meets the next scale.
@@ -148,7 +149,7 @@ impl Chain {
 
     /// Lets a touch that was held in a notch stick by itself.
     fn come_to_rest(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) {
-        let at = self.way(state, slot);
+        let at = self.way(needle, state, slot);
         if let (Some(touch), Some(at)) = (&mut state.mode.needle.touches[slot], at)
             && touch.is_held()
         {
@@ -210,20 +211,24 @@ impl Chain {
 
 impl GuidedNeedle {
     /// How a tip rubs that has come to rest at a place.
-    fn resting(&self, at: f64) -> Rub {
+    pub(super) fn resting(&self, at: f64) -> Rub {
         if self.friction == 0.0 { Rub::Slip { sign: 0.0, from: at } } else { Rub::Stick { at } }
     }
 
+    /// Lets a touch slide forward or backward.
+    pub(super) fn slide(&self, state: &mut SkinState, slot: usize, forward: bool, from: f64) {
+        let (sign, constraint) = if forward { (1.0, FORWARD) } else { (-1.0, BACKWARD) };
+        if let Some(touch) = self.touch_mut(&mut state.mode.needle, slot) {
+            touch.rub = Rub::Slip { sign, from };
+            state.active[self.number(slot, constraint)] = true;
+        }
+    }
+
     /// Takes the ways that a touch has slid out of the active set.
-    fn end_sliding(&self, state: &mut SkinState, slot: usize) {
+    pub(super) fn end_sliding(&self, state: &mut SkinState, slot: usize) {
         for constraint in [FORWARD, BACKWARD] {
             state.active[self.number(slot, constraint)] = false;
             state.z[self.push(slot) + 1 + constraint] = 0.0;
         }
     }
-}
-
-fn rub(state: &mut SkinState, slot: usize, rub: Rub) -> Option<()> {
-    state.mode.needle.touches[slot].as_mut()?.rub = rub;
-    Some(())
 }

@@ -218,28 +218,33 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
 /// The needle's work is stored, or taken by friction.
 #[test]
 fn work_is_stored_or_rubbed_away() {
-    let mut most = 0.0_f64;
-    for (gap, length, slant, friction, inside) in CASES {
-        let design = design(gap, length, slant);
-        let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
-        for_segments(guided_path(&design, friction, inside, 0.01), |path, from, to| {
-            done += work(path, from, to);
-            let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
-            // The end in the mode of the segment.
-            let mut end = inner[2].clone();
-            end.z.clone_from(&to.state.z);
-            let chain = path.system();
-            let states = [&from.state, &inner[0], &inner[1], &inner[2], &end];
-            let rubbing = states.map(|state| chain.rubbing(state));
-            rubbed += (0..2).map(|k| integral(rubbing.map(|both| both[k]))).sum::<f64>();
-            let stored = chain.substrate_energy(&to.state) + chain.contacts.energy(&to.state);
-            off = off.max((done - stored - rubbed).abs());
-        });
-        assert!(off < 1e-8 * done, "{:e} {design:?} {friction}", off / done);
-        assert!(rubbed > -1e-12, "{rubbed}");
-        most = most.max(rubbed / done);
-    }
+    let cases = CASES.map(|(gap, length, slant, friction, inside)| {
+        guided_path(&design(gap, length, slant), friction, inside, 0.01)
+    });
+    let most = cases.map(rubbed_away).into_iter().fold(0.0, f64::max);
     assert!(most > 0.01, "{most}");
+}
+
+/// The part of the work of a needle that friction takes; the rest is stored.
+fn rubbed_away(path: Path<Chain>) -> f64 {
+    let (mut done, mut rubbed, mut off) = (0.0, 0.0, 0.0_f64);
+    for_segments(path, |path, from, to| {
+        done += work(path, from, to);
+        let inner = [0.25, 0.5, 0.75].map(|x| path.between(from, to, x).unwrap().state);
+        // The end in the mode of the segment.
+        let mut end = inner[2].clone();
+        end.z.clone_from(&to.state.z);
+        let chain = path.system();
+        let states = [&from.state, &inner[0], &inner[1], &inner[2], &end];
+        let rubbing = states.map(|state| chain.rubbing(state));
+        let of_slot = |slot: usize| integral(rubbing.each_ref().map(|all| all[slot]));
+        rubbed += (0..rubbing[0].len()).map(of_slot).sum::<f64>();
+        let stored = chain.substrate_energy(&to.state) + chain.contacts.energy(&to.state);
+        off = off.max((done - stored - rubbed).abs());
+    });
+    assert!(off < 1e-8 * done, "{:e}", off / done);
+    assert!(rubbed > -1e-12, "{rubbed}");
+    rubbed / done
 }
 
 /// One scale on its springs, `k u = f` in each direction: with the arm `ρ` of the needle along the top and the tip at `X`,

@@ -64,7 +64,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         key: key::NEEDLE_RADIUS,
         section: "puncture",
         unit: "t",
-        meaning: "radius of the round tip of a guided needle without friction, which may touch several scales; sharp unless it is given",
+        meaning: "radius of the round tip of a guided needle, which may touch several scales; sharp unless it is given",
         roles: NUMBER,
         kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.needle_radius },
     },
