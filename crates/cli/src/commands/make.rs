@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use fabrication::{Format, Patch, Sheet};
+use ranking::CRITERIA;
+use results::columns::measure_name;
 use sweep::Case;
 use tolerance::{Analysis, SampleStore};
 
@@ -184,7 +186,7 @@ fn no_template(sheet: &Sheet, template: f64) -> String {
     )
 }
 
-/// What the derivatives say of the deviations in `[tolerance]`: a line for each measure that they move.
+/// What the derivatives say of the deviations in `[tolerance]`: a line for each measure that makers ask for and that they move.
 fn tolerances(
     design: &SelectedDesign,
     out: &Path,
@@ -197,7 +199,8 @@ fn tolerances(
     let analysis = Analysis::new(sweep, &[], 0, PROGRAM, interrupt.stop());
     // Without samples nothing is kept in this store.
     let analysed = analysis.design(0, &SampleStore::new(out))?;
-    let moved = analysed.measures.iter().filter_map(|measure| {
+    let shown = analysed.measures.iter().filter(|measure| is_for_a_maker(&measure.name));
+    let moved = shown.filter_map(|measure| {
         let linear = measure.linear.as_ref().filter(|linear| linear.spread > 0.0)?;
         let deviation = format!("+- {}", rounded(linear.spread));
         let value = rounded(measure.value?);
@@ -206,7 +209,14 @@ fn tolerances(
     });
     let rows: Vec<_> = moved.collect();
     Ok(format!(
-        "\nStandard deviations by [tolerance], and where they come from\n{}",
+        "\nStandard deviations by [tolerance], and where they come from; squama tolerance has all of them\n{}",
         aligned(&rows)
     ))
+}
+
+/// Whether a measure is one of the four of a sweep, or what a skin weighs and how far it bends: a list of forty hides these.
+fn is_for_a_maker(measure: &str) -> bool {
+    let is_criterion =
+        || CRITERIA.iter().any(|criterion| criterion.column == measure_name(measure));
+    is_criterion() || ["bend_radius_mm", "areal_mass_kg_m2"].contains(&measure)
 }
