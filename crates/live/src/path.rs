@@ -30,6 +30,8 @@ pub struct PuncturedRow {
     pub contacts: Vec<PlacedContact>,
     /// Place of the load on the top of the punctured scale: 0 the left corner, 1 the right one.
     pub load_position: f64,
+    /// Lowest point of the tip of a guided needle in that state, from the node of the punctured scale at rest, and the radius of the tip.
+    pub tip: Option<[f64; 3]>,
 }
 
 /// A strip on its way to the largest end rotation.
@@ -69,6 +71,7 @@ impl PuncturedRow {
         let state = solved.at.into_iter().flatten().next();
         let Puncture { path, events, folds, .. } = solved.puncture;
         let place = |point: &PuncturePoint| [point.displacement, point.force];
+        let radius = case.puncture.needle_radius.unwrap_or(0.0);
         let shares =
             path.iter().map(|point| [point.displacement, point.force, share(along(point), way)]);
         Some(Self {
@@ -78,7 +81,8 @@ impl PuncturedRow {
             at: state.as_ref().map(|state| [state.displacement, state.force]),
             scales: state.iter().flat_map(scales).collect(),
             contacts: state.iter().flat_map(|state| contacts(case, state)).collect(),
-            load_position: case.puncture.load_position,
+            load_position: case.punctured().load_position,
+            tip: state.and_then(|state| state.tip).map(|[x, y]| [x, y, radius]),
         })
     }
 }

@@ -75,7 +75,7 @@ impl Solver {
                     &smooth.design,
                     &*substrate,
                     &smooth.common,
-                    &smooth.puncture,
+                    &smooth.punctured(),
                     at,
                 )
             };

@@ -68,6 +68,24 @@ fn the_state_that_is_drawn_lies_on_the_path() {
     assert_eq!(answer["flexure"]["scales"].as_array().map(Vec::len), Some(13));
 }
 
+/// A needle that stands inside the corner is drawn there, and with the forces that the measures tell: it was solved once more at the corner.
+#[test]
+fn a_needle_inside_the_corner_is_drawn_with_its_own_force() {
+    let definition = DEFINITION.replace(
+        "[puncture]",
+        "[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\nload_inset_over_t = 0.1\nneedle_radius_over_t = 0.3",
+    );
+    let answer = ask(&json!({ "definition": definition, "drawn": [1.0, 0.0], "fine": true }));
+    let (row, force) = (&answer["puncture"], number(&answer, "critical_force"));
+    let drawn = row["at"][1].as_f64().expect("a force");
+    assert!((drawn / force - 1.0).abs() < 1e-6, "{drawn}, and {force} among the measures");
+    let [x, y, radius] = [0, 1, 2].map(|k| row["tip"][k].as_f64().expect("a place"));
+    let depth = row["at"][0].as_f64().expect("a depth");
+    // A tenth of the thickness inside the corner of a top that is half as long as the scale is thick.
+    assert!((row["load_position"].as_f64().expect("a place") - 0.8).abs() < 1e-12);
+    assert!(radius == 0.3 && y < 1.0 && depth > 0.0, "{x} {y} {depth}");
+}
+
 #[test]
 fn the_closest_design_and_the_command_of_one_between() {
     let set = json!({ "gap_over_t": 0.17, "slant_deg": 50, "width_over_t": 2 });

@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use anyhow::ensure;
 use clap::Args;
-use optimisation::DesignGoal;
+use optimisation::{DesignGoal, Statistic};
 use ranking::Requirement;
 use report::Explorer;
 use results::shell_word;
@@ -55,6 +55,12 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
         key::TISSUE
     );
     requirements.extend(arguments.required.read()?);
+    let of_samples = requirements.extract_if(.., |of| Statistic::named(&of.column).is_some());
+    for requirement in of_samples {
+        note(&format!(
+            "left out: {requirement}, which many skins meet or not, and the page solves one"
+        ));
+    }
     require_folder_of("--out", &arguments.out)?;
     let page = Explorer {
         sweep,

@@ -50,6 +50,19 @@ fn a_page_of_a_layer_is_refused_with_the_reason() {
     );
 }
 
+/// What many skins meet or not is no requirement of the one under the hand: it stood there in red, without a value.
+#[test]
+fn a_page_leaves_requirements_of_samples_out() {
+    let place = Place::with("name = 'x'");
+    let mut command =
+        place.squama("explore x.toml --no-open --require yield>=0.9 --require coverage>=0.5");
+    let assert = command.assert().code(0);
+    let message = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    assert!(message.contains("left out: yield >= 0.9"), "{message}");
+    let page = place.read("explore.html");
+    assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
+}
+
 #[test]
 fn help_shows_examples() {
     let place = Place::new();

@@ -90,9 +90,11 @@
     const moved = new Map((puncture?.scales ?? []).map(([number, ...pose]) => [number, pose]));
     const stands = poses(own, view, size.width, moved), hit = stands.find(({ number }) => number === 0);
     const [, , right, left] = outline(own, hit?.pose ?? [0, 0, 0]), share = puncture?.load_position ?? 1;
-    const [x, y] = place(view, [0, 1].map((k) => left[k] + share * (right[k] - left[k])));
+    // A guided tip moves straight down, whatever the scale does; a free load follows its place on the scale.
+    const [x, y] = place(view, puncture?.tip ?? [0, 1].map((k) => left[k] + share * (right[k] - left[k])));
+    const round = view.scale * (puncture?.tip?.[2] ?? 0), shaft = Math.max(round, 5), nose = round || 16;
     at("live-needle").replaceChildren(soil(view, size), ...row(view, own, poses(own, view, size.width), "ghost"), ...row(view, own, stands), ...dots(view, puncture?.contacts ?? []),
-      svg("path", { d: `M${x} ${y} l-5 -16 V0 h10 V${y - 16} z`, class: "needle" }));
+      svg("path", { d: `M${x} ${y} ${round ? `a${round} ${round} 0 0 1` : "l"}${-shaft} ${-nose} V0 h${2 * shaft} V${y - nose} ${round ? `a${round} ${round} 0 0 1 ${-round} ${round}` : ""} z`, class: round ? "needle round" : "needle" }));
     const [depth, force] = puncture?.at ?? [0, 0];
     const text = units?.force ? `${live.digits(force * units.force, 3)} N` : `F* = ${live.digits(force, 3)}`;
     const deep = units?.length ? `${live.digits(depth * units.length, 3)} mm` : `${live.digits(depth, 3)} t`;
