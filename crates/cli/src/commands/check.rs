@@ -5,12 +5,13 @@ use std::thread::available_parallelism;
 use std::time::Duration;
 
 use clap::Args;
+use optimisation::DesignGoal;
 use run::Estimate;
 use serde_json::{Map, Value, json};
-use sweep::{Axis, Measure, Parameter, Role, Sweep, key};
+use sweep::{Axis, Measure, Parameter, Role, Sweep, Variable, key};
 
 use super::DONE;
-use super::source::{Definition, folder_of, read};
+use super::source::{Defined, Definition, defined, folder_of, question};
 use crate::json;
 use crate::print::{aligned, counted, digits, print, time};
 
@@ -20,7 +21,8 @@ use crate::print::{aligned, counted, digits, print, time};
 Examples:
   squama check sweeps/paper.toml
   squama check sweeps/paper.toml --set 'designs.c2=[0.23, 1.1]'
-  squama check sweeps/paper.toml --json")]
+  squama check sweeps/paper.toml --json
+  squama check sweeps/goals/pin.toml")]
 pub struct Arguments {
     #[command(flatten)]
     pub definition: Definition,
@@ -38,13 +40,54 @@ const LISTED: u64 = 12;
 
 /// Says what would run.
 pub fn check(arguments: &Arguments) -> anyhow::Result<u8> {
-    let sweep = read(&arguments.definition)?;
-    if arguments.json {
-        json::print(&as_json(&sweep))?;
-    } else {
-        print(&report(&sweep, &arguments.definition.path))?;
+    let path = &arguments.definition.path;
+    match (defined(&arguments.definition)?, arguments.json) {
+        (Defined::Goal(goal), true) => json::print(&goal_as_json(&goal))?,
+        (Defined::Goal(goal), false) => print(&goal_report(&goal, path))?,
+        (Defined::Sweep(sweep), is_json) => {
+            question(&sweep);
+            if is_json {
+                json::print(&as_json(&sweep))?;
+            } else {
+                print(&report(&sweep, path))?;
+            }
+        }
     }
     Ok(DONE)
+}
+
+/// What a search would look for, and among which designs.
+fn goal_report(goal: &DesignGoal, path: &Path) -> String {
+    let sweep = goal.space.sweep();
+    let aims = goal.objectives.iter().map(|aim| format!("{} {}", aim.goal.key(), aim.column));
+    let mut rows = vec![row("name", goal.name()), row("aim", &aims.collect::<Vec<_>>().join(", "))];
+    rows.extend(goal.requirements.iter().map(|required| row("require", &required.to_string())));
+    rows.push(row("output", &folder_of(sweep, None).display().to_string()));
+    let ends = |of: &Variable| [of.at(0.0), of.at(1.0)].map(|end| end.to_string());
+    let variables = sweep.variables().iter().map(|of| {
+        let [from, to] = ends(of);
+        [of.parameter().path(), format!("{from} to {to}"), of.parameter().unit.to_owned()]
+    });
+    format!(
+        "{} is a valid goal, which squama optimise searches for\n{}\nvariables\n{}\n{}",
+        path.display(),
+        aligned(&rows),
+        aligned(&variables.collect::<Vec<_>>()),
+        changes(sweep)
+    )
+}
+
+fn goal_as_json(goal: &DesignGoal) -> Value {
+    let sweep = goal.space.sweep();
+    let variables =
+        sweep.variables().iter().map(|of| (of.parameter().path(), [of.at(0.0), of.at(1.0)]));
+    let variables = variables.map(|(path, ends)| (path, json!(ends.map(json::scalar))));
+    json!({
+        "goal": goal.name(),
+        "variables": variables.collect::<Map<_, _>>(),
+        "requirements": goal.requirements.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "output": folder_of(sweep, None).to_string_lossy(),
+    })
 }
 
 fn report(sweep: &Sweep, path: &Path) -> String {

@@ -6,15 +6,15 @@ use std::process::{Command, Stdio};
 
 use anyhow::ensure;
 use clap::Args;
-use optimisation::{DesignGoal, Statistic};
+use optimisation::Statistic;
 use ranking::Requirement;
 use report::Explorer;
 use results::shell_word;
-use sweep::{Sweep, key, read_entries};
+use sweep::{Sweep, key};
 
 use super::figure_file::write_file;
 use super::required::Required;
-use super::source::{Definition, definition_file, require_folder_of, settings};
+use super::source::{Defined, Definition, defined, require_folder_of};
 use super::{DONE, PROGRAM};
 use crate::print::{note, print};
 
@@ -80,13 +80,10 @@ pub fn explore(arguments: &Arguments) -> anyhow::Result<u8> {
 
 /// The sweep of a definition, and the requirements of its goal if it has one.
 fn sweep_and_goal(definition: &Definition) -> anyhow::Result<(Sweep, Vec<Requirement>)> {
-    let file = definition_file(&definition.path)?;
-    let settings = settings(&definition.settings)?;
-    if read_entries(&file, &settings)?.iter().any(|entry| entry.key == "goal") {
-        let goal = DesignGoal::read(&file, &settings)?;
-        return Ok((goal.space.sweep().clone(), goal.requirements));
-    }
-    Ok((Sweep::read(&file, &settings)?, Vec::new()))
+    Ok(match defined(definition)? {
+        Defined::Goal(goal) => (goal.space.sweep().clone(), goal.requirements),
+        Defined::Sweep(sweep) => (*sweep, Vec::new()),
+    })
 }
 
 /// Opens a page as the desktop does; whether there is a program for it.

@@ -3,13 +3,13 @@
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, bail, ensure};
 use clap::Args;
 use optimisation::{DesignGoal, FRONT, GOAL};
 use results::{Completeness, Results, VerifiedFolder};
 use sweep::{Axis, Case, DesignNumber, Grid, Parameter, Setting, Sweep};
 
-use super::source::{Definition, definition_file, settings};
+use super::source::{Defined, Definition, IS_GOAL, defined, definition_file, settings};
 
 /// Numbers of designs, or their values.
 #[derive(Debug, Args)]
@@ -54,7 +54,16 @@ pub fn select(
         return of_front(&definition.path, &settings, selection);
     }
     let file = definition_file(&definition.path)?;
-    if selection.numbers.is_empty() && options(selection).iter().all(|(.., text)| text.is_none()) {
+    let is_chosen = options(selection).iter().any(|(.., text)| text.is_some());
+    let nominal = match defined(definition)? {
+        Defined::Goal(goal) if is_chosen && selection.numbers.is_empty() => Some(nominal(&goal)),
+        Defined::Goal(_) => bail!(
+            "{}: {IS_GOAL}; any other is chosen with --gap, --length and --slant",
+            file.display()
+        ),
+        Defined::Sweep(_) => None,
+    };
+    if selection.numbers.is_empty() && !is_chosen {
         let designs = Sweep::read(&file, &settings)?.grid().len();
         ensure!(
             designs == 1,
@@ -64,7 +73,7 @@ pub fn select(
         return by_numbers(&file, &settings, &["1".to_owned()]);
     }
     if selection.numbers.is_empty() {
-        by_values(&file, settings, selection)
+        by_values(&file, nominal.as_deref(), settings, selection)
     } else {
         by_numbers(&file, &settings, &selection.numbers)
     }
@@ -80,9 +89,7 @@ fn of_front(
     let name = folder.join(GOAL).display().to_string();
     let goal = DesignGoal::parse(&found.text(GOAL)?, &name, &[])?;
     let front = Results::of_file(&found, FRONT)?;
-    let (space, grid) = (goal.space.sweep(), goal.space.sweep().grid());
-    let nominal = space.at(&grid.case(0)).to_toml();
-    let designs = front.len();
+    let (nominal, grid, designs) = (nominal(&goal), goal.space.sweep().grid(), front.len());
     ensure!(
         !selection.numbers.is_empty(),
         "{}: holds a Pareto front of {designs} designs; choose with --design",
@@ -103,6 +110,12 @@ fn of_front(
         Ok(SelectedDesign { sweep, number, count: designs as u64, original: None })
     };
     selection.numbers.iter().map(select).collect()
+}
+
+/// The definition of one design of the space of a goal, which others are made of.
+fn nominal(goal: &DesignGoal) -> String {
+    let space = goal.space.sweep();
+    space.at(&space.grid().case(0)).to_toml()
 }
 
 fn by_numbers(
@@ -136,12 +149,18 @@ pub fn ranges(
     numbers.iter().map(range).collect()
 }
 
+/// The designs with values of their own, of the sweep in `file` or, where it is a goal, of its `nominal` design.
 fn by_values(
     file: &Path,
+    nominal: Option<&str>,
     mut settings: Vec<Setting>,
     selection: &Selection,
 ) -> anyhow::Result<Vec<SelectedDesign>> {
-    let written = Sweep::read(file, &settings)?;
+    let read = |settings: &[Setting]| match nominal {
+        Some(text) => Sweep::parse(text, &file.display().to_string(), settings),
+        None => Sweep::read(file, settings),
+    };
+    let written = read(&settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
         let option = format!("{option} {text}");
@@ -151,8 +170,8 @@ fn by_values(
         let values = values(text, axis).context(option.clone())?;
         settings.push(Setting::from_option(&option, &format!("designs.{key}={values}"))?);
     }
-    let sweep = Sweep::read(file, &settings)?;
-    let whole = Sweep::read(file, &[]).ok();
+    let sweep = read(&settings)?;
+    let whole = read(&[]).ok();
     let selected = |index| located(sweep.only(index), whole.as_ref());
     Ok((0..sweep.grid().len()).map(selected).collect())
 }

@@ -3,10 +3,11 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use clap::Args;
+use optimisation::DesignGoal;
 use results::{Completeness, RunFolder, VerifiedFolder, verify_record};
-use sweep::{InvalidSetting, Setting, Sweep};
+use sweep::{InvalidSetting, Setting, Sweep, read_entries};
 
 use crate::print::note;
 
@@ -45,12 +46,35 @@ pub fn settings(texts: &[String]) -> Result<Vec<Setting>, InvalidSetting> {
     texts.iter().map(|text| Setting::parse(text)).collect()
 }
 
+/// What a definition defines.
+pub enum Defined {
+    Sweep(Box<Sweep>),
+    Goal(Box<DesignGoal>),
+}
+
+/// What is said where a sweep is asked for and a goal is given.
+pub const IS_GOAL: &str = "has a [goal]: squama optimise searches for its best design, whose folder has one in optimum.toml";
+
+/// What is defined, with its settings. The file is read once: it may be a pipe.
+pub fn defined(definition: &Definition) -> anyhow::Result<Defined> {
+    let file = definition_file(&definition.path)?;
+    let (entries, name) =
+        (read_entries(&file, &settings(&definition.settings)?)?, file.display().to_string());
+    if entries.iter().any(|entry| entry.key == "goal") {
+        return Ok(Defined::Goal(Box::new(DesignGoal::of_entries(&entries, &name)?)));
+    }
+    Ok(Defined::Sweep(Box::new(Sweep::of_entries(&entries, &name)?)))
+}
+
 /// The sweep that is defined, with its settings.
 pub fn read(definition: &Definition) -> anyhow::Result<Sweep> {
-    let settings = settings(&definition.settings)?;
-    let sweep = Sweep::read(&definition_file(&definition.path)?, &settings)?;
-    question(&sweep);
-    Ok(sweep)
+    match defined(definition)? {
+        Defined::Sweep(sweep) => {
+            question(&sweep);
+            Ok(*sweep)
+        }
+        Defined::Goal(_) => bail!("{}: {IS_GOAL}", definition.path.display()),
+    }
 }
 
 /// Says what is strange about a definition though it is valid.

@@ -63,6 +63,32 @@ fn a_page_leaves_requirements_of_samples_out() {
     assert!(page.contains("coverage >= 0.5") && !page.contains("yield >="));
 }
 
+/// What a page of a goal copies is a command that takes the goal; without a design of its own there is none yet.
+#[test]
+fn a_goal_gives_designs_that_are_chosen_by_their_values() {
+    let place = Place::with(
+        "name = 'x'\nmeasures = ['coverage']\n[variables]\ngap_mm = { from = 0.2, to = 2 }\nlength_mm = { from = 1, to = 4 }\n\
+         thickness_mm = { from = 1, to = 2 }\n[designs]\nslant_deg = 60\n[goal]\nmaximize = 'coverage'",
+    );
+    let chosen = "--gap 0.5 --length 2 --set designs.thickness_mm=1.5 --out o";
+    let text = place.prints(&format!("design x.toml {chosen}"));
+    for value in ["gap_mm  0.5 ", "length_mm  2 ", "thickness_mm  1.5 ", "slant_deg  60 "] {
+        let is_there = |line: &str| {
+            line.split_whitespace()
+                .eq(value.split_whitespace().chain(line.split_whitespace().skip(2)))
+        };
+        assert!(text.lines().any(is_there), "{value} in {text}");
+    }
+    for command in ["design x.toml", "design x.toml --design 1", "run x.toml", "draw x.toml"] {
+        let text = place.refused(command);
+        assert!(text.contains("squama optimise searches"), "{command}: {text}");
+    }
+    insta::assert_snapshot!(place.prints("check x.toml"));
+    let json: serde_json::Value =
+        serde_json::from_str(&place.prints("check x.toml --json")).expect("JSON");
+    assert_eq!(json["variables"]["designs.gap_mm"], serde_json::json!([0.2, 2.0]));
+}
+
 #[test]
 fn help_shows_examples() {
     let place = Place::new();

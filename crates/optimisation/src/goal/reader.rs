@@ -54,7 +54,10 @@ impl DesignGoal {
     }
 
     /// The goal that `entries` of the file `name` hold.
-    fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
+    ///
+    /// # Errors
+    /// If they hold no goal.
+    pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
         let file = Place::File { name: name.into(), line: None };
         let definition = entries.iter().filter(|entry| entry.key != "goal").cloned().collect();
         let mut refused = Vec::new();
