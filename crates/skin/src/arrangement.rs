@@ -65,13 +65,24 @@ impl Arrangement {
         }
     }
 
-    /// The pairs of neighbours, from the left; one that stands for all where they are alike.
-    pub(crate) fn pairs(&self) -> Vec<Pair> {
+    /// The pairs of scales with up to `reach` pitches between them, by their left scale and then by their distance; of scales that are
+    /// alike one for each distance.
+    pub(crate) fn pairs(&self, reach: usize) -> Vec<Pair> {
         match self {
-            Self::Even(row) => vec![Pair::new(*row.scale(), row.pitch())],
-            Self::Uneven(row) => (0..row.gaps().len())
-                .map(|i| Pair::of([row.scales()[i], row.scales()[i + 1]], row.pitch(i)))
+            Self::Even(row) => (1..=reach)
+                .map(|pitches| Pair::new(*row.scale(), pitches as f64 * row.pitch()))
                 .collect(),
+            Self::Uneven(row) => {
+                let last = row.gaps().len();
+                let pair = |left: usize, right: usize| {
+                    let pitch = (left..right).map(|i| row.pitch(i)).sum();
+                    Pair::of([row.scales()[left], row.scales()[right]], pitch)
+                };
+                // Beyond the end of the row the last scale stands for those that are not there: nothing asks for these pairs.
+                let of =
+                    |left| (1..=reach).map(move |pitches| pair(left, last.min(left + pitches)));
+                (0..last).flat_map(of).collect()
+            }
         }
     }
 }

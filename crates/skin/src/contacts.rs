@@ -27,7 +27,7 @@ use crate::arrangement::Arrangement;
 /// The levels of a pair, each with a contact of its own.
 const LEVELS: [Level; 2] = [Level::Upper, Level::Lower];
 
-/// Constraints of the contacts between two neighbours under this law: their forces, and what they rub with.
+/// Constraints of the contacts between two scales under this law: their forces, and what they rub with.
 pub(crate) fn pair_constraints(law: &ContactLaw) -> usize {
     LEVELS.len() * slots(law)
 }
@@ -47,16 +47,19 @@ pub(crate) type SkinState = solver::State<SkinMode>;
 /// An equilibrium of a skin on its path.
 pub(crate) type SkinPoint = solver::Point<SkinMode>;
 
-/// The contacts between the neighbours of a row, and where their unknowns stand.
+/// The contacts between the scales of a row, and where their unknowns stand.
 ///
-/// Contact `2 i` is the upper, `2 i + 1` the lower one of the scales `i`, `i + 1`. Their forces are the
+/// Contact `2 k` is the upper, `2 k + 1` the lower one of pair `k`: of the scales `k`, `k + 1`, or, where scales that are not
+/// neighbours may meet, of each scale with as many on its right as it reaches, one after the other. Their forces are the
 /// constraints of the system: number `3 j` is the contact's own force `λ`, `3 j + 1` its partner's `λ'` and
 /// `3 j + 2` that of its flush contact, `λ''`. Where scales rub each contact has two more, its grip and its way.
 #[derive(Clone, Debug)]
 pub(crate) struct Contacts {
     arrangement: Arrangement,
-    /// The pairs of the arrangement, or one that stands for all.
+    /// The pairs of the arrangement, or one for each distance.
     pair_shapes: Vec<Pair>,
+    /// Scales on its right that a scale may meet: 1, its neighbour, unless a row was seen to need more.
+    reach: usize,
     law: ContactLaw,
     /// First of the three unknowns of each scale; `None` for a scale that is held.
     scales: Vec<Option<usize>>,
@@ -80,12 +83,25 @@ impl Contacts {
         forces: Vec<usize>,
     ) -> Self {
         let slots = slots(&law);
-        debug_assert_eq!(forces.len(), pair_constraints(&law) * scales.len().saturating_sub(1));
-        let pair_shapes = arrangement.pairs();
+        let neighbours = pair_constraints(&law) * scales.len().saturating_sub(1);
+        let reach = forces.len().checked_div(neighbours).unwrap_or(1);
+        debug_assert_eq!(forces.len(), reach * neighbours);
+        let pair_shapes = arrangement.pairs(reach);
         let ways = (0..forces.len()).filter(|number| number % slots == WAY);
         let growing = ways.collect();
         let (relative, moved) = (false, Vec::new());
-        Self { arrangement, pair_shapes, law, scales, relative, slots, forces, growing, moved }
+        Self {
+            arrangement,
+            pair_shapes,
+            reach,
+            law,
+            scales,
+            relative,
+            slots,
+            forces,
+            growing,
+            moved,
+        }
     }
 
     /// The contacts of a row whose scales are each placed in the frame of their left neighbour.
@@ -146,9 +162,14 @@ impl Contacts {
         first..first + pair
     }
 
-    /// The left scale of the pair that a constraint belongs to.
-    pub(crate) fn left_of(&self, constraint: usize) -> usize {
-        Self::left(constraint / self.slots)
+    /// The left and the right scale of the pair that a constraint belongs to.
+    pub(crate) fn scales_of(&self, constraint: usize) -> [usize; 2] {
+        self.ends(Self::pair_of(constraint / self.slots))
+    }
+
+    /// Scales on its right that a scale may meet.
+    pub(crate) fn reach(&self) -> usize {
+        self.reach
     }
 
     /// Which corner meets which edge where a constraint acts; `None` if the contact is open.
@@ -192,19 +213,35 @@ impl Contacts {
         counts.sum()
     }
 
-    /// Whether the scales of each pair touch, along the row.
-    pub(crate) fn touching(state: &SkinState) -> impl Iterator<Item = bool> + '_ {
-        let pairs = state.mode.chunks(LEVELS.len());
-        pairs.map(|contacts| contacts.iter().any(|contact| *contact != CornerContact::Open))
+    /// Number of scales that touch another one.
+    pub(crate) fn engaged(&self, state: &SkinState) -> usize {
+        let mut touch = vec![false; self.scales.len()];
+        for scale in Self::touching(&state.mode).flat_map(|pair| self.ends(pair)) {
+            touch[scale] = true;
+        }
+        touch.into_iter().filter(|&touches| touches).count()
     }
 
-    /// Whether the scales of the first and those of the last pair touch.
-    pub(crate) fn touching_at_ends(state: &SkinState) -> [bool; 2] {
-        let (first, last) = (state.mode.first_chunk::<2>(), state.mode.last_chunk::<2>());
-        let touch = |contacts: &[CornerContact; 2]| {
+    /// The pairs that touch, from the left.
+    fn touching(mode: &[CornerContact]) -> impl Iterator<Item = usize> {
+        let pairs = mode.chunks_exact(LEVELS.len()).enumerate();
+        let closed = |contacts: &[CornerContact]| {
             contacts.iter().any(|contact| *contact != CornerContact::Open)
         };
-        [first, last].map(|pair| pair.is_some_and(touch))
+        pairs.filter(move |(_, contacts)| closed(contacts)).map(|(pair, _)| pair)
+    }
+
+    /// Whether the first and whether the last scale touch another one.
+    pub(crate) fn touching_at_ends(&self, state: &SkinState) -> [bool; 2] {
+        let last = self.scales.len() - 1;
+        // Only pairs that begin this near to an end can end there.
+        let count = LEVELS.len() * self.reach;
+        let at_start = &state.mode[..count.min(state.mode.len())];
+        let begin = state.mode.len().saturating_sub(count * self.reach);
+        let before = begin / LEVELS.len();
+        let mut at_end = Self::touching(&state.mode[begin..]);
+        let ends_last = |pair| self.ends(before + pair)[1] == last;
+        [Self::touching(at_start).next().is_some(), at_end.any(ends_last)]
     }
 
     /// Whether a side and a neighbour's end lie flush anywhere.
@@ -266,6 +303,9 @@ impl Contacts {
             let value = self.slot_condition(state, &state.z, contact, slot);
             return value.unwrap_or(HOLDS);
         }
+        if !self.is_whole(Self::pair_of(contact)) {
+            return HOLDS;
+        }
         let poses = self.pair_poses(&state.z, contact);
         let conditions = state.mode[contact].resting_conditions(&self.corners(contact, &poses));
         conditions[slot].map_or(HOLDS, |condition| condition.value)
@@ -274,6 +314,9 @@ impl Contacts {
     /// Derivative of the condition of a force along a direction; zero if there is no such condition.
     pub(crate) fn slope(&self, state: &SkinState, constraint: usize, direction: &[f64]) -> f64 {
         let (contact, slot) = self.contact_of(constraint);
+        if !self.is_whole(Self::pair_of(contact)) {
+            return 0.0;
+        }
         if slot >= FORCES {
             return self.slot_slope(state, direction, contact, slot);
         }
@@ -328,35 +371,50 @@ impl Contacts {
 
     /// Shows each contact and its corners, from the left.
     fn for_each(&self, state: &SkinState, mut show: impl FnMut(usize, &Corners)) {
-        for (left, poses) in self.pairs(&state.z) {
-            for contact in Self::contacts_of(left) {
+        for (pair, poses) in self.pairs(&state.z) {
+            for contact in Self::contacts_of(pair) {
                 show(contact, &self.corners(contact, &poses));
             }
         }
     }
 
-    /// The contacts of the pair whose left scale is `left`.
-    pub(crate) fn contacts_of(left: usize) -> std::ops::Range<usize> {
-        LEVELS.len() * left..LEVELS.len() * (left + 1)
+    /// The contacts of a pair.
+    fn contacts_of(pair: usize) -> std::ops::Range<usize> {
+        LEVELS.len() * pair..LEVELS.len() * (pair + 1)
     }
 
-    /// The left scale of the pair that a contact belongs to.
-    fn left(contact: usize) -> usize {
+    /// Number of the contacts whose left scale is one of the first so many.
+    pub(crate) fn contacts_before(&self, left: usize) -> usize {
+        LEVELS.len() * self.reach * left
+    }
+
+    /// The pair that a contact belongs to.
+    fn pair_of(contact: usize) -> usize {
         contact / LEVELS.len()
     }
 
-    /// The pair whose left scale is `left`.
-    fn pair(&self, left: usize) -> &Pair {
+    /// The left and the right scale of a pair.
+    fn ends(&self, pair: usize) -> [usize; 2] {
+        if self.reach == 1 {
+            // Asked for all the time, and of nearly every row.
+            return [pair, pair + 1];
+        }
+        let left = pair / self.reach;
+        [left, left + 1 + pair % self.reach]
+    }
+
+    fn pair(&self, pair: usize) -> &Pair {
         match self.pair_shapes.as_slice() {
             [pair] => pair,
-            pairs => &pairs[left],
+            shapes if shapes.len() == self.reach => &shapes[pair % self.reach],
+            shapes => &shapes[pair],
         }
     }
 
     /// The two corners of a contact.
     fn corners<'a>(&'a self, contact: usize, poses: &'a [Pose; 2]) -> Corners<'a> {
         let level = LEVELS[contact % LEVELS.len()];
-        Corners::new(level, self.pair(Self::left(contact)), poses.each_ref())
+        Corners::new(level, self.pair(Self::pair_of(contact)), poses.each_ref())
     }
 
     /// Unknowns of the forces of a contact.
@@ -372,34 +430,51 @@ impl Contacts {
     /// Poses of the pair of a contact, in the frame in which the left scale is placed or, in a row of relative
     /// poses, in the frame of the left scale.
     fn pair_poses(&self, z: &[f64], contact: usize) -> [Pose; 2] {
-        let left = Self::left(contact);
-        [self.left_pose(z, left), self.pose(z, left + 1)]
+        let [left, right] = self.ends(Self::pair_of(contact));
+        [self.left_pose(z, left), self.pose(z, right)]
     }
 
     fn left_pose(&self, z: &[f64], scale: usize) -> Pose {
         if self.relative { Pose::new(0.0, 0.0, 0.0) } else { self.pose(z, scale) }
     }
 
-    /// Poses of the scales `i`, `i + 1` for every pair, in order.
+    /// Poses of the scales of every pair, in order.
     fn pairs<'a>(&'a self, z: &'a [f64]) -> impl Iterator<Item = (usize, [Pose; 2])> + 'a {
-        let mut left = self.left_pose(z, 0);
-        (1..self.scales.len()).map(move |i| {
-            let right = self.pose(z, i);
-            let next = if self.relative { left } else { right };
-            (i - 1, [std::mem::replace(&mut left, next), right])
-        })
+        let mut turned = None;
+        self.whole_pairs().map(move |pair| (pair, self.poses_of(z, pair, &mut turned)))
+    }
+
+    /// The pairs of which both scales are there: of the last scales some would reach beyond the end.
+    fn whole_pairs(&self) -> impl Iterator<Item = usize> {
+        (0..self.reach * (self.scales.len() - 1)).filter(|&pair| self.is_whole(pair))
+    }
+
+    fn is_whole(&self, pair: usize) -> bool {
+        self.reach == 1 || self.ends(pair)[1] < self.scales.len()
+    }
+
+    /// Poses of a pair. The right one is kept in `turned`: a scale that is the left one of the next pair is turned once.
+    fn poses_of(&self, z: &[f64], pair: usize, turned: &mut Option<(usize, Pose)>) -> [Pose; 2] {
+        let [left, right] = self.ends(pair);
+        let of_left = match turned {
+            Some((scale, pose)) if *scale == left && !self.relative => *pose,
+            _ => self.left_pose(z, left),
+        };
+        let of_right = self.pose(z, right);
+        *turned = Some((right, of_right));
+        [of_left, of_right]
     }
 
     /// The unknowns that the coordinates of a contact's pair are made of. In a row of relative poses the rotation of
     /// the right scale has a second part, that of the frame.
     fn parts(&self, contact: usize) -> [Option<Part>; COORDINATES + 1] {
-        let pair = Self::left(contact);
-        let left = self.scales[pair].filter(|_| !self.relative);
-        let right = self.scales[pair + 1];
+        let ends = self.ends(Self::pair_of(contact));
+        let left = self.scales[ends[0]].filter(|_| !self.relative);
+        let right = self.scales[ends[1]];
         std::array::from_fn(|k| match k {
             0..3 => Some(Part::new(left? + k, k)),
             3..COORDINATES => Some(Part::new(right? + k - 3, k)),
-            _ => Some(Part::new(self.frame(pair + 1)?, COORDINATES - 1).opposite()),
+            _ => Some(Part::new(self.frame(ends[1])?, COORDINATES - 1).opposite()),
         })
     }
 }

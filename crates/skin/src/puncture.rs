@@ -58,6 +58,9 @@ const STRAIGHT_DEG: f64 = 1e-6;
 /// Longest row that [`RowLength::Auto`] takes.
 pub const LONGEST_ROW: usize = 4001;
 
+/// How many pitches apart scales may be that meet. None were seen beyond 3, and each pitch takes another six unknowns of every scale.
+const FARTHEST_CONTACT: usize = 8;
+
 /// Number of scales in the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowLength {
@@ -351,18 +354,19 @@ impl<'a> Problem<'a> {
     }
 
     fn solve(&self) -> Result<Puncture, OutOfRange> {
-        let (start, longest) = self.start()?;
-        let puncture = self.follow(start, longest, &[], &[])?.puncture(self.parameters.unload);
+        let puncture = self.follow(&[], &[])?.puncture(self.parameters.unload);
         Ok(puncture.with_places(self.loaded_places()?))
     }
 
-    /// The system with which the path begins, and the longest row that it may grow to.
-    fn start(&self) -> Result<(Chain, usize), OutOfRange> {
+    /// The system with which the path begins, in which a scale may meet as many on its right as `contact_reach` says, and the longest
+    /// row that it may grow to.
+    fn start(&self, contact_reach: usize) -> Result<(Chain, usize), OutOfRange> {
+        let contacts = contact_reach * pair_constraints(&self.law);
         let law = self.parameters.substrate_law;
         let first = |far: &FarField| {
             let layout = Layout::first(far, self.stiffness.neighbours.len(), law);
             let layout = layout.at_least(self.reach().map_or(0, |reach| reach + 1));
-            Layout { needle: self.needle_unknowns(), pair: pair_constraints(&self.law), ..layout }
+            Layout { needle: self.needle_unknowns(), contacts, ..layout }
         };
         let Some(whole) = self.whole() else {
             let first = self.endless.as_ref().map(first);
@@ -371,7 +375,7 @@ impl<'a> Problem<'a> {
         // Bars are as good as springs to a part of the displacements only, and far couplings have no closed form before an end.
         let far = self.far_field(Some(1)).filter(|_| law == SubstrateLaw::Linear);
         let layout = far.map_or(whole, |far| first(&far).within(whole));
-        Ok((self.part(layout)?, whole.scales()))
+        Ok((self.part(Layout { contacts, ..layout })?, whole.scales()))
     }
 
     /// Unknowns of the needle behind the load.
@@ -395,16 +399,38 @@ impl<'a> Problem<'a> {
             RowLength::Scales(scales) => {
                 // Of an even number one more stands on the right.
                 let left = (scales - 1) / 2;
-                let (needle, pair) = (self.needle_unknowns(), pair_constraints(&self.law));
-                Some(Layout { left, right: scales - 1 - left, needle, pair })
+                let (needle, contacts) = (self.needle_unknowns(), 0);
+                Some(Layout { left, right: scales - 1 - left, needle, contacts })
             }
             RowLength::Auto => None,
         }
     }
 
-    /// Follows the path of a row until it ends, and notes where it comes to `places`. A part of a longer row may grow up to the
-    /// `longest`.
+    /// Follows the path until it ends, and notes where it comes to `places`.
+    ///
+    /// Each scale may meet its neighbours. Where another one is found to have come into it, which a row does once in a hundred at most, the
+    /// path is followed again with contacts as far as that: with them from the start each path would take several times as long.
     fn follow(
+        &self,
+        functions: &[PathFunction<Chain>],
+        places: &[At],
+    ) -> Result<Followed, OutOfRange> {
+        let mut contact_reach = 1;
+        loop {
+            let (start, longest) = self.start(contact_reach)?;
+            let followed = self.follow_row(start, longest, functions, places)?;
+            let path = &followed.path;
+            let beyond = || path.system().contacts.meeting_beyond(&path.point().state);
+            let beyond = (followed.status == Status::Interpenetration).then(beyond).flatten();
+            match beyond.filter(|&pitches| pitches <= FARTHEST_CONTACT) {
+                Some(pitches) => contact_reach = pitches,
+                None => return Ok(followed),
+            }
+        }
+    }
+
+    /// Follows the path of a row until it ends. A part of a longer row may grow up to the `longest`.
+    fn follow_row(
         &self,
         chain: Chain,
         longest: usize,
@@ -428,7 +454,7 @@ impl<'a> Problem<'a> {
             // Not even the first step tilts a scale that is upright and loaded in its middle.
             Status::Stopped(Stop::Singular) if watch.record.path.len() == 1 => Status::Untilted,
             Status::Complete if is_untilted => Status::Untilted,
-            Status::Stopped(Stop::NoConvergence) if is_untilted && is_straight() => {
+            Status::Stopped(Stop::NoConvergence | Stop::Jumps) if is_untilted && is_straight() => {
                 Status::Untilted
             }
             status => ending::judged(status, &watch.record.path),

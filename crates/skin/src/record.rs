@@ -16,6 +16,8 @@ pub struct ContactEvent<P> {
     /// Left scale of the pair: in a row 0 is the punctured scale, in a strip the first one, and numbers rise to the
     /// right. `None` where every pair does the same.
     pub left_scale: Option<i64>,
+    /// Right scale of the pair: in nearly every row the next one.
+    pub right_scale: Option<i64>,
     /// Which corner meets which edge.
     pub corner_edge: CornerEdge,
     /// The change of the contact.
@@ -211,9 +213,11 @@ impl<S: Skin> Record<S> {
         }
         let contacts = skin.contacts();
         let corner_edge = |mode| contacts.corner_edge(mode, change.constraint);
+        let [left, right] = contacts.scales_of(change.constraint);
         Some(ContactEvent {
             point,
-            left_scale: skin.number(contacts.left_of(change.constraint)),
+            left_scale: skin.number(left),
+            right_scale: skin.number(right),
             // A contact that has opened had its corner and edge before.
             corner_edge: corner_edge(&after.mode).or_else(|| corner_edge(&before.mode))?,
             change: ContactChange::of(contacts, after, change),

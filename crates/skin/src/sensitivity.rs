@@ -221,9 +221,13 @@ impl<S: Skin> Linearised<'_, S> {
         let contacts = self.system.contacts();
         let edge = |state: &SkinState| contacts.corner_edge(&state.mode, change.constraint);
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
-        let scale = self.system.number(contacts.left_of(change.constraint));
-        let scale = scale.map_or(String::new(), |scale| format!(" right of scale {scale}"));
-        format!("{edge}{scale} {}", ContactChange::of(contacts, after, change).name())
+        let [left_index, right_index] = contacts.scales_of(change.constraint);
+        let scales = match (self.system.number(left_index), self.system.number(right_index)) {
+            (Some(left), _) if right_index == left_index + 1 => format!(" right of scale {left}"),
+            (Some(left), Some(right)) => format!(" of scales {left} and {right}"),
+            _ => String::new(),
+        };
+        format!("{edge}{scales} {}", ContactChange::of(contacts, after, change).name())
     }
 }
 

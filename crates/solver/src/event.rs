@@ -15,6 +15,9 @@ const FARTHER: f64 = 1.5;
 /// Guards as close to zero as this at an event may change sides with the one that was located.
 const TOGETHER: f64 = 1e-10;
 
+/// A guard that changes more slowly than this does not change to first order: rates are near 1, and round-off of them near 1e-11.
+const NO_RATE: f64 = 1e-6;
+
 /// The place of a load extremum is known to this part of its bracket, after at most so many rounds.
 const CLOSE: f64 = 1e-9;
 const MAX_ROUNDS: usize = 100;
@@ -167,6 +170,9 @@ impl<S: System> Path<S> {
             // It has just changed sides, or is the one whose condition a contact has passed to, and the path leaves in the
             // direction in which it stays valid: a step that ends otherwise was too long. To look for its zero would lead back
             // to where the path is, and from there the way that it came.
+            let is_sliding = self.system.companions(constraint).len() > 1;
+            let is_at_no_rate = self.slopes[constraint].abs() < NO_RATE;
+            self.undone += usize::from(changed && is_sliding && is_at_no_rate);
             return Err(NewtonFailure::TooManyIterations);
         }
         // Each round finds an event before the last one, so as many rounds as constraints do.

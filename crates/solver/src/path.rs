@@ -17,6 +17,10 @@ use crate::watch;
 /// parameter would there be more than twenty times as long along the path.
 const DRIVES: f64 = 0.05;
 
+/// So many steps, each a third of the one before, tell that a change is undone at any distance: a step that was too long is short enough
+/// before.
+const UNDONE: usize = 5;
+
 /// An equilibrium of the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point<M = ()> {
@@ -74,6 +78,8 @@ pub struct Path<S: System> {
     pub(crate) is_unique: bool,
     /// How often an event of constraints that rub has turned the path round since it was farthest.
     pub(crate) reversals: usize,
+    /// How often a step from `point` has undone what had just changed there at no rate: sliding that stopped as its rate vanished.
+    pub(crate) undone: usize,
     /// The largest value of the control parameter so far.
     farthest: f64,
     /// The sign of a load that only pushes: the path ends where it comes back to zero.
@@ -111,6 +117,7 @@ impl<S: System> Path<S> {
             slopes: Vec::new(),
             is_unique: true,
             reversals: 0,
+            undone: 0,
             farthest: 0.0,
             pushes: None,
             is_back: false,
@@ -249,6 +256,7 @@ impl<S: System> Path<S> {
         let (Self { system, guards, slopes, .. }, Point { state, leaving, .. }) =
             (&mut *self, &point);
         Newton::guard_slopes(system, state, leaving, guards, slopes);
+        self.undone = 0;
         self.point = Arc::new(point);
     }
 
@@ -349,7 +357,12 @@ impl<S: System> Path<S> {
     fn shorten(&mut self, distance: f64, stop: Stop) -> Result<(), Stop> {
         // A third of what was tried, which the target may have made shorter than the step.
         self.step = distance / 3.0;
-        if self.step < self.settings.min_step { Err(stop) } else { Ok(()) }
+        if self.step >= self.settings.min_step {
+            return Ok(());
+        }
+        // Sliding that has come to a stop may neither go on nor stick: to second order, which is what is left where its rate vanishes,
+        // both are wrong. Then no equilibrium is near that would lead on.
+        Err(if self.undone >= UNDONE { Stop::Jumps } else { stop })
     }
 
     fn adapt(&mut self, iterations: usize, smooth: bool) {
@@ -414,7 +427,7 @@ impl<S: System> Path<S> {
         let Candidate { mut state, direction: arriving, mut event, .. } = candidate;
         if let Some(Event::Changed(changes)) = &event
             // What ends the path is not let go or closed: there is no direction in which it would go on.
-            && changes.iter().any(|change| self.system.ends(change.constraint))
+            && changes.iter().any(|change| self.system.ends(&state, change.constraint))
         {
             event = Some(Event::Target);
         }

@@ -62,8 +62,8 @@ pub trait System {
         1.0
     }
 
-    /// Whether the path ends where this constraint would change sides.
-    fn ends(&self, _constraint: usize) -> bool {
+    /// Whether the path ends at a state in which this constraint would change sides.
+    fn ends(&self, _state: &State<Self::Mode>, _constraint: usize) -> bool {
         false
     }
 

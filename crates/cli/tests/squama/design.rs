@@ -107,7 +107,7 @@ fn writes_its_course() {
     };
     let course = COURSE.split_whitespace().filter(|file| file.contains(".csv"));
     insta::assert_snapshot!(course.map(header).collect::<String>(), @r"
-    events.csv: displacement,force,tilt_deg,left_scale,kind,change,drop
+    events.csv: displacement,force,tilt_deg,left_scale,right_scale,kind,change,drop
     flexure_events.csv: curvature,moment,end_rotation_deg,gap,kind,change
     flexure_path.csv: curvature,moment,stiffness,end_rotation_deg,bending_energy,axial_energy,contact_energy,contacts,membrane_strain
     flexure_scales.csv: scale,displacement_x,displacement_y,rotation_deg

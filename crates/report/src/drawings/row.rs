@@ -414,8 +414,7 @@ fn window(row: &Row, states: &[RowSnapshot]) -> (i64, i64) {
     let touching = states.iter().flat_map(|state| {
         let first = state.scales.first().map_or(0, |scale| scale.scale);
         state.contacts.iter().flat_map(move |contact| {
-            let left = first + contact.left as i64;
-            [left, left + 1]
+            [contact.left, contact.right].map(|scale| first + scale as i64)
         })
     });
     let (first, last) =

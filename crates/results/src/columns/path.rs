@@ -140,6 +140,14 @@ impl PunctureEvent {
         }
     }
 
+    fn right_scale(&self) -> Option<i64> {
+        match self {
+            Self::Contact(event) => event.right_scale,
+            Self::Snap(_) => None,
+            Self::Fold(fold) => Some(fold.left_scale + 1),
+        }
+    }
+
     fn kind(&self) -> Option<&'static str> {
         match self {
             Self::Contact(event) => Some(event.corner_edge.name()),
@@ -175,6 +183,9 @@ pub static EVENTS: &[Column<PunctureEvent>] = &[
     }),
     Column::new("left_scale", "-", "left scale of the pair, 0 is the punctured one", |e| {
         e.left_scale().into()
+    }),
+    Column::new("right_scale", "-", "right scale of the pair, nearly always the next one", |e| {
+        e.right_scale().into()
     }),
     Column::new("kind", "-", "which corner meets which edge; gap between two bases", |e| {
         e.kind().into()

@@ -1,6 +1,6 @@
 //! What the closed contacts of a row add to its equations and to their tangent.
 
-use contact::{COORDINATES, CornerContact, CornerResponse, Equation, FORCES, Pose};
+use contact::{COORDINATES, CornerContact, CornerResponse, Equation, FORCES};
 use solver::{Residual, Tangent};
 
 use super::rubbing::Rub;
@@ -14,17 +14,13 @@ impl Contacts {
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        // A scale that touches both neighbours is turned once.
-        let mut turned: Option<(usize, Pose)> = None;
-        for (left, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
+        let mut turned = None;
+        for (pair, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
             if modes.iter().all(|mode| *mode == CornerContact::Open) {
                 continue;
             }
-            let known = turned.filter(|(scale, _)| *scale == left && !self.relative);
-            let of_left = known.map_or_else(|| self.left_pose(&state.z, left), |(_, pose)| pose);
-            let poses = [of_left, self.pose(&state.z, left + 1)];
-            turned = Some((left + 1, poses[1]));
-            for (contact, mode) in Self::contacts_of(left).zip(modes) {
+            let poses = self.poses_of(&state.z, pair, &mut turned);
+            for (contact, mode) in Self::contacts_of(pair).zip(modes) {
                 if *mode == CornerContact::Open {
                     continue;
                 }
@@ -48,10 +44,10 @@ impl Contacts {
             }
         }
         if self.rub() {
-            for left in 0..self.scales.len() - 1 {
-                if Self::contacts_of(left).any(|contact| state.mode.rubs[contact] != Rub::None) {
-                    let poses = [self.left_pose(&state.z, left), self.pose(&state.z, left + 1)];
-                    self.add_friction(state, left, &poses, residual, matrix);
+            for pair in self.whole_pairs() {
+                if Self::contacts_of(pair).any(|contact| state.mode.rubs[contact] != Rub::None) {
+                    let poses = self.poses_of(&state.z, pair, &mut None);
+                    self.add_friction(state, pair, &poses, residual, matrix);
                 }
             }
         }
@@ -59,8 +55,8 @@ impl Contacts {
 
     /// The first unknowns of the scales of a contact's pair, where its coordinates are unknowns, three of each scale in succession.
     pub(super) fn whole_pair(&self, contact: usize) -> Option<[usize; 2]> {
-        let left = Self::left(contact);
-        let scales = [self.scales[left]?, self.scales[left + 1]?];
+        let [left, right] = self.ends(Self::pair_of(contact));
+        let scales = [self.scales[left]?, self.scales[right]?];
         (!self.relative).then_some(scales)
     }
 

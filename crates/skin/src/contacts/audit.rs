@@ -61,12 +61,12 @@ impl Contacts {
         let contacts = state.mode.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
             let edges = match *mode {
-                CornerContact::Open | CornerContact::Corner(_) => [None, None],
+                CornerContact::Open | CornerContact::Corner(_) => return false,
                 CornerContact::Edge(edge) => [Some(edge), None],
                 CornerContact::Flush(edge) => [Some(edge), edge.flush()],
             };
             let [left, right] = self.pair_poses(&state.z, contact);
-            let pair = self.pair(Self::left(contact));
+            let pair = self.pair(Self::pair_of(contact));
             let feet = edges.into_iter().flatten().map(|edge| pair.gap(edge, &left, &right).foot);
             feet.into_iter().any(|foot| !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot))
         })
@@ -95,32 +95,48 @@ impl Contacts {
 
     /// Whether any two scales overlap by more than the approach of their contacts.
     pub(crate) fn interpenetrate(&self, state: &SkinState) -> bool {
+        self.overlapping(state).max().is_some()
+    }
+
+    /// How many pitches apart scales are that have come into each other without a contact; `None` of neighbours, and where a
+    /// contact is so soft that a scale is pushed half through its neighbour: what it meets behind it is not to be trusted either.
+    pub(crate) fn meeting_beyond(&self, state: &SkinState) -> Option<usize> {
+        let scale = self.arrangement.scale(0);
+        let half_breadth = scale.half_base() * scale.slant().cos();
+        let mut contacts = 0..state.mode.len();
+        let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
+        self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)
+    }
+
+    /// How many pitches apart scales are that overlap by more than the approach of their contacts, of each two.
+    fn overlapping(&self, state: &SkinState) -> impl Iterator<Item = usize> {
         let standing = |i| (self.arrangement.scale(i), self.arrangement.place(i));
-        overlaps(standing, &self.poses(&state.z)).iter().any(|overlap| {
-            let neighbours = overlap.right == overlap.left + 1;
-            let allowed = if neighbours { self.pair_approach(state, overlap.left) } else { 0.0 };
-            overlap.depth > allowed + AUDIT_TOLERANCE
+        let found = overlaps(standing, &self.poses(&state.z));
+        found.into_iter().filter_map(|Overlap { left, right, depth }| {
+            let pitches = right - left;
+            let pair = self.reach * left + pitches - 1;
+            let allowed = if pitches <= self.reach { self.pair_approach(state, pair) } else { 0.0 };
+            (depth > allowed + AUDIT_TOLERANCE).then_some(pitches)
         })
     }
 
     /// Whether any two neighbours overlap by more than the approach of their contacts. A strip that is bent to a ring
     /// may meet its own other end.
     pub(crate) fn neighbours_interpenetrate(&self, state: &SkinState) -> bool {
-        self.pairs(&state.z).any(|(left, poses)| {
-            let allowed = self.pair_approach(state, left) + AUDIT_TOLERANCE;
-            self.pair_overlaps(left, &poses).iter().any(|overlap| overlap.depth > allowed)
+        self.pairs(&state.z).any(|(pair, poses)| {
+            let allowed = self.pair_approach(state, pair) + AUDIT_TOLERANCE;
+            self.pair_overlaps(pair, &poses).iter().any(|overlap| overlap.depth > allowed)
         })
     }
 
-    /// Overlap of the pair whose left scale is `left`.
-    fn pair_overlaps(&self, left: usize, poses: &[Pose; 2]) -> Vec<Overlap> {
-        let pair = self.pair(left);
+    fn pair_overlaps(&self, pair: usize, poses: &[Pose; 2]) -> Vec<Overlap> {
+        let pair = self.pair(pair);
         let standing = |i: usize| (pair.scales()[i], i as f64 * pair.pitch());
         overlaps(standing, poses)
     }
 
     /// The largest approach of the contacts of a pair.
-    fn pair_approach(&self, state: &SkinState, left: usize) -> f64 {
-        Self::contacts_of(left).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
+    fn pair_approach(&self, state: &SkinState, pair: usize) -> f64 {
+        Self::contacts_of(pair).map(|contact| self.approach(state, contact)).fold(0.0, f64::max)
     }
 }

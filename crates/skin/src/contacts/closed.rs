@@ -5,11 +5,13 @@ use geometry::Vec2;
 
 use super::{Contacts, SkinState};
 
-/// A closed contact between neighbours.
+/// A closed contact between two scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     /// The left scale of the pair, from 0 at the left end of the row.
     pub left: usize,
+    /// The right scale of the pair: the next one in nearly every row.
+    pub right: usize,
     /// Which corner meets which edge.
     pub corner_edge: CornerEdge,
     /// The corner that touches, deformed, from the node of the first scale at rest; over `t`.
@@ -26,7 +28,8 @@ impl Contacts {
     /// Every closed contact, from the left; where poses are relative, as the left scale of its pair
     /// sees it.
     pub(crate) fn closed_contacts(&self, state: &SkinState) -> Vec<Contact> {
-        let contacts = 0..state.mode.len();
+        let is_closed = |&contact: &usize| state.mode[contact] != CornerContact::Open;
+        let contacts = (0..state.mode.len()).filter(is_closed);
         contacts.flat_map(|contact| self.closed_at(state, contact)).flatten().collect()
     }
 
@@ -43,8 +46,8 @@ impl Contacts {
         [(own, on_corners), (flush, on_flush)].map(|(corner_edge, force)| {
             let corner_edge = corner_edge?;
             let point = self.corner(&state.z, contact, corner_edge).into();
-            let left = Self::left(contact);
-            Some(Contact { left, corner_edge, point, force: force.into(), approach, slips })
+            let [left, right] = self.ends(Self::pair_of(contact));
+            Some(Contact { left, right, corner_edge, point, force: force.into(), approach, slips })
         })
     }
 
@@ -52,13 +55,13 @@ impl Contacts {
     fn corner(&self, z: &[f64], contact: usize, corner_edge: CornerEdge) -> Vec2 {
         let of_right = usize::from(!corner_edge.corner_is_left());
         let pose = self.pair_poses(z, contact)[of_right];
-        let left = Self::left(contact);
-        let pair = self.pair(left);
+        let pair = Self::pair_of(contact);
+        let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
         let place = if self.relative {
             of_right as f64 * pair.pitch()
         } else {
-            self.arrangement.place(left + of_right)
+            self.arrangement.place(ends[of_right])
         };
         Vec2::new(place, 0.0) + pose.displacement + arm
     }

@@ -203,12 +203,12 @@ impl Contacts {
     pub(super) fn add_friction(
         &self,
         state: &SkinState,
-        left: usize,
+        pair: usize,
         poses: &[Pose; 2],
         residual: &mut Residual,
         matrix: &mut impl Tangent,
     ) {
-        for contact in Self::contacts_of(left) {
+        for contact in Self::contacts_of(pair) {
             let Some(sliding) = self.friction_of(state, contact, poses) else { continue };
             let Sliding { rub, traction, by_pressure, slide } = sliding;
             let [grip, way] = [GRIP, WAY].map(|slot| self.unknown(contact, slot));
@@ -390,7 +390,7 @@ impl Contacts {
     }
 
     fn slide(&self, edge: CornerEdge, contact: usize, [left, right]: &[Pose; 2]) -> Gap {
-        self.pair(Self::left(contact)).slide(edge, left, right)
+        self.pair(Self::pair_of(contact)).slide(edge, left, right)
     }
 
     /// Unknown of a constraint of a contact.
@@ -410,7 +410,7 @@ impl Contacts {
 
     /// The other contact of a pair.
     pub(super) fn beside(contact: usize) -> usize {
-        let first = Self::contacts_of(Self::left(contact)).start;
+        let first = Self::contacts_of(Self::pair_of(contact)).start;
         2 * first + LEVELS.len() - 1 - contact
     }
 

@@ -38,9 +38,9 @@ impl Contacts {
     /// Number of contacts whose corners stand on a ridge of the energy.
     pub(crate) fn ridges(&self, state: &SkinState) -> usize {
         let is_ridge = |(contact, mode): &(usize, &CornerContact)| {
-            let poses = self.pair_poses(&state.z, *contact);
+            let at_corner = || self.pair_poses(&state.z, *contact);
             matches!(mode, CornerContact::Corner(_))
-                && mode.is_on_ridge(&self.corners(*contact, &poses))
+                && mode.is_on_ridge(&self.corners(*contact, &at_corner()))
         };
         state.mode.iter().enumerate().filter(is_ridge).count()
     }

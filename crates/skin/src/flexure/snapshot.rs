@@ -81,6 +81,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
 fn placed(frame: &Frame, left: usize, contact: &Contact) -> Contact {
     Contact {
         left,
+        right: left + 1,
         point: frame.place(contact.point.into()).into(),
         force: frame.turn(contact.force.into()).into(),
         ..*contact

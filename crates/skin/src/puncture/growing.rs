@@ -13,7 +13,7 @@ use substrate::{FarField, SubstrateLaw};
 use super::Problem;
 use super::surroundings::Reach;
 use super::system::{Chain, Layout};
-use crate::contacts::{Contacts, SkinPoint, SkinState};
+use crate::contacts::{SkinPoint, SkinState};
 
 /// A path of a part of a row, which grows as far as the deformation reaches.
 ///
@@ -128,7 +128,7 @@ impl Layout {
             SubstrateLaw::Linear => least,
             SubstrateLaw::NeoHookean => least + decayed_beyond(far),
         };
-        Self { left: side, right: side, needle: 0, pair: 0 }
+        Self { left: side, right: side, ..Self::default() }
     }
 
     /// At least so many scales on each side.
@@ -166,7 +166,7 @@ impl Chain {
         let constraint = |number: usize| {
             // Those of the needle follow those of all contacts.
             if number < contacts[0] {
-                number + self.layout.pair * added
+                number + self.layout.contacts * added
             } else {
                 number - contacts[0] + contacts[1]
             }
@@ -184,15 +184,12 @@ impl Chain {
         let mut state = SkinState::at_rest(self);
         state.z = unknowns(&point.state.z);
         let (of_contacts, of_needle) = point.state.active.split_at(contacts[0]);
-        copy_to(&mut state.active, self.layout.pair * added, of_contacts);
+        copy_to(&mut state.active, self.layout.contacts * added, of_contacts);
         copy_to(&mut state.active, contacts[1], of_needle);
-        copy_to(&mut state.mode, Contacts::contacts_of(added).start, &point.state.mode);
+        let before = self.contacts.contacts_before(added);
+        copy_to(&mut state.mode, before, &point.state.mode);
         if self.contacts.rub() {
-            copy_to(
-                &mut state.mode.rubs,
-                Contacts::contacts_of(added).start,
-                &point.state.mode.rubs,
-            );
+            copy_to(&mut state.mode.rubs, before, &point.state.mode.rubs);
         }
         state.mode.needle = point.state.mode.needle.clone();
         SkinPoint {
@@ -212,8 +209,8 @@ impl Chain {
             let scale = scale.cast_signed() - added.cast_signed();
             extended[at..at + 3].copy_from_slice(&shorter.displacement_anywhere(z, scale));
         }
-        for force in 0..self.layout.pair * (shorter.layout.scales() - 1) {
-            let longer = self.layout.force(force + self.layout.pair * added);
+        for force in 0..self.layout.contacts * (shorter.layout.scales() - 1) {
+            let longer = self.layout.force(force + self.layout.contacts * added);
             extended[longer] = z[shorter.layout.force(force)];
         }
         let [from, to] = [shorter, self].map(|chain| chain.layout.load());

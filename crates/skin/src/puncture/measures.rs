@@ -7,7 +7,6 @@ use super::fold::Fold;
 use super::system::Chain;
 use super::{Passage, PuncturePoint, Weakest};
 use crate::Remains;
-use crate::contacts::Contacts;
 use crate::record::{Record, Skin};
 
 /// The measures of a puncture; `None` where the value does not exist.
@@ -103,7 +102,7 @@ impl PunctureMeasures {
             sink: nodes.reduce(f64::max),
             first_contact_displacement: record.first_contact().map(|point| point.displacement),
             contacts: Some(end.contacts),
-            engaged_scales: Some(engaged(&Contacts::touching(state).collect::<Vec<_>>())),
+            engaged_scales: Some(chain.contacts.engaged(state)),
             scales: chain.row_length(),
             initial_stiffness: Some(modulus * record.initial_stiffness()),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
@@ -150,10 +149,4 @@ impl PunctureMeasures {
 fn peak(path: &[PuncturePoint]) -> Option<&PuncturePoint> {
     let highest = |best: &'_ PuncturePoint, point: &'_ PuncturePoint| point.force > best.force;
     path.iter().skip(1).reduce(|best, point| if highest(best, point) { point } else { best })
-}
-
-/// Scales that touch a neighbour, from which pairs are `touching`.
-fn engaged(touching: &[bool]) -> usize {
-    let touches = |pair: Option<usize>| pair.is_some_and(|pair| touching.get(pair) == Some(&true));
-    (0..=touching.len()).filter(|&i| touches(Some(i)) || touches(i.checked_sub(1))).count()
 }

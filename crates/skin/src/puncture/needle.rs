@@ -29,7 +29,7 @@ use solver::{Condition, Newton};
 
 use super::PunctureParameters;
 use super::system::{Chain, Layout};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::SkinState;
 
 pub(super) use history::{HistoryWatch, Kept, anchors, event_before, history, with};
 pub(crate) use mode::NeedleMode;
@@ -210,16 +210,20 @@ impl GuidedNeedle {
     pub(super) fn ended_at(&self, chain: &Chain, end: &SkinState) -> Option<usize> {
         let mut conditions = Vec::new();
         chain.needle_conditions(self, end, &mut conditions);
-        let ends = self.endings().into_iter();
+        let touches = (0..self.slots).map(|slot| self.of_touch * slot + PUSH);
+        let touches = touches.filter(|&number| chain.meets_tilted(self, end, number));
+        let mut ends = self.endings().into_iter().chain(touches);
         // It has vanished to the tolerance of Newton's method.
-        ends.filter(|&number| conditions[number].abs() < 1e-8)
-            .map(|number| self.contacts + number)
-            .next()
+        let ended = ends.find(|&number| conditions[number].abs() < 1e-8);
+        ended.map(|number| self.contacts + number)
     }
 
-    /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or the needle is through.
-    pub(super) fn ends(&self, constraint: usize) -> bool {
-        constraint.checked_sub(self.contacts).is_some_and(|number| self.endings().contains(&number))
+    /// Whether a path ends where this constraint would change sides: a scale is critically tilted, or comes to be touched when it is
+    /// already, or the needle is through.
+    pub(super) fn ends(&self, chain: &Chain, state: &SkinState, constraint: usize) -> bool {
+        constraint.checked_sub(self.contacts).is_some_and(|number| {
+            self.endings().contains(&number) || chain.meets_tilted(self, state, number)
+        })
     }
 
     /// How many constraints it has.
@@ -348,6 +352,27 @@ impl Chain {
         }
     }
 
+    /// Whether a constraint of the needle is that of coming to touch a scale that its neighbours have tilted critically before.
+    fn meets_tilted(&self, needle: &GuidedNeedle, state: &SkinState, number: usize) -> bool {
+        let slot = number / needle.of_touch;
+        if number >= needle.tilt_number()
+            || number % needle.of_touch != PUSH
+            || needle.has_touch(&state.mode.needle, slot)
+        {
+            return false;
+        }
+        let scale = if needle.is_round() {
+            Some(slot as i64 - needle.reach() as i64)
+        } else {
+            let other = state.mode.needle.touches[1 - slot].as_ref();
+            other.and_then(Self::next_touch).map(|(scale, _)| scale)
+        };
+        scale.and_then(|scale| self.scale_numbered(scale)).is_some_and(|scale| {
+            let [_, _, rotation] = self.displacement(&state.z, scale);
+            rotation.abs() > needle.critical_tilt
+        })
+    }
+
     /// Whether the top right corner of a scale lies on the left face of its right neighbour, so that the tip is stopped there by that
     /// face, and does not pass over the corner.
     fn is_notched(&self, state: &SkinState, scale: i64) -> bool {
@@ -357,6 +382,6 @@ impl Chain {
 
     /// The contact of the top right corner of a scale.
     fn corner_of_notch(&self, scale: i64) -> Option<usize> {
-        self.scale_numbered(scale).map(|left| Contacts::contacts_of(left).start)
+        self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))
     }
 }

@@ -156,11 +156,10 @@ impl Problem<'_> {
     fn pushed(&self, position: f64, sense: Sense) -> Result<LoadedPlace, OutOfRange> {
         let parameters = self.parameters.at_place(position, sense);
         let problem = self.with(&parameters);
-        let (start, longest) = problem.start()?;
         // A path to one side may come to the critical tilt of the other first. Under a guided needle both end it anyway.
         let other_way = [At::Tilt(-parameters.critical_tilt_deg)];
         let markers = if parameters.needle.is_guided() { &[][..] } else { &other_way };
-        let followed = problem.follow(start, longest, &[], markers)?;
+        let followed = problem.follow(&[], markers)?;
         let (points, path) = (&followed.watch.record.path, &followed.path);
         let tilted = followed.watch.places.found.first().and_then(Option::as_ref);
         let status = match tilted {

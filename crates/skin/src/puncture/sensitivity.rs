@@ -76,8 +76,7 @@ pub fn force_curve(
         let parameters = PunctureParameters { critical_tilt_deg: tilt, ..*parameters };
         let rows = Rows::Even(design.row()?);
         let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-        let (start, longest) = problem.start()?;
-        let mut followed = problem.follow(start, longest, &[], &at)?;
+        let mut followed = problem.follow(&[], &at)?;
         let is_short = followed.watch.places.found.iter().any(Option::is_none);
         if followed.status == Status::Complete && is_short && tilt < STEEPEST_DEG {
             tilt = (2.0 * tilt).min(STEEPEST_DEG);
@@ -99,8 +98,7 @@ impl Problem<'_> {
         &self,
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<(Followed, Vec<Derivative>), OutOfRange> {
-        let (start, longest) = self.start()?;
-        let mut followed = self.follow(start, longest, &FOLLOWED, &[])?;
+        let mut followed = self.follow(&FOLLOWED, &[])?;
         let derivatives = match followed.status {
             Status::Complete => self.derivatives(&mut followed, variations)?,
             _ => Vec::new(),

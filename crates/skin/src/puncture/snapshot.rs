@@ -83,8 +83,7 @@ pub fn snapshots(
         let row = design.row()?;
         let rows = Rows::Even(row);
         let problem = Problem::new(rows, design, stiffness.clone(), common, &parameters)?;
-        let (start, longest) = problem.start()?;
-        let mut followed = problem.follow(start, longest, &[], at)?;
+        let mut followed = problem.follow(&[], at)?;
         let found = std::mem::take(&mut followed.watch.places.found);
         let chain = followed.path.system();
         let snapshot = |point: Option<SkinPoint>| Some(snapshot(chain, row.pitch(), &point?.state));
@@ -116,7 +115,7 @@ fn snapshot(chain: &Chain, pitch: f64, state: &SkinState) -> RowSnapshot {
     let in_row = |contact: Contact| {
         let [x, y] = contact.point;
         let point = [x + before as f64 * pitch, y];
-        Contact { left: contact.left + before, point, ..contact }
+        Contact { left: contact.left + before, right: contact.right + before, point, ..contact }
     };
     RowSnapshot {
         displacement: chain.depth(&state.z),

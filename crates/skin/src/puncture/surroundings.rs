@@ -5,7 +5,7 @@ use substrate::{FarField, SurfaceStrip};
 
 use super::Rows;
 use super::system::{Chain, Layout};
-use crate::contacts::{Contacts, SkinState};
+use crate::contacts::SkinState;
 
 /// Scales beyond an end whose gaps are looked at. What moves the end hardly moves farther ones.
 const LOOKED_AT: usize = 12;
@@ -184,7 +184,7 @@ impl Chain {
 
     /// How near a state has come to the left and to the right end, if there is more beyond them.
     pub(crate) fn reach(&self, state: &SkinState) -> [Reach; 2] {
-        let touching = Contacts::touching_at_ends(state);
+        let touching = self.contacts.touching_at_ends(state);
         [0, 1].map(|number| {
             let Some(side) = &self.surroundings.sides[number] else { return Reach::Short };
             match self.part_closed(&state.z, number, side) {

@@ -9,7 +9,7 @@ use super::PunctureParameters;
 use super::needle::{GuidedNeedle, Needle};
 use super::surroundings::Surroundings;
 use crate::arrangement::Arrangement;
-use crate::contacts::{Contacts, SkinMode, SkinState, pair_constraints};
+use crate::contacts::{Contacts, SkinMode, SkinState};
 
 /// Depth in which the way of a guided needle is measured, over `t`: about what a tilt of 10° takes, but no more than some tops of a
 /// scale, since steps are parts of it and a needle is soon beyond a narrow top.
@@ -42,14 +42,14 @@ pub(crate) struct Layout {
     pub(crate) right: usize,
     /// Unknowns of a guided needle, behind the load; 0 under a free one.
     pub(crate) needle: usize,
-    /// Unknowns of the contacts of a pair.
-    pub(crate) pair: usize,
+    /// Unknowns of the contacts of a scale with those on its right: of one pair, unless scales meet that are not neighbours.
+    pub(crate) contacts: usize,
 }
 
 impl Layout {
-    /// Unknowns of a scale and of its contacts with the next one.
+    /// Unknowns of a scale and of its contacts with those on its right.
     fn block(self) -> usize {
-        3 + self.pair
+        3 + self.contacts
     }
 
     pub(crate) fn scales(self) -> usize {
@@ -63,7 +63,7 @@ impl Layout {
 
     /// Number of unknowns.
     pub(crate) fn size(self) -> usize {
-        self.block() * self.scales() - self.pair + 1 + self.needle
+        self.block() * self.scales() - self.contacts + 1 + self.needle
     }
 
     /// First of the three unknowns of a scale.
@@ -79,7 +79,11 @@ impl Layout {
     fn blocks(self) -> Blocks {
         let scales = 0..self.scales();
         let start = |scale: usize| {
-            if scale <= self.left { self.scale(scale) } else { self.force(self.pair * (scale - 1)) }
+            if scale <= self.left {
+                self.scale(scale)
+            } else {
+                self.force(self.contacts * (scale - 1))
+            }
         };
         Blocks {
             starts: scales.clone().map(start).collect(),
@@ -102,12 +106,12 @@ impl Layout {
         units
     }
 
-    /// Unknown of a contact force. Forces are numbered along the row: those of the pair
+    /// Unknown of a contact force. Forces are numbered along the row: where scales meet their neighbours alone, those of the pair
     /// `i`, `i + 1` from `6 i`, the upper joint's three before the lower's.
     pub(crate) fn force(self, force: usize) -> usize {
-        let left = force / self.pair;
+        let left = force / self.contacts;
         let behind_load = if left >= self.left { 1 + self.needle } else { 0 };
-        self.block() * left + 3 + force % self.pair + behind_load
+        self.block() * left + 3 + force % self.contacts + behind_load
     }
 }
 
@@ -168,7 +172,7 @@ impl Chain {
         let RowStiffness { direct, roll, neighbours, .. } = stiffness.with_lengths_over(a);
         let scales = (0..layout.scales()).map(|i| Some(layout.scale(i))).collect();
         let forces: Vec<usize> =
-            (0..layout.pair * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
+            (0..layout.contacts * (layout.scales() - 1)).map(|i| layout.force(i)).collect();
         let punctured = layout.scale(layout.left);
         let control = |k: usize, scale| Control { index: punctured + k, scale };
         let (left, right) = (scale.corner(Corner::TopLeft), scale.corner(Corner::TopRight));
@@ -176,12 +180,11 @@ impl Chain {
         let critical_tilt = parameters.critical_tilt_deg.to_radians();
         let load_arm = left + parameters.load_position * (right - left);
         let depth = layout.load() + 1;
-        let contacts = forces.len();
-        debug_assert_eq!(layout.pair, pair_constraints(&law));
+        let constraints = forces.len();
         let needle = match parameters.needle {
             Needle::Free => None,
             Needle::Guided { friction } => {
-                Some(GuidedNeedle::new(friction, parameters, load_arm, layout, contacts))
+                Some(GuidedNeedle::new(friction, parameters, load_arm, layout, constraints))
             }
         };
         let mut controls = vec![control(2, -critical_tilt), control(0, 1.0), control(1, 1.0)];
@@ -199,6 +202,10 @@ impl Chain {
         let contacts = Contacts::new(arrangement, law, scales, forces);
         let of_needle = needle.iter().flat_map(|needle| needle.growing.iter().copied());
         let growing = contacts.growing().iter().copied().chain(of_needle).collect();
+        // Coupling beyond the neighbours fills the matrix, and so does a round tip that touches several scales: the band elimination
+        // takes it.
+        let is_narrow = neighbours.len().max(contacts.reach()) == 1;
+        let blocks = is_narrow && parameters.needle_radius.is_none();
         let mut chain = Self {
             layout,
             contacts,
@@ -208,10 +215,7 @@ impl Chain {
             half_base: a,
             direct,
             roll,
-            // Coupling beyond the neighbours fills the matrix, and so does a round tip that touches several scales: the band elimination
-            // takes it.
-            blocks: (neighbours.len() <= 1 && parameters.needle_radius.is_none())
-                .then(|| layout.blocks()),
+            blocks: blocks.then(|| layout.blocks()),
             neighbours,
             bars,
             surroundings,
@@ -253,7 +257,7 @@ impl Chain {
 
     /// Scales on each side that a scale is coupled with, by the substrate or by contact.
     pub(crate) fn coupled_scales(&self) -> usize {
-        self.neighbours.len().max(1)
+        self.neighbours.len().max(self.contacts.reach())
     }
 
     /// Derivative of [`Chain::depth`] along a direction.
@@ -368,8 +372,8 @@ impl System for Chain {
         if self.needle.is_some() { DEEPEST / self.controls[0].scale } else { 1.0 }
     }
 
-    fn ends(&self, constraint: usize) -> bool {
-        self.needle.as_ref().is_some_and(|needle| needle.ends(constraint))
+    fn ends(&self, state: &SkinState, constraint: usize) -> bool {
+        self.needle.as_ref().is_some_and(|needle| needle.ends(self, state, constraint))
     }
 
     fn growing(&self) -> &[usize] {

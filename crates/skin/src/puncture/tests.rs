@@ -3,6 +3,7 @@
 mod bars;
 mod layers;
 mod needle;
+mod reach;
 mod rubbing;
 
 use std::collections::HashSet;
@@ -71,7 +72,7 @@ fn path_on(
     law: ContactLaw,
     load_position: f64,
 ) -> Path<Chain> {
-    let layout = Layout { left: 10, right: 10, needle: 0, pair: pair_constraints(&law) };
+    let layout = Layout { left: 10, right: 10, needle: 0, contacts: pair_constraints(&law) };
     let parameters = PunctureParameters { load_position, ..PunctureParameters::default() };
     let chain = whole(stiffness, design, law, layout, &parameters);
     let rest = SkinState::at_rest(&chain);
@@ -309,7 +310,7 @@ fn soft_contacts_store_their_part_of_the_work() {
 #[test]
 fn rows_grow_as_far_as_there_is_room() {
     use Reach::{Beyond, Near, Short};
-    let layout = Layout { left: 14, right: 17, needle: 0, pair: 6 };
+    let layout = Layout { left: 14, right: 17, needle: 0, contacts: 6 };
     let grown = |reach, longest| {
         let Layout { left, right, .. } = layout.grown(reach, longest);
         [left, right]
@@ -330,8 +331,8 @@ fn a_domino_longer_than_the_longest_row_has_no_final_values() {
     let problem =
         Problem::new(row, &DOMINO, (&springs).into(), &Common::default(), parameters).unwrap();
     let grown = |longest| {
-        let start = problem.start().unwrap().0;
-        problem.follow(start, longest, &[], &[]).unwrap().puncture(false)
+        let start = problem.start(1).unwrap().0;
+        problem.follow_row(start, longest, &[], &[]).unwrap().puncture(false)
     };
     let cut = grown(60);
     assert_eq!(cut.status, Status::RowLimit);
@@ -462,7 +463,7 @@ fn negative_eigenvalues_are_those_of_the_dense_stiffness() {
         let full = RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap();
         let parameters =
             &PunctureParameters { critical_tilt_deg: 40.0, ..PunctureParameters::default() };
-        let layout = Layout { left: 7, right: 9, needle: 0, pair: 6 };
+        let layout = Layout { left: 7, right: 9, needle: 0, contacts: 6 };
         let chain = |stiffness| whole(stiffness, &design, law, layout, parameters);
         let nearest: RowStiffness = (&springs).into();
         let rows = Rows::Even(design.row().unwrap());

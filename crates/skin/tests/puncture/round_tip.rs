@@ -5,7 +5,8 @@ use skin::puncture::{
     self, CriticalEvent, Needle, Puncture, PunctureParameters, PuncturePoint, RowLength,
 };
 use skin::{Base, Common, Design, Status};
-use substrate::Calibrations;
+use solver::Stop;
+use substrate::{Calibrations, Coupling, RowStiffness};
 
 use crate::samples::{design, in_small_steps, solve_as, springs};
 use crate::{complete, end};
@@ -199,6 +200,38 @@ fn a_tip_that_comes_through() {
     let line = [to[0] - from[0], to[1] - from[1]];
     let area = line[0] * (centre[1] - from[1]) - line[1] * (centre[0] - from[0]);
     assert_relative_eq!(area / line[0].hypot(line[1]), radius, max_relative = 1e-7);
+}
+
+/// With full coupling scales lean on each other before the tip comes to them: one that has been tilted critically ends the path as soon
+/// as the tip touches it.
+#[test]
+fn a_tip_that_comes_to_a_tilted_scale() {
+    let blocks = design(0.1, 0.4, 0.0, Base::L);
+    let stiffness = RowStiffness::of(&blocks.footprint(0.5).unwrap(), Coupling::Full).unwrap();
+    let parameters = parameters(Some(0.5));
+    let puncture = puncture::solve(&blocks, stiffness, &Common::default(), &parameters).unwrap();
+    assert_eq!(puncture.status, Status::Complete);
+    assert_eq!(puncture.measures.passage.critical_event, Some(CriticalEvent::Tilt));
+    let mut touched = puncture.tip_forces.last().unwrap().iter().map(|(scale, _)| *scale);
+    let tilt = |number: i64| {
+        let scale = puncture.scales.iter().find(|scale| scale.scale == number).unwrap();
+        scale.rotation_deg.abs()
+    };
+    assert!(touched.clone().all(|scale| tilt(scale) < 10.0));
+    assert!(tilt(touched.next_back().unwrap() + 1) > 14.0);
+}
+
+/// In a notch a tip that rubs may stop sliding on one face where it can neither stick there nor slide on: it jumps.
+#[test]
+fn a_tip_that_jumps_in_a_notch() {
+    let notched = design(0.1, 0.9, 60.0, Base::TwoL);
+    for radius in [0.001, 0.01, 0.03] {
+        let needle = Needle::Guided { friction: 0.3 };
+        let parameters = PunctureParameters { needle, ..parameters(Some(radius)) };
+        let puncture = solve(&notched, &parameters);
+        assert_eq!(puncture.status, Status::Stopped(Stop::Jumps));
+        assert!((end(&puncture).tilt_deg - 8.1).abs() < 0.2);
+    }
 }
 
 /// A tip of a radius of twenty pitches is borne by several scales.

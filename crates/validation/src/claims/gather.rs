@@ -135,7 +135,7 @@ fn loaded_row(snapshot: &RowSnapshot) -> LoadedRow {
     let load: f64 = snapshot.scales.iter().map(|scale| scale.reaction).sum();
     let carries = |scale: &&puncture::ScaleState| scale.reaction >= CARRIES * load;
     let touches = |i: &usize| {
-        snapshot.contacts.iter().any(|contact| contact.left == *i || contact.left + 1 == *i)
+        snapshot.contacts.iter().any(|contact| contact.left == *i || contact.right == *i)
     };
     LoadedRow {
         force: snapshot.force,

@@ -3,12 +3,15 @@
 use std::collections::{BTreeSet, HashMap};
 
 use rayon::prelude::*;
+use results::ParameterDerivative;
 use run::Evaluator;
 use skin::ContactChange;
+use substrate::Coupling;
 use sweep::{Case, Measure};
 
-use super::compare;
 use super::designs::{self, random_case};
+use super::differences::Differences;
+use super::{compare, compare_components, derivatives};
 
 /// The branches in which the contacts of a puncture and a bent strip end: a corner on an edge, corners together, a tip on the
 /// neighbour's end, and sides that lie flush.
@@ -68,4 +71,20 @@ fn every_branch_of_the_contact_is_exercised() {
     });
     let exercised: BTreeSet<_> = exercised.collect();
     assert_eq!(exercised, BTreeSet::from(["corner", "edge", "flush", "tip"]));
+}
+
+/// With full coupling the scales on both sides of a punctured one that is driven down meet above it.
+#[test]
+fn scales_meet_over_one_that_is_driven_down() {
+    let mut case = Case { coupling: Coupling::Full, ..Case::default() };
+    (case.design.gap, case.design.length, case.design.slant_deg) = (0.1, 0.4, 75.0);
+    let solved = Evaluator::new(&Measure::USUAL).solve(designs::number(), &case);
+    let events = solved.puncture.iter().flat_map(|puncture| &puncture.events);
+    let mut pairs = events.map(|event| (event.left_scale, event.right_scale));
+    assert!(pairs.any(|pair| pair == (Some(-1), Some(1))));
+    // Two parameters: with full coupling the calibration of each neighbouring footprint takes its time.
+    let is_compared =
+        |by: &ParameterDerivative| ["gap_over_t", "slant_deg"].contains(&by.parameter);
+    let compared: Vec<_> = derivatives(&case).into_iter().filter(is_compared).collect();
+    assert!(compare_components(&case, &compared, &Differences::of(&case)) > 20);
 }

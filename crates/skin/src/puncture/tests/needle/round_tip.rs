@@ -86,7 +86,7 @@ fn round_path(
     let design = design(gap, length, slant);
     let reach = reach(radius, 2.0 * design.half_base() + design.gap).unwrap();
     let needle = unknowns(reach, friction > 0.0);
-    let layout = Layout { left: 10, right: 10, needle, pair: 6 };
+    let layout = Layout { left: 10, right: 10, needle, contacts: 6 };
     let law = law(&design, Law::PRINTED, HARD);
     let parameters = PunctureParameters {
         load_position,

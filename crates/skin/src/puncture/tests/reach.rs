@@ -1,0 +1,80 @@
+//! Contacts of scales that are not neighbours.
+
+use contact::Law;
+use solver::{Path, Settings, check_tangent};
+use substrate::{Coupling, RowStiffness};
+
+use super::{Balance, DOMINO, HARD, balance, for_segments, law, whole};
+use crate::contacts::{SkinState, pair_constraints};
+use crate::puncture::system::Layout;
+use crate::puncture::{Problem, Puncture, PunctureParameters, Rows};
+use crate::{Base, Common, Design, Status};
+
+/// Designs of the paper of which scales meet their second neighbours under full coupling.
+const MEETING: [Design; 2] =
+    [DOMINO, Design { gap: 0.1, length: 0.4, slant_deg: 75.0, base: Base::L, width: 1.0 }];
+
+fn full(design: &Design) -> RowStiffness {
+    RowStiffness::of(&design.footprint(0.5).unwrap(), Coupling::Full).unwrap()
+}
+
+fn solved(design: &Design, common: &Common, contact_reach: Option<usize>) -> Puncture {
+    let parameters = PunctureParameters::default();
+    let rows = Rows::Even(design.row().unwrap());
+    let problem = Problem::new(rows, design, full(design), common, &parameters).unwrap();
+    let followed = match contact_reach {
+        None => problem.follow(&[], &[]),
+        Some(reach) => {
+            let (start, longest) = problem.start(reach).unwrap();
+            problem.follow_row(start, longest, &[], &[])
+        }
+    };
+    followed.unwrap().puncture(false)
+}
+
+#[test]
+fn scales_stop_at_their_second_neighbours() {
+    for design in MEETING {
+        let common = Common::default();
+        let through = solved(&design, &common, Some(1));
+        assert_eq!(through.status, Status::Interpenetration);
+        let stopped = solved(&design, &common, None);
+        assert_eq!(stopped.status, Status::Complete);
+        let mut beyond = stopped.events.iter().filter(|event| {
+            let [left, right] = [event.left_scale, event.right_scale].map(Option::unwrap);
+            right - left == 2
+        });
+        // Up to there both paths are the same.
+        let first = beyond.next().unwrap().point;
+        let same = through.path.iter().zip(&stopped.path);
+        for (ours, theirs) in same.take_while(|(_, theirs)| theirs.force < first.force) {
+            assert!((ours.force - theirs.force).abs() < 1e-9 * theirs.force.abs().max(1e-3));
+        }
+        // Room for contacts that are not there changes nothing.
+        let room = solved(&design, &common, Some(3));
+        let [ours, theirs] = [&stopped, &room].map(|p| p.measures.critical_force.unwrap());
+        assert!((ours - theirs).abs() < 1e-9 * theirs, "{ours} {theirs}");
+    }
+}
+
+#[test]
+fn their_work_is_stored_and_their_tangent_agrees_with_differences() {
+    let design = &MEETING[1];
+    let law = law(design, Law::PRINTED, HARD);
+    let layout = Layout { left: 20, right: 20, needle: 0, contacts: 2 * pair_constraints(&law) };
+    let chain = whole(&full(design), design, law, layout, &PunctureParameters::default());
+    let path = || Path::new(chain.clone(), SkinState::at_rest(&chain), Settings::default());
+    let Balance { work, off, .. } = balance(path());
+    assert!(off < 1e-6 * work, "{:e}", off / work);
+    let mut met = 0;
+    for_segments(path(), |path, from, to| {
+        let state = path.between(from, to, 0.5).unwrap().state;
+        let contacts = path.system().contacts.closed_contacts(&state);
+        let beyond = contacts.iter().filter(|contact| contact.right == contact.left + 2).count();
+        met += beyond;
+        if beyond > 0 {
+            check_tangent(path.system(), &state, 1e-6).unwrap();
+        }
+    });
+    assert!(met > 0);
+}
