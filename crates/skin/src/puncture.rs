@@ -448,7 +448,7 @@ impl<'a> Problem<'a> {
         let mut passage = watch.passage.finish(path.system(), &path.point().state);
         let is_untilted = self.parameters.needle.is_guided() && passage.critical_event.is_none();
         // A scale that is pushed in its middle may go either way from some load on: there its path branches.
-        let is_straight = || path.system().angle_deg(&path.point().state).abs() < STRAIGHT_DEG;
+        let is_straight = || watch.record.path.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
             _ if !growing.has_room => Status::RowLimit,
             // Not even the first step tilts a scale that is upright and loaded in its middle.

@@ -20,8 +20,9 @@ const SYMMETRIC: f64 = 0.9986;
 /// the load. The arc length in all of them measures it there.
 pub(super) const HIDDEN: f64 = 100.0;
 
-/// Below this distance, in scales of the controls, the angle of a step is round-off.
-const SHORT: f64 = 1e-9;
+/// Below this distance, in scales of the controls, the angle of a step is round-off. Where a contact is a thousand times as stiff at first
+/// as soon after, the path turns by a right angle within 1e-8 of where it closes, and goes on from there.
+const SHORT: f64 = 1e-7;
 
 impl<S: System> Path<S> {
     /// A direction of unit length in the controls; of less where they hide the path.
