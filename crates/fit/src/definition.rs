@@ -33,6 +33,15 @@ pub struct Unknown {
     pub(crate) source: Source,
 }
 
+impl Unknown {
+    /// A value, or 0 where that is negative and no definition would take it: a modulus, a friction.
+    pub(crate) fn at_least_allowed(&self, value: f64) -> f64 {
+        let is_refused = |p: &Parameter| p.read(&Value::Number(value.to_string())).is_err();
+        let is_allowed = !matches!(self.source, Source::Parameter(p) if is_refused(p));
+        if value < 0.0 && !is_allowed { 0.0 } else { value }
+    }
+}
+
 /// What an unknown changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Source {

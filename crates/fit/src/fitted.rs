@@ -55,8 +55,16 @@ pub struct FittedCurve {
     pub axes: [String; 2],
     /// Place, measured value, fitted value.
     pub points: Vec<[f64; 3]>,
+    /// Whether its columns name units; without, it is in those of the model.
+    pub is_physical: bool,
+    /// Lines of its file that hold no numbers, and were left out.
+    pub left_out: usize,
+    /// Whether it has no point at which a skin that is pushed or bent would resist, as where signs are turned round.
+    pub is_turned: bool,
     /// Standard deviation of the residuals.
     pub noise: f64,
+    /// Correlation of neighbouring residuals, where it is more than chance would make it: the skin bends otherwise than its model.
+    pub trend: Option<f64>,
     /// Points beyond the end of the fitted path.
     pub beyond: usize,
     /// Derivatives that are differences of whole solutions.
@@ -103,6 +111,10 @@ const LEAST_NOISE: f64 = 1e-8;
 const ROUND_OFF: f64 = 1e-6;
 /// Half of an interval that is as wide as the range of its unknown, in shares of that: the curves do not tell it.
 const AS_WIDE: f64 = 0.5;
+/// Residuals that have nothing to do with each other are correlated by more than this over the root of their number once in 700 curves.
+const BEYOND_CHANCE: f64 = 3.0;
+/// Noise of which nothing is said, as a part of the largest value.
+const NEGLIGIBLE: f64 = 1e-4;
 /// A share that is closer to an end of its range stands there: the search stays inside by a part of the way.
 const AT_END: f64 = 1e-3;
 
@@ -193,7 +205,8 @@ impl Residuals<'_> {
         let t = StudentsT::new(0.0, 1.0, freedom).map_or(f64::NAN, |t| t.inverse_cdf(0.975));
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         // A direction of round-off has an interval that is wide, and not infinite.
-        let spread: Vec<_> = sizes.iter().map(|size| t / size.max(ROUND_OFF * largest)).collect();
+        let least = (ROUND_OFF * largest).max(ROUND_OFF);
+        let spread: Vec<_> = sizes.iter().map(|size| t / size.max(least)).collect();
         let covariance = |i: usize, j: usize| -> f64 {
             (0..count).map(|k| directions[(i, k)] * directions[(j, k)] * spread[k].powi(2)).sum()
         };
@@ -206,7 +219,8 @@ impl Residuals<'_> {
         let estimate = |(j, unknown): (usize, &Unknown)| {
             let half = covariance(j, j).sqrt() * (unknown.to - unknown.from);
             let at_end = shares[j] < AT_END || shares[j] > 1.0 - AT_END;
-            let interval = (!is_untold(j)).then_some([values[j] - half, values[j] + half]);
+            let interval = [unknown.at_least_allowed(values[j] - half), values[j] + half];
+            let interval = (!is_untold(j)).then_some(interval);
             Estimate { unknown: unknown.clone(), value: values[j], interval, at_end }
         };
         let correlation = |i: usize, j: usize| {
@@ -235,10 +249,16 @@ impl Residuals<'_> {
             let axes = measured.test.axes().map(|(axis, unit)| {
                 if measured.is_physical { format!("{axis}, {unit}") } else { axis.to_owned() }
             });
+            let points: Vec<_> =
+                points.map(|(point, value)| [point[0], point[1], *value]).collect();
             FittedCurve {
                 file: measured.file.clone(),
                 axes,
-                points: points.map(|(point, value)| [point[0], point[1], *value]).collect(),
+                is_physical: measured.is_physical,
+                left_out: measured.left_out,
+                is_turned: model.before == points.len() || points.iter().all(|p| p[1] <= 0.0),
+                trend: trend(&points, *noise),
+                points,
                 noise: *noise,
                 beyond: model.beyond,
                 differenced: model.differenced,
@@ -246,4 +266,16 @@ impl Residuals<'_> {
         };
         Ok(curves.map(curve).collect())
     }
+}
+
+/// The correlation of residuals with the next ones, where there are enough and chance would hardly make it so large.
+fn trend(points: &[[f64; 3]], noise: f64) -> Option<f64> {
+    let residuals: Vec<_> = points.iter().map(|[_, measured, fitted]| measured - fitted).collect();
+    let largest = points.iter().map(|point| point[1].abs()).fold(0.0, f64::max);
+    let squares: f64 = residuals.iter().map(|r| r * r).sum();
+    let products: f64 = residuals.windows(2).map(|r| r[0] * r[1]).sum();
+    let correlation = products / squares;
+    let chance = BEYOND_CHANCE / (points.len() as f64).sqrt();
+    // What the solver leaves of exact curves has a trend, too.
+    (noise > NEGLIGIBLE * largest && correlation > chance).then_some(correlation)
 }

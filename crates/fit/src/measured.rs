@@ -79,6 +79,8 @@ pub struct MeasuredCurve {
     pub is_physical: bool,
     /// What one of the unit of the file is worth on the first axis.
     pub(crate) x_unit: f64,
+    /// Lines in which both cells are empty: gaps of the recording.
+    pub left_out: usize,
     /// Its points, in the order of the file.
     pub points: Vec<[f64; 2]>,
 }
@@ -121,40 +123,96 @@ impl MeasuredCurve {
             |line, problem: String| InvalidMeasured { file: file.to_owned(), line, problem };
         let (rows, separator) = rows(text);
         let rows = rows.map_err(|error| wrong(None, error.to_string()))?;
-        let header = rows.first().filter(|row| row.iter().all(|c| number(c, separator).is_none()));
-        let named: Vec<String> = header.into_iter().flatten().map(str::to_owned).collect();
-        let names = columns.unwrap_or(&named);
-        let [(x, of_x), (y, of_y)] = pair(names).ok_or_else(|| {
-            let known = COLUMNS.map(|(name, ..)| name).join(" ");
-            let found = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
-            wrong(None, format!("its columns are {found}, expected two of one test: {known}"))
-        })?;
-        let mut points = Vec::new();
-        for row in rows.iter().skip(usize::from(header.is_some())) {
-            let cell = |column: usize, worth: Option<f64>| {
-                let text = row.get(column).unwrap_or_default();
+        let header = Header::find(&rows, columns, separator);
+        let Header { names, lines, unnamed } = header;
+        let [(x, of_x), (y, of_y)] = pair(&names).map_err(|problem| wrong(None, problem))?;
+        let (mut points, mut left_out) = (Vec::new(), 0);
+        for row in &rows[lines..] {
+            let line = row.position().map(csv::Position::line);
+            // A decimal comma between commas would make two cells of one number.
+            let beyond = row.iter().skip(names.len());
+            if !unnamed && beyond.clone().any(|cell| !cell.is_empty()) {
+                let (found, columns) = (row.len(), names.len());
+                let problem = format!(
+                    "has {found} cells under {columns} columns, expected as many (with a decimal comma, ; between cells)"
+                );
+                return Err(wrong(line, problem));
+            }
+            let cell = |column: usize| row.get(column).unwrap_or_default();
+            if [x, y].iter().all(|&column| cell(column).is_empty()) {
+                left_out += 1;
+                continue;
+            }
+            let read = |column: usize, worth: Option<f64>| {
+                let text = cell(column);
                 let read = number(text, separator).map(|number| number * worth.unwrap_or(1.0));
-                let line = row.position().map(csv::Position::line);
                 let expected = "is not accepted, expected a number";
                 read.ok_or_else(|| wrong(line, format!("{}: {text:?} {expected}", names[column])))
             };
-            points.push([cell(x, of_x.3)?, cell(y, of_y.3)?]);
+            points.push([read(x, of_x.3)?, read(y, of_y.3)?]);
         }
         if points.is_empty() {
             return Err(wrong(None, "holds no points, expected a line for each".to_owned()));
         }
         let (test, is_physical) = (of_x.1, of_x.3.is_some());
         let x_unit = of_x.3.unwrap_or(1.0);
-        Ok(Self { file: file.to_owned(), test, is_physical, x_unit, points })
+        Ok(Self { file: file.to_owned(), test, is_physical, x_unit, left_out, points })
     }
+}
+
+/// What the first lines of a file say of its columns.
+struct Header {
+    names: Vec<String>,
+    /// Lines before the first one of numbers.
+    lines: usize,
+    /// Whether the names come from elsewhere, and perhaps not for all columns.
+    unnamed: bool,
+}
+
+/// A header stands in one of so many lines: what a testing machine writes before is no longer.
+const LONGEST_PREAMBLE: usize = 100;
+
+impl Header {
+    /// The names that were given, or those of the first line that names two columns of a test, with the units that the next one has.
+    fn find(rows: &[csv::StringRecord], given: Option<&[String]>, separator: char) -> Self {
+        let is_text = |row: &csv::StringRecord| row.iter().all(|c| number(c, separator).is_none());
+        let texts = |from: usize| from + rows[from..].iter().take_while(|row| is_text(row)).count();
+        if let Some(names) = given {
+            return Self { names: names.to_vec(), lines: texts(0), unnamed: true };
+        }
+        let candidates = (0..rows.len().min(LONGEST_PREAMBLE)).flat_map(|i| {
+            let units = rows.get(i + 1).filter(|row| is_text(row));
+            [units.map(|units| (i, Some(units))), Some((i, None))].into_iter().flatten()
+        });
+        let mut named = candidates.map(|(i, units)| {
+            let unit = |k: usize| units.and_then(|row| row.get(k)).unwrap_or_default();
+            let cells = rows[i].iter().enumerate();
+            let names = cells.map(|(k, cell)| spelled(&format!("{cell} {}", unit(k)))).collect();
+            Self { names, lines: texts(i), unnamed: false }
+        });
+        named.find(|header| pair(&header.names).is_ok()).unwrap_or_else(|| {
+            let first = rows.first().filter(|row| is_text(row)).into_iter().flatten();
+            Self { names: first.map(str::to_owned).collect(), lines: texts(0), unnamed: false }
+        })
+    }
+}
+
+/// The name of a column as it is known: `Force [N]`, `force (N)` and `Force, N` are `force_N`, `Curvature (1/m)` is `curvature_per_m`.
+fn spelled(name: &str) -> String {
+    let name = name.replace("1/", "per ").replace(['µ', 'μ'], "u");
+    let mut words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let first = words.next().unwrap_or_default().to_lowercase();
+    words.fold(first, |name, word| format!("{name}_{word}"))
 }
 
 /// The rows of a CSV text, and the character between its cells.
 fn rows(text: &str) -> (Result<Vec<csv::StringRecord>, csv::Error>, char) {
     let text = text.trim_start_matches('\u{feff}');
-    let first = text.lines().find(|line| !line.starts_with('#')).unwrap_or_default();
+    // What a machine writes first may have any sign in its sentences; the last line holds numbers.
+    let is_row = |line: &&str| !line.starts_with('#') && !line.trim().is_empty();
+    let last = text.lines().rfind(is_row).unwrap_or_default();
     // Where the decimal sign is a comma, as on machines in much of Europe, a semicolon stands between cells.
-    let separator = [';', '\t'].into_iter().find(|c| first.contains(*c)).unwrap_or(',');
+    let separator = [';', '\t'].into_iter().find(|c| last.contains(*c)).unwrap_or(',');
     let reader = csv::ReaderBuilder::new()
         .delimiter(separator as u8)
         .comment(Some(b'#'))
@@ -172,14 +230,32 @@ fn number(cell: &str, separator: char) -> Option<f64> {
     cell.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
-/// The places of the two columns of one test, in one system of units, and what is known of them.
-fn pair(names: &[String]) -> Option<[(usize, &'static Column); 2]> {
-    let known = |axis: usize| {
-        let of = move |name: &String| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis);
-        names.iter().enumerate().filter_map(move |(k, name)| Some((k, of(name)?)))
-    };
-    let mut pairs = known(0).flat_map(|x| known(1).map(move |y| [x, y]));
-    pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some())
+/// The columns that are known, with their places, of the first axis or the second.
+fn known(names: &[String], axis: usize) -> impl Iterator<Item = (usize, &'static Column)> {
+    let of = move |name: &String| COLUMNS.iter().find(|c| c.0 == name && c.2 == axis);
+    names.iter().enumerate().filter_map(move |(k, name)| Some((k, of(name)?)))
+}
+
+/// The places of the two columns of one test, in one system of units, and what is known of them; or why there are none.
+fn pair(names: &[String]) -> Result<[(usize, &'static Column); 2], String> {
+    let mut pairs = known(names, 0).flat_map(|x| known(names, 1).map(move |y| [x, y]));
+    let found = pairs.find(|[(_, x), (_, y)]| x.1 == y.1 && x.3.is_some() == y.3.is_some());
+    let twice = found.and_then(|pair| pair.into_iter().find(|(_, c)| count(names, c.0) > 1));
+    if let Some((_, column)) = twice {
+        return Err(format!(
+            "has several columns {0}, expected one: give the others another name",
+            column.0
+        ));
+    }
+    found.ok_or_else(|| {
+        let all = COLUMNS.map(|(name, ..)| name).join(" ");
+        let names = if names.is_empty() { "none".to_owned() } else { names.join(" ") };
+        format!("its columns are {names}, expected two of one test: {all}")
+    })
+}
+
+fn count(names: &[String], name: &str) -> usize {
+    names.iter().filter(|other| *other == name).count()
 }
 
 #[cfg(test)]
@@ -201,6 +277,16 @@ mod tests {
         assert_eq!(curve.points, [[0.0, 0.0], [0.5, 0.02]]);
         let curve = parsed("curvature_per_m;moment_N_mm\n# by hand\n12,5;0,25\n");
         assert_eq!((curve.test, &*curve.points), (Test::Bending, &[[0.0125, 0.25]][..]));
+        let curve = parsed(
+            "Specimen;3\nSpeed;5;mm/min\nTime;Weg;Displacement;Force\n(s);;(mm);(N)\n0;9;0;0\n;;;\n1;9;0,5;2\n",
+        );
+        assert_eq!(
+            (curve.is_physical, curve.left_out, &*curve.points),
+            (true, 1, &[[0.0, 0.0], [0.5, 2.0]][..])
+        );
+        let curve = parsed("Displacement [µm],Force (mN),\n500,20,\n");
+        assert_eq!(curve.points, [[0.5, 0.02]]);
+        assert_eq!(parsed("Curvature (1/m),Moment [N·mm]\n1,2\n").points, [[1e-3, 2.0]]);
         assert!(!parsed("displacement,force,tilt_deg\n0.1,2,3\n").is_physical);
     }
 
@@ -228,6 +314,13 @@ mod tests {
             "a.csv:3: force_N: \"x\" is not accepted, expected a number"
         );
         assert!(refused("displacement_mm,force_N\n1\n").contains("force_N: \"\" is not accepted"));
+        assert!(
+            refused("displacement_mm,force_N\n0,5,2,0\n")
+                .starts_with("a.csv:2: has 4 cells under 2 columns")
+        );
+        assert!(
+            refused("displacement_mm,force_N,force_N\n1,2,3\n").contains("several columns force_N")
+        );
         assert!(refused("displacement_mm,force_N\n1,nan\n").contains("expected a number"));
     }
 }

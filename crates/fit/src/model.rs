@@ -15,6 +15,8 @@ pub(crate) struct ModelCurve {
     pub(crate) values: Vec<f64>,
     /// For each unknown the derivatives of all values.
     pub(crate) rates: Vec<Vec<f64>>,
+    /// Points before the needle touches, where there is no force.
+    pub(crate) before: usize,
     /// Points beyond the end of the path, which have its last value.
     pub(crate) beyond: usize,
     /// Derivatives that are differences of whole solutions, since those along the path are not known.
@@ -92,6 +94,7 @@ impl FitDefinition {
         let mut model = ModelCurve {
             values: places.iter().map(value).collect(),
             rates: Vec::new(),
+            before: places.iter().filter(|place| matches!(place, Place::Before)).count(),
             beyond: places.iter().filter(|place| matches!(place, Place::Beyond)).count(),
             differenced: 0,
         };

@@ -214,12 +214,8 @@ fn text(fitted: &Fitted) -> String {
         ]
     });
     text.push_str(&aligned(&rows.collect::<Vec<_>>()));
-    for curve in curves.iter().filter(|curve| curve.beyond > 0) {
-        let (file, beyond) = (&curve.file, counted(curve.beyond as u64, "point"));
-        let _ = writeln!(
-            text,
-            "  (!) {file}: {beyond} beyond the end of the fitted curve, where the scale has given way; leave them out with to = …"
-        );
+    for curve in curves {
+        text.push_str(&remarks(curve));
     }
     let differenced: usize = curves.iter().map(|curve| curve.differenced).sum();
     if differenced > 0 {
@@ -231,9 +227,35 @@ fn text(fitted: &Fitted) -> String {
     text
 }
 
+/// What should be known of a curve before its fit is believed, warnings first.
+fn remarks(curve: &FittedCurve) -> String {
+    let FittedCurve { file, beyond, left_out, .. } = curve;
+    let [x, y] = curve.axes.each_ref().map(|axis| axis.split_once(',').map_or(&**axis, |a| a.0));
+    let warnings = [
+        curve.is_turned.then(|| {
+            format!("no point has a {x} and a {y} above 0: are the signs of the machine turned round?")
+        }),
+        (*beyond > 0).then(|| {
+            let points = counted(*beyond as u64, "point");
+            format!("{points} beyond the end of the fitted curve, where the scale has given way; leave them out with to = …")
+        }),
+        curve.trend.map(|trend| {
+            format!("the residuals follow each other (correlation {trend:.2}): the skin behaves otherwise than the model, and the intervals are too narrow; look at residuals.svg")
+        }),
+    ];
+    let notes = [
+        (!curve.is_physical).then(|| {
+            format!("{x} and {y} have no units in the file, and are read as those of the tables that squama design writes")
+        }),
+        (*left_out > 0).then(|| format!("{} without numbers left out", counted(*left_out as u64, "line"))),
+    ];
+    let warnings = warnings.into_iter().flatten().map(|text| format!("  (!) {file}: {text}\n"));
+    warnings.chain(notes.into_iter().flatten().map(|text| format!("  {file}: {text}\n"))).collect()
+}
+
 fn record(fitted: &Fitted) -> Value {
     let estimate = |e: &Estimate| json!({ "sought": e.unknown.name, "unit": e.unknown.unit, "value": e.value, "interval": e.interval, "at_end": e.at_end });
-    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "noise": c.noise, "beyond": c.beyond, "differenced": c.differenced });
+    let curve = |c: &FittedCurve| json!({ "file": c.file, "points": c.points.len(), "left_out": c.left_out, "noise": c.noise, "trend": c.trend, "beyond": c.beyond, "differenced": c.differenced });
     let names = |group: &Vec<usize>| {
         group.iter().map(|&j| &fitted.estimates[j].unknown.name).collect::<Vec<_>>()
     };

@@ -46,11 +46,7 @@ fn draw(seed: u64) -> Drawn {
 /// A contact that is rigid at first and soft at once turns the path by a right angle within 1e-8 of where it closes.
 #[test]
 fn paths_go_on_from_a_contact_that_gives_way_at_once() {
-    let ends = [
-        (854, Status::LimitPoint),
-        (976, Status::OffEdge),
-        (1418, Status::Complete),
-    ];
+    let ends = [(854, Status::LimitPoint), (976, Status::OffEdge), (1418, Status::Complete)];
     for (seed, end) in ends {
         let Drawn { design, common, parameters } = draw(seed);
         let springs = springs(&design, &parameters, &Calibrations::default());

@@ -21,14 +21,16 @@ const NUMBER: &[Role] = &[Continuous, Made];
 
 /// A length in mm beside the same over the thickness, which follows from it.
 macro_rules! in_mm {
-    ($stem:literal, $section:literal, $range:expr, $roles:expr, $field:expr) => {
+    ($stem:literal, $what:literal, $section:literal, $range:expr, $roles:expr, $field:expr) => {
         Parameter {
             key: concat!($stem, "_mm"),
             section: $section,
             unit: "mm",
             meaning: concat!(
+                $what,
+                ", instead of ",
                 $stem,
-                "_over_t in mm, instead of that; with thickness_mm in [material]"
+                "_over_t; with thickness_mm in [material]"
             ),
             roles: $roles,
             kind: OptionalNumber { range: $range, field: $field },
@@ -45,7 +47,8 @@ const PARTS: [&[Parameter]; 4] =
     [skin::PARAMETERS, puncture::PARAMETERS, flexure::PARAMETERS, solution::PARAMETERS];
 
 /// Every parameter, in the order of the documentation. Keys are unique over all sections, because
-/// an axis is named by its key alone.// One slice, not a chain of iterators: others take parameters by their place, and keep them for as long as the program runs.
+/// an axis is named by its key alone.
+// One slice, not a chain of iterators: others take parameters by their place, and keep them for as long as the program runs.
 pub static PARAMETERS: &[Parameter] = &joined::<{ count() }>();
 
 const fn count() -> usize {

@@ -31,6 +31,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     in_mm!(
         "membrane_length",
+        "length of the membrane",
         "flexure",
         POSITIVE,
         &[InMm(key::MEMBRANE_LENGTH), Made, EndsBending],
@@ -59,6 +60,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     in_mm!(
         "membrane_thickness",
+        "thickness of the membrane",
         "flexure",
         POSITIVE,
         &[InMm(key::MEMBRANE_THICKNESS), Made, UnitOfBending],
@@ -75,9 +77,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
             field: |c| &mut c.flexure.membrane_axis_offset,
         },
     },
-    in_mm!("membrane_axis_offset", "flexure", ANY, &[InMm(key::MEMBRANE_AXIS), Made], |c| &mut c
-        .in_mm
-        .membrane_axis_offset),
+    in_mm!(
+        "membrane_axis_offset",
+        "depth of the axis of the membrane below the bases",
+        "flexure",
+        ANY,
+        &[InMm(key::MEMBRANE_AXIS), Made],
+        |c| &mut c.in_mm.membrane_axis_offset
+    ),
     Parameter {
         key: "elements_per_gap",
         section: "flexure",

@@ -44,7 +44,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: &[InsteadOf(key::LOAD_POSITION)],
         kind: OptionalNumber { range: Range::closed(0.0, 1e6), field: |c| &mut c.load_inset },
     },
-    in_mm!("load_inset", "puncture", ANY, &[InMm(key::LOAD_INSET)], |c| &mut c.in_mm.load_inset),
+    in_mm!(
+        "load_inset",
+        "distance of the load from the right corner of the top",
+        "puncture",
+        ANY,
+        &[InMm(key::LOAD_INSET)],
+        |c| &mut c.in_mm.load_inset
+    ),
     Parameter {
         key: key::NEEDLE,
         section: "puncture",
@@ -68,9 +75,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: NUMBER,
         kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.needle_radius },
     },
-    in_mm!("needle_radius", "puncture", POSITIVE, &[InMm(key::NEEDLE_RADIUS), Made], |c| &mut c
-        .in_mm
-        .needle_radius),
+    in_mm!(
+        "needle_radius",
+        "radius of the round tip of a guided needle",
+        "puncture",
+        POSITIVE,
+        &[InMm(key::NEEDLE_RADIUS), Made],
+        |c| &mut c.in_mm.needle_radius
+    ),
     Parameter {
         key: key::UNLOAD,
         section: "puncture",
@@ -128,7 +140,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: &[],
         kind: OptionalNumber { range: LENGTH, field: |c| &mut c.puncture.depth },
     },
-    in_mm!("depth", "puncture", POSITIVE, &[InMm(key::DEPTH)], |c| &mut c.in_mm.depth),
+    in_mm!(
+        "depth",
+        "depth at which force_at_depth is measured",
+        "puncture",
+        POSITIVE,
+        &[InMm(key::DEPTH)],
+        |c| &mut c.in_mm.depth
+    ),
     Parameter {
         key: key::PLACES,
         section: "puncture",

@@ -18,9 +18,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: &[Geometry, Continuous, Made, Scattered, MovesSprings],
         kind: Number { range: LENGTH, field: |c| &mut c.design.gap },
     },
-    in_mm!("gap", "designs", POSITIVE, &[InMm(key::GAP), Made, Scattered, MovesSprings], |c| {
-        &mut c.in_mm.gap
-    }),
+    in_mm!(
+        "gap",
+        "gap between neighbouring bases",
+        "designs",
+        POSITIVE,
+        &[InMm(key::GAP), Made, Scattered, MovesSprings],
+        |c| { &mut c.in_mm.gap }
+    ),
     Parameter {
         key: key::LENGTH,
         section: "designs",
@@ -29,9 +34,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: &[Geometry, Continuous, Made, MovesSprings],
         kind: Number { range: LENGTH, field: |c| &mut c.design.length },
     },
-    in_mm!("length", "designs", POSITIVE, &[InMm(key::LENGTH), Made, MovesSprings], |c| &mut c
-        .in_mm
-        .length),
+    in_mm!(
+        "length",
+        "length of a scale",
+        "designs",
+        POSITIVE,
+        &[InMm(key::LENGTH), Made, MovesSprings],
+        |c| &mut c.in_mm.length
+    ),
     Parameter {
         key: key::PITCH,
         section: "designs",
@@ -71,9 +81,14 @@ pub(super) const PARAMETERS: &[Parameter] = &[
         roles: &[Continuous, Made, MovesSprings],
         kind: Number { range: LENGTH, field: |c| &mut c.design.width },
     },
-    in_mm!("width", "scale", POSITIVE, &[InMm(key::WIDTH), Made, MovesSprings], |c| &mut c
-        .in_mm
-        .width),
+    in_mm!(
+        "width",
+        "width of a scale out of the plane",
+        "scale",
+        POSITIVE,
+        &[InMm(key::WIDTH), Made, MovesSprings],
+        |c| &mut c.in_mm.width
+    ),
     Parameter {
         key: key::POISSON_RATIO,
         section: "substrate",
@@ -92,6 +107,7 @@ pub(super) const PARAMETERS: &[Parameter] = &[
     },
     in_mm!(
         "tissue_thickness",
+        "thickness of the tissue on a rigid base",
         "substrate",
         POSITIVE,
         &[InMm(key::TISSUE), Made, MovesSprings],
