@@ -82,3 +82,17 @@ fn every_command_does_what_it_says() {
         assert!(place.path(file).is_file(), "{file}");
     }
 }
+
+#[test]
+fn the_answer_of_the_readme_is_that_of_the_tables() {
+    let text = fs::read_to_string(Path::new(ROOT).join("README.md")).expect("a README");
+    let place = Place::new();
+    copy_sweeps(&place);
+    place.prints("run sweeps/paper.toml");
+    let printed = place.prints("rank results/paper");
+    let answer = blocks(&text, "text");
+    assert!(answer[0].lines().count() > 3, "{text}");
+    for line in answer[0].lines() {
+        assert!(printed.lines().any(|printed| printed == line), "{line}\n{printed}");
+    }
+}
