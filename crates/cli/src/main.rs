@@ -16,7 +16,7 @@ mod progress;
 use std::io::Write as _;
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ContextValue};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory as _, Parser as _};
 
 use crate::commands::Arguments;
@@ -43,7 +43,7 @@ fn main() -> ExitCode {
 
 /// Whether the error is a question for help.
 fn is_help(error: &clap::Error) -> bool {
-    error.kind() == clap::error::ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
+    error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand
 }
 
 /// The error in the arguments, without the advice that follows it.
@@ -59,7 +59,18 @@ fn one_line(error: &clap::Error) -> anyhow::Error {
         .filter(|line| !line.is_empty() && !advice.iter().any(|advice| line.starts_with(advice)));
     let lines: Vec<_> = lines.collect();
     let line = lines.join(", ").replace(":, ", ": ");
-    anyhow::anyhow!(line.trim_start_matches("error: ").to_owned())
+    let line = line.trim_start_matches("error: ");
+    match error.get(ContextKind::Usage) {
+        // Nothing near is known by clap: what there is stands in the help.
+        Some(usage) if error.kind() == ErrorKind::UnknownArgument && !line.contains("tip:") => {
+            let usage = usage.to_string();
+            let words = usage.trim_start_matches("Usage:").split_whitespace();
+            let command: Vec<_> =
+                words.take_while(|word| !word.starts_with(['[', '<', '-'])).collect();
+            anyhow::anyhow!("{line}; {} --help tells what there is", command.join(" "))
+        }
+        _ => anyhow::anyhow!(line.to_owned()),
+    }
 }
 
 /// The error of a command that does not exist.

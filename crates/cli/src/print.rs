@@ -64,6 +64,13 @@ pub fn rounded(value: f64) -> String {
     sweep::number::rounded(value, 6)
 }
 
+/// A change of `percent` with its sign and so many decimals, never `-0`.
+pub fn change(percent: f64, decimals: usize) -> String {
+    let unit = 10_f64.powi(-(decimals as i32));
+    let rounded = (percent / unit).round() * unit + 0.0;
+    format!("{rounded:+.decimals$} %")
+}
+
 /// `duration` to the hundredth of a second, or to the second if it is long.
 pub fn time(duration: Duration) -> String {
     if duration < Duration::from_secs(60) {

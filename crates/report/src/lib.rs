@@ -72,4 +72,4 @@ pub use palette::{Mark, SlantPalette};
 #[cfg(feature = "png")]
 pub use png::{NoImage, png};
 pub use spreads::{Histogram, Shares, share_bars};
-pub use svg::{resized, untitled};
+pub use svg::{resized, smallest_letters, untitled};

@@ -163,6 +163,20 @@ pub fn resized(svg: &str, width: f64) -> String {
     parts().unwrap_or_else(|| svg.to_owned())
 }
 
+/// The size of the smallest letters of a drawing that is `width` mm wide on paper, indices apart, in points; `None` without letters.
+pub fn smallest_letters(svg: &str, width: f64) -> Option<f64> {
+    let number = |text: &str, name: &str| -> Option<f64> {
+        text.split_once(name)?.1.split_once('"')?.0.parse().ok()
+    };
+    let per_unit = POINTS_PER_MM * width / number(svg, " width=\"")?;
+    let texts = svg.split("<text").skip(1).filter_map(|text| text.split_once('>'));
+    let sizes = texts.filter_map(|(text, _)| number(text, "font-size=\""));
+    sizes.map(|size| size * per_unit).min_by(f64::total_cmp)
+}
+
+/// Points of letters in a millimetre.
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
+
 /// Returns the data of a path through `points`.
 pub(crate) fn through(points: &[Spot], closed: bool) -> String {
     let mut data = String::new();

@@ -7,8 +7,8 @@ use std::fs::File;
 use std::io::{self, BufRead as _, BufReader, Seek as _};
 use std::path::Path;
 
-use crate::columns::{parameter_of, tells_apart};
-use sweep::{Parameter, Sweep, nearest, number, reason};
+use crate::columns::{parameter_of, physical_source, tells_apart};
+use sweep::{Parameter, Sweep, has_part, nearest, number, reason};
 
 use crate::contents::verified_folder::{Completeness, InvalidFolder, VerifiedFolder};
 use crate::folder::RunFolder;
@@ -213,11 +213,14 @@ impl Results {
     fn no_column(&self, name: &str) -> InvalidResults {
         let known: Vec<&str> = self.header.iter().map(String::as_str).collect();
         let near = nearest(name, &known).map(|near| format!("did you mean {near}?"));
-        let has_word = |column: &&str| column.split('_').any(|word| word == name);
-        let alike: Vec<_> = known.iter().copied().filter(has_word).collect();
+        let alike: Vec<_> = known.iter().copied().filter(|known| has_part(known, name)).collect();
         // No one of several forces is the one that was meant.
         let expected = near.unwrap_or_else(|| match alike[..] {
+            [] if physical_source(name).is_some() => {
+                "which needs a [material] in the definition that was run".to_owned()
+            }
             [] => "expected a name of its first line".to_owned(),
+            [one] => format!("did you mean {one}?"),
             _ => format!("expected one of {}", alike.join(", ")),
         });
         InvalidResults::NoColumn { file: self.file(), column: name.to_owned(), expected }

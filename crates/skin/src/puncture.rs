@@ -35,7 +35,7 @@ use watch::PathWatch;
 
 use crate::arrangement::Arrangement;
 use crate::contacts::{SkinPoint, pair_constraints};
-use crate::record::{ContactEvent, Iteration, PathFunction, Record, Skin as _};
+use crate::record::{ContactEvent, Iteration, PathFunction, Record};
 use crate::{Common, Design, Sample, Status, WayBack};
 
 pub use fold::{Fold, GapStretch};

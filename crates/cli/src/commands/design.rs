@@ -17,7 +17,7 @@ use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
 use super::{DONE, INCOMPLETE};
 use crate::json;
-use crate::print::{aligned, print, rounded};
+use crate::print::{aligned, change, print, rounded};
 
 /// Arguments of `squama design`.
 #[derive(Debug, Args)]
@@ -218,7 +218,7 @@ fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
 fn sensitivity_line(derivative: &ParameterDerivative) -> [String; 3] {
     let change = match (&derivative.kink, derivative.elasticity()) {
         (Some(kink), _) => format!("kink: {kink}"),
-        (None, elasticity) => format!("{:+.3} %", elasticity.unwrap_or_default()),
+        (None, elasticity) => change(elasticity.unwrap_or_default(), 3),
     };
     [derivative.measure.to_owned(), derivative.parameter.to_owned(), change]
 }

@@ -11,6 +11,7 @@ use super::DONE;
 use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, folder_within};
+use super::work::decimal;
 
 /// Arguments of `squama draw`.
 #[derive(Debug, Args)]
@@ -35,11 +36,11 @@ pub struct Arguments {
     pub selection: Selection,
 
     /// Displacements u/t of the punctured point, or rotations of the ends in degrees
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, value_parser = decimal)]
     pub at: Vec<f64>,
 
     /// Puncture forces F* instead of displacements
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, conflicts_with_all = ["at", "flexure", "animate"])]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', allow_hyphen_values = true, value_parser = decimal, conflicts_with_all = ["at", "flexure", "animate"])]
     pub force: Vec<f64>,
 
     /// Draw the strip in bending instead of the puncture

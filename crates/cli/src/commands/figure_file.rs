@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use clap::Args;
-use report::{resized, untitled};
+use report::{resized, smallest_letters, untitled};
 use results::{AtomicFile, VerifiedFolder};
 
 use super::derived;
-use crate::print::print;
+use super::work::decimal;
+use crate::print::{note, print};
 
 /// Where figures go, and as what.
 #[derive(Debug, Args)]
@@ -21,7 +22,7 @@ pub struct FigureOutput {
     pub png: bool,
 
     /// Resolution of images in dots per inch; 96 gives the size of the figure in pixels
-    #[arg(long, value_name = "DPI", default_value = "192", allow_hyphen_values = true)]
+    #[arg(long, value_name = "DPI", default_value = "192", allow_hyphen_values = true, value_parser = decimal)]
     pub dpi: f64,
 
     /// Omit the titles, for captions of your own
@@ -29,13 +30,16 @@ pub struct FigureOutput {
     pub no_title: bool,
 
     /// Width of the figures on paper in mm, e.g. 85 for a column; text shrinks in proportion [default: 1 px for 1/96 inch]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
     /// Folder for the figures [default: a folder in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
+
+/// The smallest letters that journals print, pt.
+const READABLE: f64 = 6.0;
 
 /// Dots per inch that an image may have.
 const DPI: RangeInclusive<f64> = 24.0..=2400.0;
@@ -63,13 +67,27 @@ impl<'a> FigureFiles<'a> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
         let svg = match output.width {
-            Some(width) => Cow::Owned(resized(&svg, width)),
+            Some(width) => {
+                self.question_letters(name, &svg, width);
+                Cow::Owned(resized(&svg, width))
+            }
             None => svg,
         };
         // An image that cannot be made leaves no drawing without it.
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
         self.write(format!("{name}.svg"), svg.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
+    }
+
+    /// Says which letters nobody can read on paper.
+    fn question_letters(&self, name: &str, svg: &str, width: f64) {
+        let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
+        if let Some(points) = smallest {
+            let wide = (width * READABLE / points).ceil();
+            note(&format!(
+                "{name}.svg: letters of {points:.1} pt on paper; of {READABLE} pt if it is {wide} mm wide"
+            ));
+        }
     }
 
     /// Writes a page.

@@ -13,6 +13,7 @@ use tolerance::{Analysis, SampleStore};
 use super::figure_file::write_file;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, require_folder_of};
+use super::work::decimal;
 use super::{DONE, PROGRAM};
 use crate::interrupt::Interrupt;
 use crate::print::{aligned, note, print, rounded};
@@ -52,17 +53,17 @@ pub struct Arguments {
     pub scales: [usize; 2],
 
     /// Gap between neighbouring rows, mm [default: the gap of the design]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub gap_across_mm: Option<f64>,
 
     /// Width of the line that the laser burns, mm [default: 0]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub kerf: Option<f64>,
 
     /// Thickness of the sheet of the glue template, mm [default: 0.1]
     ///
     /// Scales that lean need longer holes in thicker sheets.
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub template_mm: Option<f64>,
 }
 
@@ -71,7 +72,8 @@ const TEMPLATE_MM: f64 = 0.1;
 
 /// Reads two numbers of scales, as `5x4`.
 fn along_and_across(text: &str) -> Result<[usize; 2], String> {
-    let numbers = text.split_once('x').map(|(along, across)| (along.parse(), across.parse()));
+    let numbers =
+        text.split_once(['x', '×']).map(|(along, across)| (along.parse(), across.parse()));
     match numbers {
         Some((Ok(along), Ok(across))) => Ok([along, across]),
         _ => Err("expected numbers of scales along and across, e.g. 5x4".to_owned()),

@@ -16,6 +16,7 @@ use super::figure_file::{FigureFiles, FigureOutput, check_sizes, joined};
 use super::results_folder::ResultsFolder;
 use super::selection::{SelectedDesign, Selection, select};
 use super::source::{Definition, Partial, folder_within, verified_folder};
+use super::work::decimal;
 use super::{DONE, INCOMPLETE};
 use crate::progress::with_bar;
 
@@ -110,7 +111,7 @@ pub struct CurvesArguments {
     pub selection: Selection,
 
     /// Follow punctures to this displacement u/t instead of the critical tilt
-    #[arg(long, value_name = "U", allow_hyphen_values = true)]
+    #[arg(long, value_name = "U", allow_hyphen_values = true, value_parser = decimal)]
     pub to: Option<f64>,
 
     /// Lay a measured curve over the solved ones (may be repeated, for files of one test)

@@ -85,7 +85,7 @@ pub struct Arguments {
     pub sound: bool,
 
     /// Number of designs to print
-    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<0, { u64::MAX }>)]
+    #[arg(long, allow_hyphen_values = true, value_name = "N", default_value_t = 10, value_parser = whole::<1, { u64::MAX }>)]
     pub top: u64,
 
     /// Number of steps along an edge of the tetrahedron of weights, 1 to 200

@@ -163,7 +163,10 @@ fn by_values(
     let written = read(&settings)?;
     for (option, key, text) in options(selection) {
         let Some(text) = text else { continue };
-        let option = format!("{option} {text}");
+        // A decimal comma makes two values of one.
+        let whole = text.split(',').all(|part| part.trim().parse::<u64>().is_ok());
+        let note = if text.contains(',') && whole { " (several values)" } else { "" };
+        let option = format!("{option} {text}{note}");
         // A range selects among the values as they are written, because the option takes the place of their axis, in its unit.
         let axis = written.grid().axis_saying(key);
         let key = axis.map_or(key, |axis| axis.parameter().key);
@@ -189,8 +192,16 @@ fn options(selection: &Selection) -> [(&'static str, &'static str, Option<&Strin
 fn values(text: &str, axis: Option<&Axis>) -> anyhow::Result<String> {
     let Some((low, high)) = text.split_once("..") else {
         // What is TOML already, such as { from = 0.1, to = 1 }, is left as it is.
-        let is_list = text.contains(',') && !text.trim_start().starts_with(['[', '{']);
-        return Ok(if is_list { format!("[{text}]") } else { text.to_owned() });
+        if text.trim_start().starts_with(['[', '{']) {
+            return Ok(text.to_owned());
+        }
+        // `.5` is a number to people, and none to TOML.
+        let number = |part: &str| {
+            let number = part.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+            number.map_or_else(|| part.to_owned(), |number| number.to_string())
+        };
+        let all: Vec<_> = text.split(',').map(number).collect();
+        return Ok(if all.len() > 1 { format!("[{}]", all.join(",")) } else { all.concat() });
     };
     let number = |text: &str| text.trim().parse::<f64>().ok();
     let bounds = number(low).zip(number(high)).map(|(low, high)| low..=high);

@@ -74,6 +74,11 @@ impl Threads {
     }
 }
 
+/// Reads a number, without a unit: it stands in the name of its option, or in its help.
+pub fn decimal(text: &str) -> Result<f64, String> {
+    text.trim().parse().map_err(|_| "expected a number, without a unit".to_owned())
+}
+
 /// Reads a whole number from `LOW` to `HIGH`. The parsers of clap speak of digits and types where it is none.
 pub fn whole<const LOW: u64, const HIGH: u64>(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|number| (LOW..=HIGH).contains(number));

@@ -27,6 +27,7 @@ fn of_the_definition() {
 #[test]
 fn of_the_command_line() {
     let place = Place::with(FEW);
+    place.prints("run x.toml --out r");
     let message = |arguments: &&str| place.refused(arguments);
     let messages: Vec<_> = [
         "run missing.toml",
@@ -36,6 +37,12 @@ fn of_the_command_line() {
         "run x.toml --set contact.c2",
         "run x.toml --set designs.slant_deg=[0,",
         "check x.toml --set puncture.scales=many",
+        "run x.toml --design 1",
+        "draw x.toml --design 1 --width 85mm",
+        "design x.toml --gap 0,1 --length .5 --slant 60",
+        "rank r --require critical_force_N>=2",
+        "rank r --require force>=2",
+        "rank r --top 0",
         "design x.toml --design 0009",
         "design x.toml --design 0",
         "design x.toml --gap 0.1 --slant 0",
@@ -58,7 +65,7 @@ fn of_the_command_line() {
     .map(message)
     .collect();
     insta::assert_snapshot!(messages.concat());
-    assert_eq!(place.list("."), "x.toml", "nothing is written");
+    assert_eq!(place.list("."), "r x.toml", "nothing is written");
 }
 
 #[test]

@@ -61,7 +61,7 @@ fn designs_are_selected_by_values() {
     assert!(place.list("c").contains("force-displacement-curves-of-0002-0004.svg"));
     insta::assert_snapshot!(place.refused("draw x.toml --slant 10..40"), @"error: --slant 10..40: the sweep has no value in this range, expected some of 0 45");
     insta::assert_snapshot!(place.refused("draw x.toml --slant 10..x"), @"error: --slant 10..x: not accepted, expected FROM..TO, e.g. 15..60");
-    insta::assert_snapshot!(place.refused("draw x.toml --slant 1,99"), @"error: --slant 1,99: designs.slant_deg: 99 is out of range, expected an angle of at least 0 and below 90");
+    insta::assert_snapshot!(place.refused("draw x.toml --slant 1,99"), @"error: --slant 1,99 (several values): designs.slant_deg: 99 is out of range, expected an angle of at least 0 and below 90");
     insta::assert_snapshot!(place.refused("draw x.toml"), @"error: x.toml: has 8 designs; choose with --design, or with --gap, --length and --slant");
     insta::assert_snapshot!(place.refused("design x.toml"), @"error: x.toml: has 8 designs; choose with --design, or with --gap, --length and --slant");
 }

@@ -26,7 +26,7 @@ impl DesignGoal {
     /// # Errors
     /// If the file cannot be read or holds no goal; all that is wrong with it is told at once.
     pub fn read(path: &Path, settings: &[Setting]) -> Result<Self, InvalidDefinition> {
-        Self::of_entries(&read_entries(path, settings)?, &path.display().to_string())
+        Self::read_with(path, settings, &[])
     }
 
     /// As [`Self::read`], with further requirements.
@@ -42,7 +42,7 @@ impl DesignGoal {
         for requirement in required {
             require(&mut entries, requirement);
         }
-        Self::of_entries(&entries, &path.display().to_string())
+        Self::of_section(&entries, &path.display().to_string(), required)
     }
 
     /// The goal that `text`, from the file `name`, holds once `settings` are put in its place.
@@ -58,10 +58,24 @@ impl DesignGoal {
     /// # Errors
     /// If they hold no goal.
     pub fn of_entries(entries: &KeyValues, name: &str) -> Result<Self, InvalidDefinition> {
+        Self::of_section(entries, name, &[])
+    }
+
+    /// As [`Self::of_entries`], of which the command, and not the file, has said what is `required`.
+    fn of_section(
+        entries: &KeyValues,
+        name: &str,
+        required: &[Requirement],
+    ) -> Result<Self, InvalidDefinition> {
         let file = Place::File { name: name.into(), line: None };
         let definition = entries.iter().filter(|entry| entry.key != "goal").cloned().collect();
         let mut refused = Vec::new();
-        let section = goal_section(entries, &file, &mut refused);
+        let mut section = goal_section(entries, &file, &mut refused);
+        for (requirement, place) in &mut section.requirements {
+            if required.contains(requirement) {
+                *place = argument(requirement);
+            }
+        }
         let sweep = match Sweep::of_entries(&definition, name) {
             Ok(sweep) => sweep,
             Err(error) => {
@@ -112,10 +126,14 @@ impl DesignGoal {
     }
 }
 
+/// The place of a requirement that a command names.
+fn argument(requirement: &Requirement) -> Place {
+    Place::Argument(format!("--require '{requirement}'").into())
+}
+
 /// Adds a requirement to those that a goal has.
 fn require(entries: &mut KeyValues, requirement: &Requirement) {
-    let (name, text) = ("require", requirement.to_string());
-    let place = Place::Argument(format!("--require {text}").into());
+    let (name, text, place) = ("require", requirement.to_string(), argument(requirement));
     let goal = entries.iter_mut().find(|entry| entry.key == "goal");
     // A definition without a goal is refused later, by what it lacks.
     let Some(KeyValue { value: Value::Table(goal), .. }) = goal else { return };

@@ -66,14 +66,20 @@ fn keys_of(section: &str) -> Vec<&'static str> {
     PARAMETERS.iter().filter(belongs).map(|parameter| parameter.key).collect()
 }
 
+/// Whether `part` is one of the words of a name, or its last ones.
+pub fn has_part(name: &str, part: &str) -> bool {
+    name.split('_').any(|word| word == part)
+        || name.strip_suffix(part).is_some_and(|rest| rest.ends_with('_'))
+}
+
 /// The candidate that `key` is the beginning or a misspelling of, if one is near enough.
 pub fn nearest<'c>(key: &str, candidates: &[&'c str]) -> Option<&'c str> {
     // The unit is what is left out most: `gap` is `gap_over_t` before it is `gaps`; but `depth` is no `depth_stability_force`.
     if let Some(whole) = candidates.iter().find(|c| **c != key && quantity(c) == key) {
         return Some(whole);
     }
-    // A word of several names, as `force` is, is no slip of the pen for one of them.
-    if candidates.iter().filter(|c| c.split('_').any(|word| word == key)).count() > 1 {
+    // A part of several names, as `force` and `force_N` are, is no slip of the pen for one of them.
+    if candidates.iter().filter(|c| has_part(c, key)).count() > 1 {
         return None;
     }
     // A name with a unit stands for something that has one: `gap_mm` is neither `gaps` nor `gap_cv`.

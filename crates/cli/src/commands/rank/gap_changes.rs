@@ -90,7 +90,7 @@ fn words(value: f64, changed: Option<f64>) -> String {
         _ if !ratio.is_finite() => format!("from {value} to {}", crate::print::rounded(changed)),
         _ if ratio >= LARGE => format!("× {ratio:.1}"),
         _ if ratio > 0.0 && ratio <= LARGE.recip() => format!("÷ {:.1}", ratio.recip()),
-        _ => format!("{:+.1} %", 100.0 * (ratio - 1.0)),
+        _ => crate::print::change(100.0 * (ratio - 1.0), 1),
     }
 }
 

@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use ranking::Requirement;
 use results::MEASURE_TABLES;
-use results::columns::{FOLD_FORCE, GAP_STRETCH_MIN, measure_name};
+use results::columns::{AREAL_MASS, FOLD_FORCE, GAP_STRETCH_MIN, measure_name};
 use sweep::Sweep;
 use tolerance::{
     DesignTolerance, MeasureTolerance, Proportion, RequirementYield, Sampled, SolvedSample,
 };
 
-use crate::print::{aligned, counted, rounded};
+use crate::print::{aligned, change, counted, rounded};
 
 /// Designs that are listed before a list is cut short.
 const LISTED: usize = 10;
@@ -65,11 +65,11 @@ fn folded(design: &DesignTolerance) -> Option<String> {
     (count > 0).then_some(line)
 }
 
-/// Whether people see a measure: what the tables are about, in all units, and what is required.
+/// Whether people see a measure: what the tables are about, in all units, the mass, and what is required.
 pub fn is_shown(name: &str, requirements: &[Requirement]) -> bool {
     let measure = measure_name(name);
     let leads = MEASURE_TABLES.iter().any(|(table, _)| *table == measure);
-    leads || requirements.iter().any(|requirement| requirement.column == name)
+    leads || name == AREAL_MASS || requirements.iter().any(|requirement| requirement.column == name)
 }
 
 fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
@@ -78,7 +78,7 @@ fn measure_row(measure: &MeasureTolerance) -> Vec<String> {
         |value: fn(&Sampled) -> String| measure.sampled.as_ref().map_or("none".to_owned(), value);
     let off = measure.discrepancy().map_or("unknown".to_owned(), |off| {
         let mark = if measure.is_off() { " (!)" } else { "" };
-        format!("{:+.0} %{mark}", 100.0 * off)
+        format!("{}{mark}", change(100.0 * off, 0))
     });
     vec![
         measure.name.clone(),
