@@ -1,5 +1,6 @@
 //! `squama optimise`.
 
+mod elsewhere;
 mod figures;
 mod record;
 mod report;

@@ -202,3 +202,30 @@ fn a_folder_of_a_run_is_left_alone() {
     std::fs::write(place.path("g.toml"), GOAL).expect("writable");
     insta::assert_snapshot!(place.refused("optimise g.toml --out r --fresh"), @"error: r: holds the results of a run; choose another folder with --out DIR");
 }
+
+/// The force at one place is not the force of the skin.
+#[test]
+fn a_weaker_place_of_the_best_design_is_told() {
+    let goal = "name = 'pinned'\nmeasures = 'puncture'\n[variables]\nslant_deg = { from = 70, to = 75 }\n\
+        [designs]\ngap_over_t = 0.1\nlength_over_t = 1\n[puncture]\nneedle = 'guided'\nneedle_friction = 0.3\n\
+        [material]\nthickness_mm = 2\nsubstrate_modulus_MPa = 0.5\n[goal]\nsound = false\nmaximize = 'critical_force'\nsamples = 2\n";
+    let told = |goal: &str, name: &str| {
+        let place = Place::with(goal);
+        let text = place.prints("optimise x.toml");
+        let found = place.prints("design results/pinned --json --set puncture.places=11");
+        let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+        (text, found["measures"][name].as_f64().expect("a number"))
+    };
+    let (text, weakest) = told(goal, "weakest_force_N");
+    let (_, line) = text.split_once("gets through more easily at ").expect("a sentence");
+    let force = line.split_once(": ").and_then(|(_, rest)| rest.split_once(" N, not "));
+    let printed: f64 = force.expect("a force").0.parse().expect("a number");
+    assert!((printed / weakest - 1.0).abs() < 1e-4, "{line} {weakest}");
+    // Of the weakest place nothing is left to say, and a dead load hangs where it does.
+    let weakest = goal.replace("critical_force", "weakest_force");
+    let (text, _) =
+        told(&weakest.replace("[puncture]\n", "[puncture]\nplaces = 11\n"), "weakest_force");
+    assert!(!text.contains("more easily"), "{text}");
+    let (text, _) = told(&goal.replace("'guided'", "'free'"), "weakest_force");
+    assert!(!text.contains("more easily"), "{text}");
+}

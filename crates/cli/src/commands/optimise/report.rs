@@ -8,6 +8,7 @@ use ranking::{Requirement, Unmet};
 use results::columns::{Cell, design_columns};
 
 use super::super::rank::obstacle;
+use super::elsewhere::elsewhere;
 use super::skins;
 use crate::print::{aligned, counted, digits, rounded, time};
 
@@ -84,6 +85,7 @@ impl SearchReport<'_> {
                 aligned(&rows)
             );
         }
+        text += &elsewhere(self.goal, &best.candidate).unwrap_or_default();
         text + &best.confirmation.as_ref().map(skins::text).unwrap_or_default()
     }
 
