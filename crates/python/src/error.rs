@@ -39,7 +39,12 @@ pub trait OrFailed<T> {
 
 impl<T, E: Display> OrFailed<T> for Result<T, E> {
     fn or_failed(self, what: &str) -> PyResult<T> {
-        self.map_err(|error| failed(what, &error.to_string()))
+        // What a command is told by flags, a function is told by keywords.
+        let spoken = |text: String| {
+            let text = text.replace("squama run --resume", "squama.run(..., resume=True)");
+            text.replace("--resume", "resume=True").replace("--fresh", "fresh=True")
+        };
+        self.map_err(|error| failed(what, &spoken(error.to_string())))
     }
 }
 
@@ -63,7 +68,12 @@ pub fn invalid_definition(
             let value = given.and_then(|given| given.get_item(key).ok().flatten());
             let (found, expected) = explained(problem);
             let found = || found.map(|found| pyo3::types::PyString::new(py, &found).into_any());
-            invalid_parameter(py, key, value.or_else(found), &expected)
+            let value = value.or_else(found);
+            // Without a value it is missing, or something else than a value is wrong.
+            if value.is_none() && !matches!(**problem, Problem::Missing(_)) {
+                return exception(py, "InvalidDefinition", (error.to_string(),));
+            }
+            invalid_parameter(py, key, value, &expected)
         }
         other => exception(py, "InvalidDefinition", (other.to_string(),)),
     }
@@ -76,6 +86,7 @@ fn explained(problem: &Problem) -> (Option<String>, String) {
             WrongValue::OutOfRange { found, expected }
             | WrongValue::NotAccepted { found, expected },
         ) => (Some(found.clone()), expected.clone()),
+        Problem::Missing(expected) => (None, (*expected).to_owned()),
         Problem::Value(WrongValue::NoEffect(reason)) => (None, reason.clone()),
         Problem::Unknown { value, hint } => (Some(value.clone()), hint.clone()),
         other => (None, other.to_string()),

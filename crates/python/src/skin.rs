@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{IntoPyDict as _, PyDict, PyTuple};
+use pyo3::types::{IntoPyDict as _, PyDict, PyString, PyTuple};
 use report::drawings::PunctureDrawing;
 use results::columns::measure_of;
 use run::Evaluator;
@@ -38,7 +38,8 @@ pub fn unknown(py: Python<'_>, key: &str) -> PyErr {
     let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.key).collect();
     let near = nearest(key, &known).map(|near| format!("did you mean {near}?"));
     let near = near.unwrap_or_else(|| "help(squama.Skin) lists them".to_owned());
-    error::invalid_parameter(py, key, None, &format!("a parameter; {near}"))
+    let name = PyString::new(py, key).into_any();
+    error::invalid_parameter(py, key, Some(name), &format!("the name of a parameter; {near}"))
 }
 
 /// The sweep of one skin with these parameters; those that are `None` are left at their defaults.
@@ -72,7 +73,8 @@ fn sweep_of(given: &Bound<'_, PyDict>) -> PyResult<Sweep> {
     let several = sweep.grid().axes().iter().find(|axis| axis.len() > 1);
     let Some(several) = several.map(Axis::parameter) else { return Ok(sweep) };
     let expected = format!("one value, {}", several.expected());
-    Err(error::invalid_parameter(py, several.key, None, &expected))
+    let found = given.get_item(several.key)?;
+    Err(error::invalid_parameter(py, several.key, found, &expected))
 }
 
 /// A value as Python has it.

@@ -179,6 +179,21 @@ def test_everything_that_is_wrong_is_told_at_once():
     assert str(pickle.loads(pickle.dumps(caught.value))) == str(caught.value)
 
 
+def test_errors_speak_of_keywords_and_say_what_is_missing(tmp_path):
+    with pytest.raises(squama.InvalidParameter, match="^slant_deg: is missing, expected an angle"):
+        squama.Skin(gap_over_t=0.1, length_over_t=1)
+    with pytest.raises(squama.InvalidParameter, match="^gap: 'gap' is not accepted, expected the name of a parameter; did you"):
+        SKIN.replace(gap=0.1)
+    (tmp_path / "x.toml").write_text("name = 'x'\nmeasures = 'coverage'\n[designs]\nslant_deg = [0, 45]\n")
+    squama.run(tmp_path / "x.toml", tmp_path / "x")
+    with pytest.raises(squama.Failed, match="use resume=True to continue from them, or fresh=True to discard them"):
+        squama.run(tmp_path / "x.toml", tmp_path / "x")
+    with pytest.raises(KeyError, match="no measure critical_force_N of this skin: it needs the material"):
+        SKIN.solve()["critical_force_N"]
+    assert set(SKIN.solve().keys()) == set(SKIN.solve().values)
+    assert (squama.solve_many(SKIN, "coverage")["coverage"] == [SKIN.solve("coverage")["coverage"]]).all()
+
+
 def test_errors_and_results_pickle():
     kink = squama.KinkWarning("compliance", "gap_over_t", 1.0, 2.0, "touch")
     errors = [squama.InvalidParameter("c2", 0, "a number"), squama.Failed("puncture", "limit point"), kink]

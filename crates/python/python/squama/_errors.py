@@ -12,7 +12,7 @@ class InvalidParameter(ValueError):
         self.key, self.value, self.expected = key, value, expected
 
     def __str__(self):
-        found = "is missing or not accepted" if self.value is None else f"{self.value!r} is not accepted"
+        found = "is missing" if self.value is None else f"{self.value!r} is not accepted"
         return "\n".join([f"{self.key}: {found}, expected {self.expected}", *self.others])
 
     @property

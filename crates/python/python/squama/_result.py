@@ -85,6 +85,10 @@ class Result:
             raise Failed(name, reason)
         return float("nan")
 
+    def keys(self):
+        """The names of all measures."""
+        return list(self._by_name)
+
     def get(self, name, default=float("nan")):
         """A measure, or ``default`` if it could not be found."""
         try:

@@ -13,13 +13,14 @@ from ._table import Table
 
 
 def solve_many(skins, measures="all", *, threads=None, progress=False):
-    """Solves skins on all cores, and gives a `Table` with the columns of ``designs.csv``, a row each, in their order.
+    """Solves skins, or one, on all cores, and gives a `Table` with the columns of ``designs.csv``, a row each, in their order.
 
     Parameters in which the skins differ have columns too. A measure that failed is NaN; ``puncture_status`` and
     ``flexure_status`` say why. Ctrl-C ends it, and the results are lost: `run` keeps them.
     """
     with Bar(progress) as tell:
-        return Table(_squama.solve_many(list(skins), measures, threads, tell))
+        skins = [skins] if isinstance(skins, _squama.Skin) else list(skins)
+        return Table(_squama.solve_many(skins, measures, threads, tell))
 
 
 class Run(Table):

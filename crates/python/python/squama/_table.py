@@ -16,6 +16,9 @@ def find(known, name, what):
     except KeyError:
         # Tables have lengths over the thickness, also of skins that were given in mm.
         over_t = str(name).removesuffix("_mm") + "_over_t"
+        if over_t not in known and any(name == column for column, *_ in _squama.columns()):
+            needed = "the material, say thickness_mm" if str(name).endswith(("_N", "_mm", "_N_mm", "_mJ", "_m2")) else "other parameters or measures"
+            raise KeyError(f"there is no {what} {name} of this skin: it needs {needed}") from None
         near = [f"{over_t}, times thickness_mm"] if over_t in known else get_close_matches(str(name), known, 1)
         raise KeyError(f"there is no {what} {name}" + (f"; did you mean {near[0]}?" if near else "")) from None
 
