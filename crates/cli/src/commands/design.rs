@@ -194,6 +194,9 @@ fn shown(cell: &Cell) -> String {
 /// Parameters that are listed for each measure, those that move it most.
 const LISTED: usize = 3;
 
+/// Per cent that would be printed as none.
+const NEGLIGIBLE: f64 = 5e-4;
+
 /// The largest elasticities of each measure, and the kinks, which have none; the table has all.
 fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     if derivatives.is_empty() {
@@ -205,8 +208,7 @@ fn sensitivity(derivatives: &[ParameterDerivative]) -> String {
     };
     let mut lines = Vec::new();
     for of_measure in derivatives.chunk_by(|one, other| one.measure == other.measure) {
-        let mut known: Vec<_> =
-            of_measure.iter().filter(|d| d.kink.is_some() || d.elasticity().is_some()).collect();
+        let mut known: Vec<_> = of_measure.iter().filter(|d| size(d) >= NEGLIGIBLE).collect();
         // A kink counts as infinite: it changes more than any slope.
         known.sort_by(|one, other| size(other).total_cmp(&size(one)));
         lines.extend(known.into_iter().take(LISTED).map(sensitivity_line));

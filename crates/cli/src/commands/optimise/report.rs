@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use optimisation::{Answer, BestDesign, Candidate, DesignGoal, Found, Front, Judgement, Words};
 use ranking::{Requirement, Unmet};
+use results::Outcome;
 use results::columns::{Cell, design_columns};
 
 use super::super::rank::obstacle;
@@ -56,7 +57,8 @@ impl SearchReport<'_> {
         let left_out = &self.found.left_out;
         let mut rows: Vec<[String; 2]> = Vec::new();
         let row = |count: usize, why: String| [format!("{count} left out"), why];
-        rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, why.to_string())));
+        let failed = |why: &Outcome| format!("{why}: {}", why.meaning());
+        rows.extend(left_out.failed.iter().map(|(why, n)| row(*n, failed(why))));
         rows.extend(
             left_out.missing.iter().map(|(column, n)| row(*n, format!("no value of {column}"))),
         );
