@@ -68,7 +68,7 @@ impl<'a> FigureFiles<'a> {
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
         let svg = match output.width {
             Some(width) => {
-                self.question_letters(name, &svg, width);
+                question_letters(name, &svg, width);
                 Cow::Owned(resized(&svg, width))
             }
             None => svg,
@@ -77,17 +77,6 @@ impl<'a> FigureFiles<'a> {
         let image = output.png.then(|| image(&svg, output.dpi)).transpose()?;
         self.write(format!("{name}.svg"), svg.as_bytes())?;
         image.map_or(Ok(()), |image| self.write(format!("{name}.png"), &image))
-    }
-
-    /// Says which letters nobody can read on paper.
-    fn question_letters(&self, name: &str, svg: &str, width: f64) {
-        let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
-        if let Some(points) = smallest {
-            let wide = (width * READABLE / points).ceil();
-            note(&format!(
-                "{name}.svg: letters of {points:.1} pt on paper; of {READABLE} pt if it is {wide} mm wide"
-            ));
-        }
     }
 
     /// Writes a page.
@@ -110,6 +99,17 @@ impl<'a> FigureFiles<'a> {
     pub fn print(&self) -> io::Result<()> {
         let line = |name: &String| format!("{}\n", self.folder.join(name).display());
         print(&self.names.iter().map(line).collect::<String>())
+    }
+}
+
+/// Says which letters nobody can read on paper.
+fn question_letters(name: &str, svg: &str, width: f64) {
+    let smallest = smallest_letters(svg, width).filter(|points| *points < READABLE);
+    if let Some(points) = smallest {
+        let wide = (width * READABLE / points).ceil();
+        note(&format!(
+            "{name}.svg: letters of {points:.1} pt on paper; of {READABLE} pt if it is {wide} mm wide"
+        ));
     }
 }
 

@@ -111,11 +111,13 @@ fn what_makes_a_fit_doubtful_is_said() {
         let assert = place.squama("fit x.toml").assert().code(exit);
         String::from_utf8_lossy(&assert.get_output().stdout).into_owned()
     };
-    let pulled: String = (1..30).map(|k| format!("{k},-{k}\n")).collect();
-    let text = fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled},\n40,-40\n"), 0);
+    let pulled = (1..30).map(|k| format!("{k},-{k}")).collect::<Vec<_>>().join("\n");
+    let text =
+        fitted(&format!("Machine;7\nDisplacement (µm),Force [mN]\n{pulled}\n,\n40,-40\n"), 0);
     assert!(text.contains("(!) a.csv: no point has a displacement and a force above 0"), "{text}");
     assert!(text.contains("a.csv: 1 line without numbers left out"), "{text}");
-    let wave: String = (1..60).map(|k| format!("{k},{}\n", 2 * k + 20 * (k / 10 % 2))).collect();
+    let wave = (1..60).map(|k| format!("{k},{}", 2 * k + 20 * (k / 10 % 2)));
+    let wave = wave.collect::<Vec<_>>().join("\n");
     let text = fitted(&format!("displacement_um,force_mN\n{wave}"), 0);
     assert!(text.contains("(!) a.csv: the residuals follow each other (correlation 0."), "{text}");
     let text = fitted("displacement,force\n0.1,0.2\n0.2,0.4\n0.3,0.6\n", 1);
