@@ -6,11 +6,12 @@ use anyhow::ensure;
 use clap::Args;
 use results::columns::design_columns;
 use results::{
-    Cell, Claim, Column, DesignRow, Maker, ParameterDerivative, RunFolder, SolvedDesign,
+    Cell, Claim, Column, DesignRow, Maker, Outcome, ParameterDerivative, RunFolder, SolvedDesign,
     write_measures, write_path_tables,
 };
 use run::Evaluator;
 use serde_json::{Map, Value, json};
+use skin::puncture::Weakest;
 use sweep::PARAMETERS;
 
 use super::selection::{SelectedDesign, Selection, select};
@@ -139,7 +140,29 @@ impl SolvedChoice {
         });
         let rows: Vec<_> = rows.collect();
         let sensitivity = sensitivity(&self.solved.row.result.sensitivity);
-        format!("{}\n{}\n{}{sensitivity}", self.title(), self.changes(), aligned(&rows))
+        let (title, changes, table) = (self.title(), self.changes(), aligned(&rows));
+        format!("{title}\n{changes}\n{table}{}{sensitivity}", self.places())
+    }
+
+    /// What is known of the places of the load, if one of them keeps the weakest from being known.
+    fn places(&self) -> String {
+        let Some(puncture) = &self.solved.puncture else { return String::new() };
+        let Err(status) = Weakest::of(&puncture.places) else { return String::new() };
+        let known = puncture.places.iter().filter_map(|place| Some((place.force?, place)));
+        let Some((force, place)) = known.min_by(|one, other| one.0.total_cmp(&other.0)) else {
+            return String::new();
+        };
+        let is_weaker = |borne: f64| borne < force;
+        let open = puncture.places.iter();
+        let open = open.filter(|p| p.force.is_none() && p.borne.is_some_and(is_weaker));
+        let open: Vec<_> = open.map(|place| rounded(place.position)).collect();
+        format!(
+            "\nThe weakest place is not known: the path ends early ({}) at {}. The weakest of the others is {}, with a critical force of {}\n",
+            Outcome::from(status),
+            open.join(", "),
+            rounded(place.position),
+            rounded(force)
+        )
     }
 
     fn title(&self) -> String {

@@ -194,3 +194,20 @@ fn that_stops_early_has_an_exit_code() {
     let text = String::from_utf8(stopped.get_output().stdout.clone()).expect("text");
     assert!(text.contains("too many points"), "{text}");
 }
+
+/// One place without an answer does not hide the others.
+#[test]
+fn the_weakest_of_the_places_that_have_a_force_is_told() {
+    let place = Place::with(
+        "name = 'x'\n[designs]\ngap_over_t = 0.1\nlength_over_t = 1\nslant_deg = 75\n[puncture]\nneedle = 'guided'\nplaces = 11\n",
+    );
+    let text = place.squama("design x.toml --out o").assert().get_output().stdout.clone();
+    let text = String::from_utf8_lossy(&text).into_owned();
+    let places = place.read("o/places.csv");
+    let forces = places.lines().skip(1).filter_map(|row| row.split(',').nth(1)?.parse().ok());
+    let weakest = forces.reduce(f64::min).expect("a force");
+    assert!(text.contains("the path ends early (off the edge) at 0."), "{text}");
+    let (_, told) = text.split_once("with a critical force of ").expect("a sentence");
+    let told: f64 = told.lines().next().expect("a line").parse().expect("a number");
+    assert!((told / weakest - 1.0).abs() < 1e-5, "{text}");
+}
