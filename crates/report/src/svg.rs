@@ -158,6 +158,7 @@ pub fn resized(svg: &str, width: f64) -> String {
         let (across, rest) = rest.split_once("\" height=\"")?;
         let (down, rest) = rest.split_once('"')?;
         let height = px(width * down.parse::<f64>().ok()? / across.parse::<f64>().ok()?);
+        let width = px(width);
         Some(format!("{start} width=\"{width}mm\" height=\"{height}mm\"{rest}"))
     };
     parts().unwrap_or_else(|| svg.to_owned())

@@ -6,6 +6,8 @@
 
 use std::ops::Range;
 
+use pulp::{Simd, WithSimd};
+
 use crate::tangent::Tangent;
 
 /// A matrix has no LU factorisation in floating point: a column without a usable pivot.
@@ -159,6 +161,32 @@ pub struct BandLu {
     packed: Vec<f64>,
 }
 
+/// The factorisation of a matrix with the widest registers of the processor. Each entry is multiplied and subtracted as with narrow
+/// ones, never fused, so the factors have the same bits on every machine.
+struct Factorisation<'a> {
+    lu: &'a mut BandLu,
+    matrix: &'a BandMatrix,
+}
+
+impl WithSimd for Factorisation<'_> {
+    type Output = Result<(), SingularMatrix>;
+
+    #[expect(
+        clippy::inline_always,
+        reason = "only what is compiled into its caller may use wide registers"
+    )]
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Self::Output {
+        let Self { lu, matrix } = self;
+        lu.load(matrix)?;
+        for k in 0..lu.kept.len() {
+            lu.pivot(k)?;
+            lu.eliminate(simd, k);
+        }
+        Ok(())
+    }
+}
+
 impl BandLu {
     /// Storage for the factors of matrices of `size` rows and half-bandwidth `half`.
     pub fn new(size: usize, half: usize) -> Self {
@@ -200,12 +228,7 @@ impl BandLu {
         // Most unknowns of a row are forces of open contacts; without them the band is narrower, too.
         self.kept.clear();
         self.kept.extend((0..self.size).filter(|&i| zero.next_if_eq(&i).is_none()));
-        self.load(matrix)?;
-        for k in 0..self.kept.len() {
-            self.pivot(k)?;
-            self.eliminate(k);
-        }
-        Ok(())
+        pulp::Arch::new().dispatch(Factorisation { lu: self, matrix })
     }
 
     /// Whether the determinant of what remains is negative.
@@ -236,7 +259,9 @@ impl BandLu {
             // The right-hand side is mostly that of the load: zeros before it need no work.
             if factor != 0.0 {
                 let multipliers = &self.lower[k * self.half..][..self.reach[k] - k];
-                subtract(&mut x[k + 1..], factor, multipliers);
+                for (x, multiplier) in x[k + 1..].iter_mut().zip(multipliers) {
+                    *x -= factor * multiplier;
+                }
             }
         }
         for k in (0..x.len()).rev() {
@@ -269,10 +294,12 @@ impl BandLu {
         let places = &mut self.upper[start..][..end + self.half - i];
         let (before, entries) = places.split_at_mut(first + self.half - i);
         before.fill(0.0);
+        let written = matrix.row(row);
+        let mut largest = 0.0_f64;
         for (entry, &column) in entries.iter_mut().zip(&self.kept[first..end]) {
-            *entry = matrix.row(row)[column + self.half - row];
+            *entry = written[column + self.half - row];
+            largest = if entry.abs() > largest { entry.abs() } else { largest };
         }
-        let largest = entries.iter().fold(0.0_f64, |max, entry| max.max(entry.abs()));
         // Equations of forces and of gaps differ by the ratio of the moduli: unscaled, pivots would be chosen by units.
         let scale = 1.0 / largest;
         if !(scale.is_finite() && scale > 0.0) {
@@ -290,9 +317,9 @@ impl BandLu {
     fn columns(&self, i: usize, matrix: &BandMatrix) -> Range<usize> {
         let row = self.kept[i];
         let [leftmost, rightmost] = matrix.used[row].map(|place| row + place);
-        let before = self.kept[..i].iter().rev().take_while(|&&j| j + self.half >= leftmost);
-        let after = self.kept[i + 1..].iter().take_while(|&&j| j + self.half < rightmost);
-        i - before.count()..i + 1 + after.count()
+        let first = self.kept[..i].partition_point(|&j| j + self.half < leftmost);
+        let after = self.kept[i + 1..].partition_point(|&j| j + self.half < rightmost);
+        first..i + 1 + after
     }
 
     fn singular(&self, column: usize) -> SingularMatrix {
@@ -302,10 +329,10 @@ impl BandLu {
     /// Exchanges row `k` for the one below with the largest entry in column `k`.
     fn pivot(&mut self, k: usize) -> Result<(), SingularMatrix> {
         let column = self.upper[self.diagonal(k)..].iter().step_by((3 * self.half).max(1));
-        let (mut row, mut value) = (k, 0.0_f64);
-        for (i, &x) in (k..=self.reach[k]).zip(column) {
-            if x.abs() > value.abs() {
-                (row, value) = (i, x);
+        let (mut row, mut value, mut largest) = (k, 0.0, 0.0);
+        for (d, &x) in column.take(self.reach[k] - k + 1).enumerate() {
+            if x.abs() > largest {
+                (row, value, largest) = (k + d, x, x.abs());
             }
         }
         // Only an exact zero is refused: how near to singular a tangent may be is judged by what the step does with it.
@@ -334,22 +361,33 @@ impl BandLu {
     }
 
     /// Subtracts multiples of row `k` from the rows below that reach its column.
-    fn eliminate(&mut self, k: usize) {
-        let (width, count) = (3 * self.half + 1, self.ends[k] - k);
-        let (head, tail) = self.upper.split_at_mut((k + 1) * width);
-        let pivot = &head[k * width + self.half..][1..count];
-        let rows = tail.chunks_exact_mut(width).zip(&mut self.ends[k + 1..=self.reach[k]]);
-        let multipliers = &mut self.lower[k * self.half..];
-        for (d, ((row, end), multiplier)) in (1..).zip(rows.zip(multipliers)) {
-            // The columns of `row` from `k` on, of which `used` are in use.
-            let (row, used) = (&mut row[self.half - d..], *end - k);
-            *multiplier = row[0] * self.inverses[k];
+    #[expect(
+        clippy::inline_always,
+        reason = "only what is compiled into its caller may use wide registers"
+    )]
+    #[inline(always)]
+    fn eliminate<S: Simd>(&mut self, simd: S, k: usize) {
+        let (below, count) = (self.reach[k] - k, self.ends[k] - k);
+        if below == 0 {
+            return;
+        }
+        let diagonal = self.diagonal(k);
+        let (head, tail) = self.upper.split_at_mut((k + 1) * (3 * self.half + 1));
+        let pivot = &head[diagonal + 1..][..count - 1];
+        let inverse = self.inverses[k];
+        // The columns from `k` on of the rows below: each row begins one place earlier than the row above it.
+        let rows = tail[self.half - 1..].chunks_mut(3 * self.half);
+        let multipliers = &mut self.lower[k * self.half..][..below];
+        let ends = &mut self.ends[k + 1..][..below];
+        for ((row, end), multiplier) in rows.zip(ends).zip(multipliers) {
+            *multiplier = row[0] * inverse;
             if *multiplier != 0.0 {
+                let used = *end - k;
                 if used < count {
                     row[used..count].fill(0.0);
                     *end = k + count;
                 }
-                subtract(&mut row[1..], *multiplier, pivot);
+                subtract(simd, &mut row[1..count], *multiplier, pivot);
             }
         }
     }
@@ -370,9 +408,20 @@ impl BandLu {
     }
 }
 
-/// `x ← x − factor y`, over the length of `y`.
-fn subtract(x: &mut [f64], factor: f64, y: &[f64]) {
-    for (x, y) in x.iter_mut().zip(y) {
+/// `x ← x − factor y`.
+#[expect(
+    clippy::inline_always,
+    reason = "only what is compiled into its caller may use wide registers"
+)]
+#[inline(always)]
+fn subtract<S: Simd>(simd: S, x: &mut [f64], factor: f64, y: &[f64]) {
+    let (wide, rest) = S::as_mut_simd_f64s(x);
+    let (by, rest_by) = S::as_simd_f64s(y);
+    let factors = simd.splat_f64s(factor);
+    for (x, y) in wide.iter_mut().zip(by) {
+        *x = simd.sub_f64s(*x, simd.mul_f64s(factors, *y));
+    }
+    for (x, y) in rest.iter_mut().zip(rest_by) {
         *x -= factor * y;
     }
 }

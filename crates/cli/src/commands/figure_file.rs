@@ -33,6 +33,10 @@ pub struct FigureOutput {
     #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = decimal)]
     pub width: Option<f64>,
 
+    /// Size of the smallest letters on paper in pt, e.g. 7; each figure becomes as wide as that takes
+    #[arg(long, value_name = "PT", allow_hyphen_values = true, value_parser = decimal, conflicts_with = "width")]
+    pub font_size: Option<f64>,
+
     /// Folder for the figures [default: a folder in the results of the sweep]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -66,11 +70,13 @@ impl<'a> FigureFiles<'a> {
     pub fn svg(&mut self, name: &str, svg: &str) -> anyhow::Result<()> {
         let output = self.output;
         let svg = if output.no_title { Cow::Owned(untitled(svg)) } else { Cow::Borrowed(svg) };
-        let svg = match output.width {
-            Some(width) => {
-                question_letters(name, &svg, width);
-                Cow::Owned(resized(&svg, width))
-            }
+        if let Some(width) = output.width {
+            question_letters(name, &svg, width);
+        }
+        // The size of letters is in proportion to the width.
+        let by_letters = || Some(output.font_size? / smallest_letters(&svg, 1.0)?);
+        let svg = match output.width.or_else(by_letters) {
+            Some(width) => Cow::Owned(resized(&svg, width)),
             None => svg,
         };
         // An image that cannot be made leaves no drawing without it.
@@ -133,9 +139,16 @@ pub fn joined(names: &[String], things: &str) -> String {
 /// Widths that a figure may have on paper, mm.
 const WIDTHS: RangeInclusive<f64> = 10.0..=2000.0;
 
-/// Refuses a density of images that no image has, and a width that no paper has.
+/// Sizes that letters may have on paper, pt.
+const FONT_SIZES: RangeInclusive<f64> = 1.0..=72.0;
+
+/// Refuses a density of images that no image has, and sizes that no paper has.
 pub fn check_sizes(output: &FigureOutput) -> anyhow::Result<()> {
-    let given = [("--dpi", Some(output.dpi), DPI), ("--width", output.width, WIDTHS)];
+    let given = [
+        ("--dpi", Some(output.dpi), DPI),
+        ("--width", output.width, WIDTHS),
+        ("--font-size", output.font_size, FONT_SIZES),
+    ];
     for (option, value, range) in given {
         let Some(value) = value else { continue };
         let (low, high) = (range.start(), range.end());
