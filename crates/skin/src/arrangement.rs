@@ -45,6 +45,8 @@ impl Arrangement {
     /// The narrowest distance of the scales `i` and `i + 1` across the steeper of their sides.
     pub(crate) fn clearance(&self, i: usize) -> f64 {
         let [left, right] = [self.scale(i), self.scale(i + 1)];
+        // The distance along the row, times the cosine of a side, is that across it: the steeper
+        // side gives the lower bound. Single scales may lean to the left.
         let steepest = left.slant().abs().max(right.slant().abs());
         clearance(&left, &right, self.gap(i)) * steepest.cos()
     }

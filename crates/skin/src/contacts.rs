@@ -84,6 +84,7 @@ impl Contacts {
     ) -> Self {
         let slots = slots(&law);
         let neighbours = pair_constraints(&law) * scales.len().saturating_sub(1);
+        // A single scale has no pairs to divide by, and its reach does not matter.
         let reach = forces.len().checked_div(neighbours).unwrap_or(1);
         debug_assert_eq!(forces.len(), reach * neighbours);
         let pair_shapes = arrangement.pairs(reach);
@@ -185,6 +186,8 @@ impl Contacts {
 
     /// Pose of a scale, in the frame in which it is placed.
     pub(crate) fn pose(&self, z: &[f64], scale: usize) -> Pose {
+        // Positions are counted in the frame of the left neighbour, rotations from the first scale:
+        // those of the frame are taken off.
         let frame = self.frame(scale).map_or(0.0, |rotation| z[rotation]);
         match self.scales[scale] {
             Some(at) => Pose::new(z[at], z[at + 1], z[at + 2] - frame),
@@ -238,6 +241,7 @@ impl Contacts {
         let count = LEVELS.len() * self.reach;
         let at_start = &state.mode[..count.min(state.mode.len())];
         let begin = state.mode.len().saturating_sub(count * self.reach);
+        // `touching` counts pairs from the beginning of the slice.
         let before = begin / LEVELS.len();
         let mut at_end = Self::touching(&state.mode[begin..]);
         let ends_last = |pair| self.ends(before + pair)[1] == last;
@@ -257,6 +261,7 @@ impl Contacts {
             let values = &mut values[self.slots * contact..][..FORCES];
             match state.mode[contact] {
                 CornerContact::Open => {
+                    // Most contacts are open, and need the gap alone, without derivatives.
                     values[0] = corners.facing().map_or(HOLDS, |(_, gap)| gap);
                 }
                 closed => {
@@ -303,6 +308,7 @@ impl Contacts {
             let value = self.slot_condition(state, &state.z, contact, slot);
             return value.unwrap_or(HOLDS);
         }
+        // A pair that would reach beyond the end of the row has unknowns and never touches.
         if !self.is_whole(Self::pair_of(contact)) {
             return HOLDS;
         }
@@ -331,6 +337,7 @@ impl Contacts {
     /// Derivative of a condition along a direction.
     fn along(&self, contact: usize, condition: &Equation, direction: &[f64]) -> f64 {
         let by_coordinate = &condition.by_coordinate;
+        // In a row coordinates are unknowns in succession, so no list of parts is made.
         let by_parts: f64 = if let Some([left, right]) = self.whole_pair(contact) {
             let rates = direction[left..left + 3].iter().chain(&direction[right..right + 3]);
             by_coordinate.iter().zip(rates).map(|(slope, rate)| slope * rate).sum()
@@ -357,12 +364,14 @@ impl Contacts {
             &self.corners(contact, &poses),
             self.forces_of(&state.z, contact),
         )?;
+        // Only friction asks what was before, and without it the copy is saved.
         let before = self.rub().then(|| state.clone());
         state.mode[contact] = next.contact;
         for (unknown, force) in self.unknowns_of(contact).into_iter().zip(next.forces) {
             state.z[unknown] = force;
         }
         state.active[first..first + FORCES].copy_from_slice(&next.contact.acting());
+        // Normal forces come first, because the friction of the new state is a part of them.
         if let Some(before) = before {
             self.carry_friction(state, &before, contact, force == Force::Partner);
         }
@@ -405,6 +414,8 @@ impl Contacts {
 
     fn pair(&self, pair: usize) -> &Pair {
         match self.pair_shapes.as_slice() {
+            // An uneven row of two scales has as many shapes as an even one: both ways of counting
+            // give the same shape there.
             [pair] => pair,
             shapes if shapes.len() == self.reach => &shapes[pair % self.reach],
             shapes => &shapes[pair],
@@ -457,6 +468,7 @@ impl Contacts {
     fn poses_of(&self, z: &[f64], pair: usize, turned: &mut Option<(usize, Pose)>) -> [Pose; 2] {
         let [left, right] = self.ends(pair);
         let of_left = match turned {
+            // In relative poses a right scale stands in another frame, and is not reused.
             Some((scale, pose)) if *scale == left && !self.relative => *pose,
             _ => self.left_pose(z, left),
         };
@@ -469,11 +481,13 @@ impl Contacts {
     /// the right scale has a second part, that of the frame.
     fn parts(&self, contact: usize) -> [Option<Part>; COORDINATES + 1] {
         let ends = self.ends(Self::pair_of(contact));
+        // In relative poses the left scale is the origin, so its coordinates are no unknowns.
         let left = self.scales[ends[0]].filter(|_| !self.relative);
         let right = self.scales[ends[1]];
         std::array::from_fn(|k| match k {
             0..3 => Some(Part::new(left? + k, k)),
             3..COORDINATES => Some(Part::new(right? + k - 3, k)),
+            // The coordinate is the rotation against the left scale, so the frame's is subtracted.
             _ => Some(Part::new(self.frame(ends[1])?, COORDINATES - 1).opposite()),
         })
     }

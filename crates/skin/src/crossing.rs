@@ -34,9 +34,11 @@ impl<S: System> Crossing<S> {
     ) -> Option<Point<S::Mode>> {
         let low = (0.0, self.off(path.system(), &from.state));
         let high = (1.0, self.off(path.system(), &to.state));
+        // This comes before the signs: at the end the difference may have either sign by round-off.
         if self.is_at(path.system(), &to.state) {
             return Some(to.clone());
         }
+        // A value that is only passed and left again within a segment is not looked for.
         if low.1.signum() == high.1.signum() {
             return None;
         }
@@ -44,6 +46,7 @@ impl<S: System> Crossing<S> {
         for _ in 0..EVALUATIONS {
             let fraction = bracket.secant();
             let point = path.between(from, to, fraction)?;
+            // A bracket that cannot be narrowed has the value to within its round-off.
             if self.is_at(path.system(), &point.state) || bracket.width() < f64::EPSILON {
                 return Some(point);
             }
@@ -65,6 +68,7 @@ impl<S: System> PlaceWatch<S> {
     pub(crate) fn new(path: &Path<S>, places: impl IntoIterator<Item = Crossing<S>>) -> Self {
         let places: Vec<_> = places.into_iter().collect();
         let start = path.point();
+        // A place at the very beginning, such as a load of zero, has no segment before it.
         let is_start = |place: &Crossing<S>| place.is_at(path.system(), &start.state);
         let found = places.iter().map(|place| is_start(place).then(|| start.clone())).collect();
         Self { places, found }
@@ -78,6 +82,7 @@ impl<S: System> PlaceWatch<S> {
         to: &Point<S::Mode>,
     ) {
         for (place, found) in self.places.iter().zip(&mut self.found) {
+            // A path that turns back passes a value again: the first time counts.
             if found.is_none() {
                 *found = place.between(path, from, to);
             }

@@ -54,6 +54,7 @@ impl Design {
     /// # Errors
     /// If a length is not positive or Poisson's ratio is outside `[0, 0.5]`.
     pub fn footprint(&self, poisson_ratio: f64) -> Result<Footprint, OutOfRange> {
+        // A footprint has its lengths over the half-width of a base, a design over `t`.
         let a = self.half_base();
         Footprint::new(self.gap / a, self.width / a, poisson_ratio)
     }

@@ -114,6 +114,7 @@ impl Flexure {
     pub fn closing_range(&self) -> Option<f64> {
         let mut closed = HashSet::new();
         let closings = self.events.iter().filter(|event| event.change == ContactChange::Closed);
+        // A gap may close at both levels, and again after it has opened: its first closing counts.
         let first = closings.filter(|event| closed.insert(event.left_scale));
         let mut curvatures = first.map(|event| event.point.curvature);
         let start = curvatures.next()?;

@@ -92,6 +92,7 @@ impl Imperfection {
 
 /// The key of the random numbers of a sample, of one design or of all.
 fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
+    // `L` and `2L` are different designs, with samples of their own.
     let base = |design: &Design| match design.base {
         Base::L => 1.0,
         Base::TwoL => 2.0,
@@ -102,6 +103,7 @@ fn key(design: Option<&Design>, seed: u64, number: u64) -> [u8; 32] {
     let numbers = design.into_iter().flat_map(numbers);
     let mut digest = Sha256::new();
     for word in [seed, number].into_iter().chain(numbers.map(|x| (x + 0.0).to_bits())) {
+        // The byte order is fixed, so that a sample is the same on every machine.
         digest.update(word.to_le_bytes());
     }
     digest.finalize().into()
@@ -133,6 +135,7 @@ impl Sample {
         let centre = self.centre()?;
         let to_right = self.side(Stream::Right, centre, right)?;
         let mut to_left = self.side(Stream::Left, centre, left)?;
+        // Scales were drawn from the centre outwards, and a row is listed from the left.
         to_left.reverse();
         let scales = to_left.iter().map(|(scale, _)| *scale).chain([centre]);
         let scales = scales.chain(to_right.iter().map(|(scale, _)| *scale)).collect();
@@ -142,6 +145,7 @@ impl Sample {
 
     fn centre(&self) -> Result<Parallelogram, OutOfRange> {
         let mut random = self.random(Stream::Centre);
+        // The centre needs no gap: each gap is drawn with the scale on its outer side.
         let drawn = (0..DRAWS).find_map(|_| self.slanted(normal(&mut random)));
         drawn.ok_or_else(|| self.crowded())
     }
@@ -193,6 +197,7 @@ impl Sample {
     /// (I2); `None` if it leans too far.
     fn slanted(&self, z: f64) -> Option<Parallelogram> {
         let slant = self.design.slant_deg + self.imperfection.slant_sd_deg * z;
+        // A design may itself be steeper than that: without scatter its slant stays.
         let leans_too_far = slant.abs() >= STEEPEST_DEG && self.imperfection.slant_sd_deg > 0.0;
         let scale = Parallelogram::leaning(self.design.half_base(), slant).ok();
         scale.filter(|_| !leans_too_far)

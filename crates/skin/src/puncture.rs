@@ -219,6 +219,7 @@ impl PunctureParameters {
         let depth = self.depth.unwrap_or(1.0);
         let radius = self.needle_radius.unwrap_or(0.0);
         let places = self.places.unwrap_or(2) as f64;
+        // Each rule says what holds, so that a value which is no number breaks it.
         let rules = [
             (tilt > 0.0 && tilt < 90.0, "critical tilt", tilt, "an angle between 0° and 90°"),
             ((0.0..=0.5).contains(&ratio), "poisson's ratio", ratio, "a ratio from 0 to 0.5"),
@@ -258,6 +259,7 @@ impl Followed {
         let path = &mut path;
         let mut measures = PunctureMeasures::new(&record, &folds, path);
         measures.passage = passage;
+        // The outer option says whether a depth was asked for, the inner whether it was reached.
         let deep = depth.found.first().map(|found| found.as_ref().map(|deep| &deep.state));
         // A skin that gives way before it is so deep bears no more than it does there.
         let end = || (status == Status::Complete).then(|| &path.point().state);
@@ -270,11 +272,13 @@ impl Followed {
         };
         let chain = path.system();
         let scales = scales(chain, &path.point().state);
+        // The watch notes points that the path leaves: the last one it never left.
         let mut tip_forces = at_tip.tip_forces;
         tip_forces.extend(chain.tip_forces(&path.point().state));
         let at_tilt = |point: Option<SkinPoint>| Some(TiltMeasures::new(chain, &point?.state));
         let at_tilts = tilts.found.into_iter().map(at_tilt).collect();
         let Record { path: points, events, history, work, .. } = record;
+        // The way back moves the path, so all that is told of the end has been taken before.
         let way_back = (unload && status == Status::Complete).then(|| WayBack::follow(path, work));
         if let Some(way_back) = &way_back {
             measures.remains = way_back.remains(|point: &PuncturePoint| point.displacement);
@@ -329,6 +333,7 @@ impl<'a> Problem<'a> {
         common: &Common,
         parameters: &'a PunctureParameters,
     ) -> Result<Self, OutOfRange> {
+        // The ratio of moduli is over `E_s`, forces are over `E* = E_s/(1 − ν²)`.
         let plane_modulus = 1.0 - parameters.poisson_ratio.powi(2);
         let modulus = parameters.contact_modulus_over_substrate * plane_modulus;
         let law = ContactLaw::new(common.law, design.length, design.width, modulus)?
@@ -423,6 +428,7 @@ impl<'a> Problem<'a> {
             let beyond = || path.system().contacts.meeting_beyond(&path.point().state);
             let beyond = (followed.status == Status::Interpenetration).then(beyond).flatten();
             match beyond.filter(|&pitches| pitches <= FARTHEST_CONTACT) {
+                // What was found lies beyond the reach, so the reach grows with every turn.
                 Some(pitches) => contact_reach = pitches,
                 None => return Ok(followed),
             }
@@ -450,6 +456,7 @@ impl<'a> Problem<'a> {
         // A scale that is pushed in its middle may go either way from some load on: there its path branches.
         let is_straight = || watch.record.path.iter().all(|at| at.tilt_deg.abs() < STRAIGHT_DEG);
         let status = match Status::of(&path, path.stop().unwrap_or(Stop::Reached)) {
+            // A row that should have grown further ends where mechanics says nothing.
             _ if !growing.has_room => Status::RowLimit,
             // Not even the first step tilts a scale that is upright and loaded in its middle.
             Status::Stopped(Stop::Singular) if watch.record.path.len() == 1 => Status::Untilted,
@@ -486,6 +493,7 @@ impl<'a> Problem<'a> {
     /// The effect of so many scales beyond an end, or of a row without end.
     fn far_field(&self, scales: Option<usize>) -> Option<FarField> {
         match scales {
+            // It does not depend on the part that is solved for, so it is made once.
             None => self.endless.clone(),
             _ => far_field(self.design, &self.stiffness, scales),
         }

@@ -148,6 +148,7 @@ impl<S: Skin> Record<S> {
             events: Vec::new(),
             history: Vec::new(),
             work: Work::default(),
+            // At rest load and displacement vanish: the direction alone tells their ratio.
             initial_stiffness: skin.stiffness(&start.state, &start.leaving),
             stiffness: Peak::default(),
             stiffness_summit: OnceCell::new(),
@@ -162,6 +163,7 @@ impl<S: Skin> Record<S> {
     pub(crate) fn visit(&mut self, path: &mut Path<S>, from: &Arc<SkinPoint>, point: &SkinPoint) {
         let residuals = path.take_history();
         let (mut here, step) = (path.system().path_point(point), self.path.len());
+        // The segment is added before the point is noted, which tells the work up to it.
         self.work.add(path, from, point);
         let skin = path.system();
         self.work.note(skin, &mut here);
@@ -175,6 +177,7 @@ impl<S: Skin> Record<S> {
             if self.touching.is_none()
                 && events.iter().any(|event| event.change == ContactChange::Closed)
             {
+                // The whole equilibrium is kept, because derivatives are taken at it.
                 self.touching = Some(point.clone());
             }
             self.events.extend(events);
@@ -184,6 +187,7 @@ impl<S: Skin> Record<S> {
     }
 
     fn visit_peaks(&mut self, path: &Path<S>, from: Option<&Arc<SkinPoint>>) {
+        // The path has gone on: what was the summit before need not be it any more.
         self.stiffness_summit.take();
         self.stiffness.visit(path, from, S::stiffness);
         for (f, peak) in &mut self.followed {
@@ -196,6 +200,7 @@ impl<S: Skin> Record<S> {
         for (_, peak) in &mut self.followed {
             peak.replace_points(&new);
         }
+        // A summit that was searched before has its points on the shorter row.
         self.stiffness_summit.take();
         self.stiffness.replace_points(new);
     }
@@ -237,6 +242,7 @@ impl<S: Skin> Record<S> {
 
     /// The largest stiffness and its place.
     pub(crate) fn stiffness_summit(&self, path: &mut Path<S>) -> Option<&Summit<S::Mode>> {
+        // The search solves for equilibria, so the measure and its derivatives share one.
         self.stiffness_summit.get_or_init(|| self.stiffness.summit(path, S::stiffness)).as_ref()
     }
 

@@ -51,6 +51,7 @@ impl SidedDerivative {
         kink: impl FnOnce() -> String,
     ) -> Self {
         let smooth = left.zip(right).is_some_and(|(left, right)| {
+            // A difference over the step magnifies the round-off of the measure by its inverse.
             let round_off = ROUND_OFF * value.abs() / step;
             (left - right).abs() <= SMOOTH * left.abs().max(right.abs()) + round_off
         });
@@ -118,9 +119,11 @@ pub(crate) fn derivatives<S: Skin>(
     // One factorisation serves all that is measured at a place.
     for MeasuredPoint { place, quantities } in merged(spots) {
         let here = place.and_then(|place| Linearisation::new(system, place).ok());
+        // A singular tangent has no single direction, so what is measured there has no derivative.
         let Some(here) = here else { continue };
         let turns = quantities.iter().any(|quantity| quantity.turns);
         let mut linearised = Linearised { system, settings, here, turns };
+        // All quantities of a place move with it, so its motion is found once for each parameter.
         let sides: Vec<_> = variations.iter().map(|v| linearised.sides(v)).collect();
         for quantity in &quantities {
             let candidates = quantity.value_at(system, linearised.here.place());
@@ -141,6 +144,7 @@ fn merged<S: Skin>(spots: Vec<MeasuredPoint<S>>) -> Vec<MeasuredPoint<S>> {
     let mut merged: Vec<MeasuredPoint<S>> = Vec::new();
     for spot in spots {
         let is_there = |other: &&mut MeasuredPoint<S>| match (&other.place, &spot.place) {
+            // The same state moves otherwise where another condition holds it.
             (Some(one), Some(other)) => one.state == other.state && one.anchor == other.anchor,
             _ => false,
         };
@@ -181,6 +185,7 @@ impl<S: Skin> Linearised<'_, S> {
         let moved = self.here.moved(self.system, neighbours, self.turns);
         let on_left = self.here.violated(&neighbours.below, &moved[0]);
         let on_right = self.here.violated(&neighbours.above, &moved[1]);
+        // Nothing changes within the step, so one motion serves both sides.
         if (on_left, on_right) == (None, None) {
             return Sides { left: SideMotion { moved: Some(moved), change: None }, right: None };
         }
@@ -204,12 +209,14 @@ impl<S: Skin> Linearised<'_, S> {
             };
             let next = here.beyond(self.system, change, self.settings);
             let after = next.as_ref().map_or(&here.place().state, |next| &next.place().state);
+            // The first change gives the kink its name: the others only follow on the same side.
             name.get_or_insert_with(|| self.name(&here.place().state, after, change));
             let Some(next) = next else { break };
             here = next;
             moved = here.moved(self.system, neighbours, self.turns);
             violated = here.violated(at_side, &moved[side]);
         }
+        // Without an equilibrium behind the changes this side has no derivative.
         SideMotion { moved: None, change: name }
     }
 
@@ -223,6 +230,7 @@ impl<S: Skin> Linearised<'_, S> {
         let edge = edge(after).or_else(|| edge(before)).map_or("contact", |edge| edge.name());
         let [left_index, right_index] = contacts.scales_of(change.constraint);
         let scales = match (self.system.number(left_index), self.system.number(right_index)) {
+            // Neighbours are named by the left one: only distant scales need both numbers.
             (Some(left), _) if right_index == left_index + 1 => format!(" right of scale {left}"),
             (Some(left), Some(right)) => format!(" of scales {left} and {right}"),
             _ => String::new(),
@@ -270,8 +278,10 @@ impl<S: Skin> MeasuredQuantity<S> {
         let value = |number| (self.value)(system, &place.state, &place.direction, number);
         let values: Vec<f64> = (0..count).map(value).collect();
         let extreme = values.iter().copied().reduce(|one, other| self.outer(one, other));
+        // The extreme one of none is no number, and what is not finite is left out as a derivative.
         let extreme = extreme.unwrap_or(f64::NAN);
         let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+        // Beside the place only these are evaluated again: the others are too far to take over.
         let is_near = |number: &usize| (values[*number] - extreme).abs() <= NEAR * size;
         Contenders { value: extreme, numbers: (0..count).filter(is_near).collect() }
     }
@@ -290,6 +300,7 @@ impl<S: Skin> MeasuredQuantity<S> {
     ) -> SidedDerivative {
         let left_rate = self.rate(neighbours, left, 0, numbers);
         let right_rate = match right {
+            // With one contender and one motion both sides have the same rate.
             None if numbers.len() == 1 => left_rate,
             right => self.rate(neighbours, right.as_ref().unwrap_or(left), 1, numbers),
         };
@@ -319,9 +330,12 @@ impl<S: Skin> MeasuredQuantity<S> {
         };
         let on_side = contenders.iter().map(|&number| (number, value(side, number)));
         let (number, here) = on_side.reduce(|one, other| {
+            // `min` and `max` pass over what is no number, so that such a contender never counts.
             let counts = self.outer(one.1, other.1).total_cmp(&other.1).is_eq();
             if counts { other } else { one }
         })?;
+        // The same contender counts on both sides: another one may be the extreme one there, and
+        // the difference of the two would be the derivative of neither.
         let there = value(1 - side, number);
         let rise = if side == 1 { here - there } else { there - here };
         Some(rise / (2.0 * neighbours.step))

@@ -32,6 +32,8 @@ impl Status {
         let (skin, end) = (path.system(), &path.point().state);
         match stop {
             Stop::Reached => Self::audited(skin, end),
+            // Newton's method fails where the model itself ends, too: a mechanical reason that the
+            // state shows says more than the numeric one.
             Stop::NoConvergence | Stop::Singular | Stop::Cycling | Stop::NotFinite
                 if skin.interpenetrates(end) =>
             {

@@ -40,6 +40,7 @@ impl<P> WayBack<P> {
     /// Turns a path back where it stands, after friction has taken `work`.
     pub(crate) fn follow<S: Skin<PathPoint = P>>(path: &mut Path<S>, mut work: Work) -> Self {
         path.turn_back();
+        // The end of the path stands here once more: on the way back it has another stiffness.
         let mut points = vec![Self::noted(path.system(), path.point(), &work)];
         loop {
             let from: Arc<SkinPoint> = path.point_shared();
@@ -49,7 +50,9 @@ impl<P> WayBack<P> {
         }
         let stop = path.stop().unwrap_or(Stop::Reached);
         let (skin, end) = (path.system(), path.point());
+        // The stored energy is that of the whole strip, the work that of the gaps solved for.
         let loop_work = || skin.stored(&end.state) + skin.repeats() * work.taken();
+        // Short of no load the loop is not closed, and its area says nothing.
         Self { path: points, stop, loop_work: (stop == Stop::Unloaded).then(loop_work) }
     }
 

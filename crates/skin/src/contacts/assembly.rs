@@ -16,6 +16,7 @@ impl Contacts {
     ) {
         let mut turned = None;
         for (pair, modes) in state.mode.chunks_exact(LEVELS.len()).enumerate() {
+            // Most pairs are open, and add nothing that would need their poses.
             if modes.iter().all(|mode| *mode == CornerContact::Open) {
                 continue;
             }
@@ -28,6 +29,8 @@ impl Contacts {
                 let (forces, held) =
                     (self.forces_of(&state.z, contact), self.held(&state.mode, contact));
                 let response = mode.acting_response(&corners, &self.law, forces, held);
+                // In a row coordinates are unknowns, so whole blocks are added. In a strip a
+                // rotation is the difference of two unknowns, and entries are added one by one.
                 match self.whole_pair(contact) {
                     Some(scales) => {
                         self.add_blocks(
@@ -43,6 +46,7 @@ impl Contacts {
                 }
             }
         }
+        // Friction is looked at apart: without it this pass costs nothing.
         if self.rub() {
             for pair in self.whole_pairs() {
                 if Self::contacts_of(pair).any(|contact| state.mode.rubs[contact] != Rub::None) {
@@ -88,6 +92,7 @@ impl Contacts {
                 matrix.add_block(row, unknowns[force], &column);
             }
         }
+        // The condition of a force stands in the row of its own unknown.
         for force in (0..FORCES).filter(|&force| acting[force]) {
             let Some(condition) = &response.conditions[force] else { continue };
             residual.add(unknowns[force], condition.value);
@@ -121,6 +126,7 @@ impl Contacts {
                 matrix.add(row, unknowns[force], sign * equation.by_force[force]);
             }
         };
+        // The balance of a coordinate belongs to the rows of all unknowns that it is made of.
         for part in parts.iter().flatten() {
             add_row(part.unknown, part.sign, &response.balance[part.coordinate]);
         }

@@ -40,6 +40,8 @@ impl Contacts {
     fn force(&self, state: &SkinState, contact: usize) -> f64 {
         match state.mode[contact] {
             CornerContact::Open => 0.0,
+            // The law holds for the size of the force that turns at a corner (C5), and for the sum
+            // of the two forces of flush edges (C7).
             _ => self.normal_forces_on_left(state, contact).map(|force| force.norm()).iter().sum(),
         }
     }
@@ -61,12 +63,14 @@ impl Contacts {
         let contacts = state.mode.iter().enumerate();
         contacts.into_iter().any(|(contact, mode)| {
             let edges = match *mode {
+                // Corners that are together stand at the end of the edge, where (C5) goes on.
                 CornerContact::Open | CornerContact::Corner(_) => return false,
                 CornerContact::Edge(edge) => [Some(edge), None],
                 CornerContact::Flush(edge) => [Some(edge), edge.flush()],
             };
             let [left, right] = self.pair_poses(&state.z, contact);
             let pair = self.pair(Self::pair_of(contact));
+            // A foot is a part of its edge, from 0 at the one end to 1 at the other.
             let feet = edges.into_iter().flatten().map(|edge| pair.gap(edge, &left, &right).foot);
             feet.into_iter().any(|foot| !(-OFF_EDGE..=1.0 + OFF_EDGE).contains(&foot))
         })
@@ -78,6 +82,7 @@ impl Contacts {
         let facing = |state: &SkinState| {
             let mut gaps = vec![None; state.mode.len()];
             self.for_each(state, |contact, corners| {
+                // A closed contact keeps to its edge: `off_edge` looks at it.
                 let is_open = state.mode[contact] == CornerContact::Open;
                 gaps[contact] = corners.facing().filter(|_| is_open).map(|(_, gap)| gap);
             });
@@ -87,6 +92,8 @@ impl Contacts {
         AHEAD.iter().any(|&step| {
             let ahead = facing(&point.state.moved(step, &point.leaving));
             let comes_from_behind = |(here, ahead): (&Option<f64>, &Option<f64>)| {
+                // A small gap that goes below zero is a contact that closes. A wide or absent one
+                // that is far below zero a step later belongs to a corner that came round the end.
                 ahead.is_some_and(|gap| gap < -BEHIND && here.is_none_or(|here| here > BEHIND))
             };
             here.iter().zip(&ahead).any(comes_from_behind)
@@ -105,6 +112,7 @@ impl Contacts {
         let half_breadth = scale.half_base() * scale.slant().cos();
         let mut contacts = 0..state.mode.len();
         let is_soft = contacts.any(|contact| self.approach(state, contact) > half_breadth);
+        // The farthest counts: contacts that reach it reach all that are nearer.
         self.overlapping(state).max().filter(|&pitches| pitches > self.reach && !is_soft)
     }
 
@@ -114,7 +122,9 @@ impl Contacts {
         let found = overlaps(standing, &self.poses(&state.z));
         found.into_iter().filter_map(|Overlap { left, right, depth }| {
             let pitches = right - left;
+            // The numbering of pairs is that of `ends`, read backwards.
             let pair = self.reach * left + pitches - 1;
+            // Scales beyond the reach have no contact that would let them approach.
             let allowed = if pitches <= self.reach { self.pair_approach(state, pair) } else { 0.0 };
             (depth > allowed + AUDIT_TOLERANCE).then_some(pitches)
         })

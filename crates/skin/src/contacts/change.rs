@@ -48,9 +48,11 @@ impl ContactChange {
         };
         match (force, change.activated) {
             (Force::Own | Force::Flush, true) => Self::Closed,
+            // The force that stays takes over the flag of the own one.
             (Force::Own, false) if acts => Self::HandedOver,
             (Force::Own | Force::Flush, false) => Self::Opened,
             (Force::Partner, true) if acts => Self::ReachedCorner,
+            // Between parallel sides no force has to turn: the partner carries alone at once.
             (Force::Partner, true) => Self::HandedOver,
             (Force::Partner, false) => Self::LeftCorner,
         }

@@ -58,6 +58,7 @@ impl Contacts {
         let pair = Self::pair_of(contact);
         let (ends, pair) = (self.ends(pair), self.pair(pair));
         let arm = pose.turn(pair.scales()[of_right].corner(corner_edge.corner()));
+        // In relative poses places count from the left scale of the pair, not from the first one.
         let place = if self.relative {
             of_right as f64 * pair.pitch()
         } else {

@@ -113,6 +113,7 @@ impl Contacts {
 
     /// Whether a constraint is one of friction of a contact that slips.
     pub(crate) fn slips(&self, state: &SkinState, constraint: usize) -> bool {
+        // A guest and a contact that is held have constraints of friction, too, but none that acts.
         self.is_friction(constraint)
             && state.mode.rubs[self.contact_of(constraint).0].acting() == [false, true]
     }
@@ -161,6 +162,7 @@ impl Contacts {
             else {
                 continue;
             };
+            // `T` stays as it was: the grip is 0 where it slid forward and `2 μ Λ` where backward.
             let grip = (1.0 - sign) * self.law.friction() * self.pressure(state, contact);
             state.mode.rubs[contact] = Rub::Stick { at: self.way(state, edge, contact) };
             self.set_friction(state, contact, grip, true);
@@ -175,6 +177,7 @@ impl Contacts {
         let host = Self::host_of(&state.mode, contact);
         let ratio = self.ratio(state, host);
         state.mode.rubs[host] = Rub::Held { ratio };
+        // A ratio that is held leaves no unknown for the friction.
         self.set_friction(state, host, 0.0, true);
     }
 
@@ -190,8 +193,10 @@ impl Contacts {
             return;
         };
         let at = self.way(state, edge, host);
+        // `T` stays as it was while the contact was held, and the grip is `T + μ Λ`.
         let grip = (ratio + self.law.friction()) * self.pressure(state, host);
         state.mode.rubs[host] = if slides && self.is_sliding(ratio) {
+            // Friction opposes the motion, so the way has the other sign.
             Rub::Slip { sign: -ratio.signum(), from: at }
         } else {
             Rub::Stick { at }
@@ -227,6 +232,7 @@ impl Contacts {
                 for force in self.pressing(&state.mode, contact) {
                     matrix.add(row.unknown, force, -by_pressure * along);
                 }
+                // `T = a − μ Λ` where the contact sticks, so its derivative by the grip is 1.
                 if let Rub::Stick { .. } = rub {
                     matrix.add(row.unknown, grip, -along);
                 }
@@ -243,10 +249,12 @@ impl Contacts {
                     add_way(grip, 1.0, slide.value - self.moved_from(contact, at));
                 }
                 Rub::Slip { sign, from } => {
+                    // Counted from where slipping began, the way is zero there and only grows.
                     add_way(way, -sign, slide.value - from);
                     residual.add(way, state.z[way]);
                     matrix.add(way, way, 1.0);
                 }
+                // Neither constraint acts here, so neither has an equation.
                 Rub::None | Rub::Held { .. } => {}
             }
         }
@@ -266,6 +274,7 @@ impl Contacts {
         if slot != WAY {
             return None;
         }
+        // This is linear in the unknowns: a direction in the place of `z` gives the derivative.
         let pressing: f64 = self.pressing(mode, contact).map(|force| z[force]).sum();
         Some(2.0 * self.law.friction() * pressing - z[self.unknown(contact, GRIP)])
     }
@@ -322,6 +331,7 @@ impl Contacts {
                 both.map(|forces| forces[Force::Own as usize] + forces[Force::Flush as usize]).sum()
             };
             let way = self.unknown(contact, WAY);
+            // The contact may slip no more at the second point: its way is taken from the poses.
             let end = sign * (self.way(&to.state, edge, contact) - start);
             let ways = [from.state.z[way], end];
             let rates = [spans[0] * from.leaving[way], spans[1] * to.arriving[way]];
@@ -364,6 +374,8 @@ impl Contacts {
     ) -> Vec2 {
         let poses = self.pair_poses(&state.z, contact);
         match (self.friction_of(state, contact, &poses), normal_force.norm()) {
+            // Without a force there is no direction to take. Corners that are together have no edge
+            // to slide on: their friction is the ratio with which they are held.
             (Some(sliding), size) if size > 0.0 => sliding.traction * quarter(normal_force) / size,
             _ => self.held(&state.mode, contact) * quarter(normal_force),
         }
@@ -380,6 +392,7 @@ impl Contacts {
         };
         let slide = self.slide(edge, contact, poses);
         let pressing: f64 = self.pressing(&state.mode, contact).map(|force| state.z[force]).sum();
+        // A grip that does not act is zero, so that this holds for all ways to rub.
         let grip = state.z[self.unknown(contact, GRIP)];
         Some(Sliding { rub, traction: grip + by_pressure * pressing, by_pressure, slide })
     }
@@ -410,6 +423,7 @@ impl Contacts {
 
     /// The other contact of a pair.
     pub(super) fn beside(contact: usize) -> usize {
+        // Contacts of a pair follow each other: the sum of their numbers gives the other one.
         let first = Self::contacts_of(Self::pair_of(contact)).start;
         2 * first + LEVELS.len() - 1 - contact
     }
@@ -422,9 +436,11 @@ impl Contacts {
             Rub::Stick { .. } => {
                 let pressing = self.pressure(state, contact);
                 let grip = state.z[self.unknown(contact, GRIP)];
+                // Without pressure the ratio would be round-off over round-off.
                 if pressing > NO_FORCE { grip / pressing - self.law.friction() } else { 0.0 }
             }
             Rub::None if Self::is_guest(&state.mode, contact) => {
+                // Both slide along one line, so that the guest has the ratio of its host.
                 self.ratio(state, Self::beside(contact))
             }
             Rub::None => 0.0,

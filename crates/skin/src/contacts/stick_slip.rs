@@ -16,15 +16,19 @@ impl Contacts {
         is_back: bool,
     ) {
         let pair = [contact, Self::beside(contact)];
+        // All of this is asked of the state before: behind the change forces stand elsewhere.
         let ratios = pair.map(|contact| self.ratio(before, contact));
         let mut rubs = pair.map(|contact| self.own_rub(before, contact, state));
         match (before.mode[contact], state.mode[contact].edge()) {
             (_, None) => rubs[0] = Rub::None,
             (CornerContact::Open, Some(edge)) => {
+                // What has just closed has not slid: the rates tell whether it slips at once.
                 rubs[0] = Rub::Stick { at: self.way(state, edge, contact) };
             }
             (CornerContact::Corner(_), Some(edge)) => {
                 let here = self.way(state, edge, contact);
+                // A corner that goes on with the ratio of sliding slips on along the next edge. One
+                // that goes back, or whose ratio is smaller, sticks at the end of its edge.
                 rubs[0] = if self.is_sliding(ratios[0]) && !is_back {
                     Rub::Slip { sign: -ratios[0].signum(), from: here }
                 } else {
@@ -37,9 +41,11 @@ impl Contacts {
             rubs[0] = Rub::Held { ratio: ratios[0] };
         }
         if rubs.iter().all(|rub| rub.is_host()) && Self::slide_along_one_line(state, contact) {
+            // The contact that bore friction before goes on bearing it, since its anchor is known.
             let guest = usize::from(before.mode.rubs[contact].is_host());
             rubs[guest] = Rub::None;
         }
+        // Both modes are set first: the pressure that bounds a grip depends on who is a guest.
         for (contact, rub) in pair.into_iter().zip(rubs) {
             state.mode.rubs[contact] = rub;
         }
@@ -49,6 +55,7 @@ impl Contacts {
                 let normal = forces[Force::Own as usize] + forces[Force::Flush as usize];
                 (ratios[k] + self.law.friction()) * normal
             };
+            // The host takes over the tangential force of its guest, so that the sum stays.
             let guest = if Self::is_guest(&state.mode, pair[1 - k]) { share(1 - k) } else { 0.0 };
             let is_new = before.mode.rubs[contact] != rub;
             self.set_friction(state, contact, share(k) + guest, is_new);
@@ -61,6 +68,7 @@ impl Contacts {
         let from = if is_guest { Self::beside(contact) } else { contact };
         let rub = before.mode.rubs[from];
         let Some(edge) = now.mode[contact].edge() else { return Rub::None };
+        // On the same edge the anchor, or the beginning of the way, stays what it was.
         if !is_guest && before.mode[contact].edge() == Some(edge) {
             return rub;
         }
@@ -77,6 +85,7 @@ impl Contacts {
     fn slide_along_one_line(state: &SkinState, contact: usize) -> bool {
         let is_side = |contact: usize| match state.mode[contact] {
             CornerContact::Edge(edge) => {
+                // A tip on the neighbour's top or base slides along that, and not along the sides.
                 !matches!(edge, CornerEdge::TopRightOnTop | CornerEdge::BottomLeftOnBase)
             }
             _ => false,
@@ -95,9 +104,11 @@ impl Contacts {
         let [sticks, slips] = state.mode.rubs[contact].acting();
         let first = self.slots * contact;
         [state.active[first + GRIP], state.active[first + WAY]] = [sticks, slips];
+        // Between 0 and `2 μ Λ` the contact sticks: round-off must not put the grip outside.
         let largest = 2.0 * self.law.friction() * self.pressure(state, contact);
         state.z[self.unknown(contact, GRIP)] =
             if sticks { grip.clamp(0.0, largest.max(0.0)) } else { 0.0 };
+        // A contact that slips on keeps its way, which only grows.
         if is_new || !slips {
             state.z[self.unknown(contact, WAY)] = 0.0;
         }
@@ -124,10 +135,13 @@ impl Contacts {
             (Rub::Stick { .. }, GRIP, false) => (Rub::Slip { sign: 1.0, from: here }, WAY),
             (Rub::Stick { .. }, WAY, true) => (Rub::Slip { sign: -1.0, from: here }, WAY),
             (Rub::Slip { sign, .. }, WAY, false) => {
+                // What slid forward has no grip left, what slid backward the largest: that limit
+                // has to hold where it comes to rest.
                 (Rub::Stick { at: here }, if sign > 0.0 { GRIP } else { WAY })
             }
             _ => return None,
         };
+        // The grip that keeps `T` is taken while the mode still tells the ratio.
         let grip =
             (self.ratio(state, contact) + self.law.friction()) * self.pressure(state, contact);
         state.mode.rubs[contact] = rub;

@@ -61,6 +61,7 @@ impl Contacts {
                 entry(row.unknown, column.unknown, row.sign * column.sign * value);
             }
         }
+        // The force stays an unknown, since its compliance vanishes at first touch.
         let unknowns: Vec<_> = self.acting_unknowns(contact, mode).collect();
         for (i, (force, balance)) in unknowns.iter().zip(&stiffness.by_force).enumerate() {
             for part in &parts {

@@ -46,6 +46,7 @@ pub(crate) fn change(
     state: &SkinState,
     settings: &Settings,
 ) -> Option<f64> {
+    // Both are solved in the same way, so that both slopes belong to the contacts of the state.
     let ours = Quantities::at(strip, state.clone(), settings)?;
     let theirs = Quantities::at(finer, strip.transferred(state, finer)?, settings)?;
     let relative =

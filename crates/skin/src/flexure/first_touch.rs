@@ -116,6 +116,7 @@ impl BareGap {
         let [below, above] = neighbours.each_ref().map(|gap| gap.opening(meeting, rotation));
         let turned = -(above - below) / (2.0 * step) / by_rotation;
         let [below, above] = neighbours.each_ref().map(|gap| gap.row.pitch());
+        // `κ₁* = θ₁/p`, and the pitch moves with the parameter, too.
         let pitch = self.row.pitch();
         (turned - rotation / pitch * (above - below) / (2.0 * step)) / pitch
     }
@@ -132,10 +133,13 @@ impl BareGap {
     }
     /// The first rotation at which the neighbours touch.
     fn closing_rotation(&self) -> Option<f64> {
+        // Tops of upright scales meet corner on corner, where neither foot lies within an edge: a
+        // search for a corner that faces an edge would not see it.
         let upright = self.row.gap() / (1.0 + self.offset);
         if self.row.scale().slant() == 0.0 && self.offset > -1.0 && upright <= LARGEST {
             return Some(upright);
         }
+        // The first look is not at zero, where the arc has no radius.
         let at = |look: u32| LARGEST * f64::from(look) / f64::from(LOOKS);
         let closed = (1..=LOOKS).find(|&look| self.touches(at(look)))?;
         Some(self.narrowed(at(closed - 1), at(closed)))

@@ -83,6 +83,7 @@ impl FlexureMeasures {
     pub(crate) fn in_closed_form(self, free_compliance: f64) -> Self {
         let bare = self.contact == Some(false);
         Self {
+            // What was not found stays unknown: a closed form does not make up for a failed path.
             initial_compliance: self.initial_compliance.map(|_| free_compliance),
             compliance: self.compliance.map(|found| if bare { free_compliance } else { found }),
             axial_energy_share: self.axial_energy_share.map(|found| if bare { 0.0 } else { found }),
@@ -95,6 +96,7 @@ impl FlexureMeasures {
         Self {
             initial_compliance: self.initial_compliance,
             first_contact_curvature: self.first_contact_curvature,
+            // That nothing has touched so far does not tell what would have touched later.
             contact: self.first_contact_curvature.map(|_| true),
             contact_curvature: self.contact_curvature,
             gaps: self.gaps,
@@ -107,6 +109,7 @@ impl FlexureMeasures {
 fn locking(record: &Record<Strip>, path: &Path<Strip>) -> Option<f64> {
     let [sticking, _] = Contacts::rubbing(&path.point().state);
     let (start, end) = record.path.first().zip(record.path.last())?;
+    // Contacts that stick are not enough: a strip may bend on while some of them do.
     let is_locked = sticking > 0 && end.stiffness.abs() >= LOCKED * start.stiffness;
     record.events.last().filter(|_| is_locked).map(|event| event.point.curvature)
 }

@@ -48,6 +48,7 @@ impl Skin for Strip {
             bending_energy: membrane.bending * repeats,
             axial_energy: membrane.axial * repeats,
             contact_energy: self.contacts.energy(state) * repeats,
+            // The work up to here is noted afterwards: it takes the point before, too.
             friction_work: None,
             contacts: self.whole_gaps() / self.gaps() * Contacts::closed(state),
             membrane_strain: self.largest_strain(state),
@@ -68,6 +69,7 @@ impl Skin for Strip {
     }
 
     fn angle_deg(&self, state: &SkinState) -> f64 {
+        // Each end turns by half of what they turn against each other.
         0.5 * (self.rotation(&state.z) * self.repeats()).to_degrees()
     }
 

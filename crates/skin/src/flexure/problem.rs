@@ -137,6 +137,7 @@ impl<'a> FlexureProblem<'a> {
             resolution.membrane(self.section, span)
         };
         let membranes = (0..unlike).map(membrane).collect::<Result<_, _>>()?;
+        // The parameter is the rotation of each end, the control that of one against the other.
         let whole = 2.0 * self.parameters.max_end_rotation_deg.to_radians();
         let repeats = self.gaps / self.solved as f64;
         let extent = StripExtent { gaps: self.solved, repeats, rotation: whole / repeats };
@@ -158,8 +159,10 @@ impl<'a> FlexureProblem<'a> {
         let mut resolution = self.parameters.elements_per_gap.coarsest();
         loop {
             let bent = self.bend(resolution, functions, end_rotations)?;
+            // A path that stopped early has no error, and no finer membrane is tried for it.
             let suffices = bent.final_error().is_none_or(|error| error <= TOLERANCE);
             match resolution.finer() {
+                // At the finest usual resolution the error stays, and is told with the measures.
                 Some(finer) if !suffices && finer.is_usual() => resolution = finer,
                 _ => return Ok((bent, resolution)),
             }
@@ -198,6 +201,7 @@ impl<'a> FlexureProblem<'a> {
             record.visit(&mut path, &from, &point);
             steps.push(path.system().steps(&point.state.z));
         }
+        // The path was left while it could have gone on, so it has no reason of its own.
         let stop = if flush { Some(Stop::Singular) } else { path.stop() };
         let status = match Status::of(&path, stop.unwrap_or(Stop::Reached)) {
             Status::Stopped(
@@ -212,6 +216,8 @@ impl<'a> FlexureProblem<'a> {
     /// The result of a strip that was bent.
     pub(crate) fn flexure(&self, bent: Bent) -> Flexure {
         let Bent { record, mut path, status, error, steps, .. } = bent;
+        // Computed values agree with the closed forms up to round-off, and designs that do not
+        // touch shall have `d/p` to the last bit.
         let measures =
             FlexureMeasures::new(&record, &mut path).in_closed_form(self.row.share_of_gaps());
         let measures =
@@ -223,6 +229,7 @@ impl<'a> FlexureProblem<'a> {
         let (gaps, row) = (path.system().whole_gaps(), self.row.clone());
         let Record { path: points, events, history, work, .. } = record;
         let unload = self.parameters.unload && status == Status::Complete;
+        // The way back leaves the end at which measures are taken, so it comes last.
         let way_back = unload.then(|| WayBack::follow(&mut path, work));
         let remains =
             way_back.as_ref().map(|back| back.remains(|point: &FlexurePoint| point.curvature));
@@ -264,6 +271,7 @@ const BEYOND_LAW: f64 = 1.0;
 fn locks(path: &[FlexurePoint]) -> bool {
     let ends = path.first().zip(path.last());
     ends.is_some_and(|(first, last)| {
+        // What turns back turns next to nothing, too: the sign of the stiffness does not matter.
         last.stiffness.abs() >= LOCKED * first.stiffness || last.membrane_strain >= BEYOND_LAW
     })
 }

@@ -80,12 +80,15 @@ pub fn moment_curve(
 ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::even(design, common, parameters)?;
+    // `κ*` is the rotation of one end against the other over this length, twice that of each end.
     let pitches = problem.gaps * problem.row.mean_pitch();
     let rotations: Vec<_> = curvatures.iter().map(|curvature| 0.5 * curvature * pitches).collect();
     let farthest =
+        // A strip may also bend to the outside: the largest size counts, with its sign.
         rotations.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     // A little farther, so that round-off does not put the last place beyond the end.
     let end = (1.001 * farthest.to_degrees()).clamp(-180.0, 180.0);
+    // The end scales the control, by which neighbours are to be measured alike.
     let as_far = |input: &FlexureInput| {
         let parameters = FlexureParameters { max_end_rotation_deg: end, ..input.parameters };
         FlexureInput { parameters, ..input.clone() }
@@ -208,6 +211,7 @@ fn differences(
         return Ok(unknown);
     };
     for (parameter, variation) in variations.iter().enumerate().take(last + 1) {
+        // Another resolution of the neighbours would show in the difference.
         let (below, above) =
             (measured(&variation.below, resolution)?, measured(&variation.above, resolution)?);
         for derivative in unknown.iter_mut().filter(|of| of.parameter == parameter) {
@@ -231,6 +235,7 @@ fn measured(
     let FlexureInput { design, common, parameters } = input;
     let problem = FlexureProblem::of_row(design.leaning_row()?, design, common, parameters)?;
     let mut bent = problem.bend(resolution, &FOLLOWED, &[])?;
+    // A neighbour that does not come to its end leaves this side without a derivative.
     if bent.status != Status::Complete {
         return Ok(Vec::new());
     }

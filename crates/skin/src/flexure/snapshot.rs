@@ -46,6 +46,7 @@ pub fn snapshots(
 ) -> Result<Vec<Option<StripSnapshot>>, OutOfRange> {
     let problem = FlexureProblem::even(design, common, parameters)?;
     let rotations: Vec<f64> = end_rotations_deg.iter().map(|angle| angle.to_radians()).collect();
+    // The resolution is that of the measures, so that a picture belongs to the numbers beside it.
     let (bent, _) = problem.resolved(&[], &rotations)?;
     let (row, strip) = (&problem.row, bent.path.system());
     let snapshot = |point: Option<SkinPoint>| Some(snapshot(row, strip, &point?.state));
@@ -62,6 +63,7 @@ fn snapshot(row: &Arrangement, strip: &Strip, state: &SkinState) -> StripSnapsho
         axes[i % solved].iter().map(|&point| frame.place(point).into()).collect()
     };
     let contacts = strip.contacts.closed_contacts(state);
+    // A chain is solved as a whole, and only the one gap of a unit cell has copies.
     let copies = (0..gaps / solved).flat_map(|copy| {
         let left = move |contact: &Contact| copy * solved + contact.left;
         contacts.iter().map(move |contact| (left(contact), contact))

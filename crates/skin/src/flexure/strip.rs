@@ -60,6 +60,7 @@ impl Layout {
     fn blocks(self) -> Option<Blocks> {
         let links: Vec<_> = (1..=self.gaps).filter_map(|scale| self.scale(scale)).collect();
         let starts = [0].into_iter().chain(links.iter().copied().skip(1)).collect();
+        // The moment acts on the last scale, and the block of load and controls has to be the root.
         (self.interior == 0).then_some(Blocks { starts, links, root: self.gaps - 1 })
     }
 
@@ -115,6 +116,8 @@ impl Strip {
             Layout { gaps, interior: membranes[0].interior(), pair: pair_constraints(&law) };
         let scales = (0..=gaps).map(|scale| layout.scale(scale)).collect();
         let forces = (0..layout.pair * gaps).map(|force| layout.force(force)).collect();
+        // The equations of a fine mesh round off in proportion to the stiffness of its elements,
+        // which is their unit.
         let mut units = vec![1.0; layout.size()];
         for gap in 0..gaps {
             let of_gap = membranes[gap.min(membranes.len() - 1)].units();
@@ -122,6 +125,7 @@ impl Strip {
         }
         let last = layout.moment() - 3;
         let control = |k: usize, scale| Control { index: last + k, scale };
+        // The last scale is placed in the frame of the one before: their pitch is the measure.
         let pitch = row.pitch(gaps - 1);
         Self {
             layout,
@@ -131,6 +135,7 @@ impl Strip {
             bending_stiffness: section.bending_stiffness(),
             contacts: Contacts::relative(row, law, scales, forces),
             blocks: layout.blocks(),
+            // The rotation comes first, because it is what the bending has to reach.
             controls: [control(2, rotation), control(0, pitch), control(1, pitch)],
             units,
         }
@@ -216,6 +221,7 @@ impl Strip {
             z.extend(self.membrane(gap).transferred(membrane, finer.membrane(gap))?);
         }
         z.push(state.z[self.layout.moment()]);
+        // Constraints are those of the contacts, whatever the resolution.
         Some(SkinState { z, active: state.active.clone(), mode: state.mode.clone() })
     }
 
@@ -235,6 +241,7 @@ impl Strip {
     /// through its membrane, for none goes through any cut of a strip in pure bending, and it bends to an arc.
     fn straight(&self, active: &[bool], gap: usize) -> usize {
         let forces = &active[self.layout.pair * gap..][..self.layout.pair];
+        // A flag for each constraint of the gap: one contact force is enough to load the membrane.
         if forces.contains(&true) { 0 } else { self.membrane(gap).vanishing() }
     }
 
@@ -341,6 +348,7 @@ impl System for Strip {
     }
 
     fn tangent(&self, state: &SkinState, matrix: &mut impl Tangent) {
+        // Equations and tangent come from one pass, and the equations are not wanted here.
         self.linearise(state, &mut Residual::new(self.size()), matrix);
     }
 
@@ -349,6 +357,7 @@ impl System for Strip {
         for gap in 0..self.layout.gaps {
             self.add_membrane(state, gap, residual, matrix);
         }
+        // The moment works on the last rotation alone: `M` stands against the gradient of (F1).
         let (moment, turned) = (self.layout.moment(), self.controls[0].index);
         residual.add(turned, -state.z[moment]);
         matrix.add(turned, moment, -1.0);

@@ -116,6 +116,7 @@ impl Bar {
         let tension = spring * strip.width * force;
         Self {
             half_base: strip.half_base,
+            // The linear spring stays in the constant tangent: a bar adds the difference.
             excess: tension - spring * apart,
             tension,
             spring,
@@ -139,6 +140,7 @@ impl Bar {
         residual.add(left, -self.excess);
         residual.add(right, self.excess);
         for (at, turn) in [left, right].into_iter().zip(self.turns) {
+            // The spring that is replaced turns no scale, so the moment is that of the whole force.
             residual.add(at + 2, self.tension * self.half_base * turn.sin);
         }
     }
@@ -149,6 +151,7 @@ impl Bar {
         // The elongation falls with x of the left scale, and rises with that of the right one.
         let signs = [-1.0, 1.0];
         for (i, row) in places.into_iter().enumerate() {
+            // `∂²s/∂φ² = a cos φ` (V3).
             let curved = self.tension * self.half_base * (1.0 - self.turns[i].shortened);
             let turned = self.stiffness * arms[i];
             for (j, column) in places.into_iter().enumerate() {

@@ -26,6 +26,7 @@ pub(super) fn judged(status: Status, path: &[PuncturePoint]) -> Status {
 fn has_turned_back(path: &[PuncturePoint]) -> bool {
     let below = |value: fn(&PuncturePoint) -> f64| {
         let largest = path.iter().map(value).reduce(f64::max);
+        // A quantity at its largest value has recovered, or has never turned back.
         path.last().map(value) < largest
     };
     below(|point| point.force) && below(|point| point.displacement) && below(|point| point.tilt_deg)

@@ -66,6 +66,7 @@ impl FoldWatch {
         [from, to]: [&SkinPoint; 2],
         events_before: usize,
     ) {
+        // Measures need the first fold alone: a sweep does not solve for the others.
         if self.first.is_some() && !path.system().whole_path {
             return;
         }
@@ -112,6 +113,7 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
             crossings.push(Crossing { pair, folds: is_folded(end), bracket });
             continue;
         }
+        // A dip is one towards zero from above, so that a folded gap is looked at upside down.
         let sign = if is_folded(start) { -1.0 } else { 1.0 };
         let slopes = [
             spans[0] * chain.gap_stretch_rate(&from.state, &from.leaving, pair),
@@ -122,6 +124,7 @@ fn crossings(path: &mut Path<Chain>, from: &SkinPoint, to: &SkinPoint) -> Vec<Cr
         };
         let Some(inside) = path.between(from, to, place) else { continue };
         let stretch = path.system().gap_stretch(&inside.state, pair);
+        // The slopes only suspect a dip: the equilibrium there decides.
         if is_folded(stretch) != is_folded(start) {
             let inside = (place, stretch);
             let [before, after] =

@@ -84,10 +84,12 @@ impl<'a> GrowingPath<'a> {
         let layout = self.path.system().layout;
         let longer = layout.grown(reach, self.longest);
         let longer = self.problem.whole().map_or(longer, |whole| longer.within(whole));
+        // A row that may not grow although it has to is too short for what follows.
         self.has_room = longer != layout;
         if self.has_room {
             let chain = self.problem.part(longer)?;
             let from = chain.extended(self.path.system(), from);
+            // A row may grow twice at one point: what the path left is the first form of it.
             let left = self.left.take().map(|left| chain.extended(self.path.system(), &left));
             self.left = left.or_else(|| Some(from.clone()));
             self.shorter.push(self.path.go_on(chain, from));
@@ -123,6 +125,7 @@ const LONGEST_DECAY: usize = 50;
 impl Layout {
     /// The row with which a path begins, in which no scale feels more than `neighbours` on each side.
     pub(super) fn first(far: &FarField, neighbours: usize, law: SubstrateLaw) -> Self {
+        // With full coupling what lies beyond acts on as many scales at an end as one feels there.
         let least = FIRST_SCALES.max(neighbours.div_ceil(2));
         let side = match law {
             SubstrateLaw::Linear => least,
@@ -138,6 +141,7 @@ impl Layout {
 
     /// More scales on the sides that are reached, as far as a row of the `longest` length has room.
     pub(super) fn grown(self, reach: [Reach; 2], longest: usize) -> Self {
+        // Growth in proportion to the length keeps the number of rows to its logarithm.
         let more = GROWTH + self.scales() / GROWTH_PART;
         let room = longest.saturating_sub(self.scales());
         let [left, right] = reach.map(|reach| if reach == Reach::Short { 0 } else { more });
@@ -207,6 +211,7 @@ impl Chain {
         for scale in 0..self.layout.scales() {
             let at = self.layout.scale(scale);
             let scale = scale.cast_signed() - added.cast_signed();
+            // New scales stand where the closed form had them, so the point stays an equilibrium.
             extended[at..at + 3].copy_from_slice(&shorter.displacement_anywhere(z, scale));
         }
         for force in 0..self.layout.contacts * (shorter.layout.scales() - 1) {

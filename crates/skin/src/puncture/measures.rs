@@ -106,6 +106,7 @@ impl PunctureMeasures {
             scales: chain.row_length(),
             initial_stiffness: Some(modulus * record.initial_stiffness()),
             max_stiffness: max_stiffness.map(|stiffness| modulus * stiffness),
+            // `F*` is divided by `L`, a stiffness is not.
             secant_stiffness: Some(modulus * end.force * chain.length / end.displacement),
             peak_displacement: peak.map(|point| point.displacement),
             peak_tilt_deg: peak.map(|point| point.tilt_deg),
@@ -136,6 +137,7 @@ impl PunctureMeasures {
             fold_force: self.fold_force,
             fold_displacement: self.fold_displacement,
             fold_tilt_deg: self.fold_tilt_deg,
+            // This was found on the way, and stands whatever ended the path behind it.
             force_at_depth: self.force_at_depth,
             unique: self.unique,
             passage: self.passage,

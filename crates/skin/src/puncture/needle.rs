@@ -128,10 +128,12 @@ impl GuidedNeedle {
             let of_scale = of_scale(friction > 0.0);
             // All but the tangential force.
             let constraints = if friction > 0.0 { of_scale - 1 } else { of_scale };
+            // Read backwards, the number of unknowns gives that of the touches that there may be.
             ((layout.needle - 1 - ENDINGS) / of_scale, of_scale, constraints)
         } else {
             (2, OF_TOUCH, CONSTRAINTS)
         };
+        // A round tip that does not rub has no ways to count.
         let slides = radius == 0.0 || friction > 0.0;
         let ways = (0..slots)
             .filter(|_| slides)
@@ -180,6 +182,7 @@ impl GuidedNeedle {
     pub(super) fn constraints(&self) -> Vec<usize> {
         let ends = if self.is_round() { ENDINGS } else { 1 };
         let behind = self.push(self.slots);
+        // A tangential force that is an unknown has an equation in every state: no constraint.
         let drag = |first: usize| (self.of_touch < self.unknowns).then_some(first + 1);
         let of_slot = |slot: usize| {
             let first = self.push(slot);
@@ -287,6 +290,7 @@ impl Chain {
         rest.mode.needle.touches = touch(Rub::Stick { at });
         let control = self.controls[0];
         let condition = Condition::new(vec![(control.index, 1.0 / control.scale)], 0.0);
+        // The tip is tried as sticking: the rates tell whether that takes more than there is.
         let push = needle.push(0);
         if let Ok(rates) = Newton::new(self).tangent(self, &rest, &condition) {
             let [normal, tangential] = [rates[push], rates[push + 1]];
@@ -339,6 +343,7 @@ impl Chain {
     fn scale_numbered(&self, scale: i64) -> Option<usize> {
         let number = usize::try_from(self.layout.left as i64 + scale).ok()?;
         let farthest = self.needle.as_ref().map_or(0, GuidedNeedle::farthest);
+        // The band of the tangent is as wide as this, and farther scales would lie outside of it.
         let is_near = scale.unsigned_abs() as usize <= farthest;
         (number < self.layout.scales() && is_near).then_some(number)
     }
@@ -364,6 +369,7 @@ impl Chain {
         let scale = if needle.is_round() {
             Some(slot as i64 - needle.reach() as i64)
         } else {
+            // A sharp tip comes to a second scale only beside the one that it touches.
             let other = state.mode.needle.touches[1 - slot].as_ref();
             other.and_then(Self::next_touch).map(|(scale, _)| scale)
         };
@@ -382,6 +388,7 @@ impl Chain {
 
     /// The contact of the top right corner of a scale.
     fn corner_of_notch(&self, scale: i64) -> Option<usize> {
+        // The upper contact of a scale with its neighbour is the first of all its contacts.
         self.scale_numbered(scale).map(|left| self.contacts.contacts_before(left))
     }
 }

@@ -24,6 +24,7 @@ impl OddScale {
         let mut scales = vec![*row.scale(); layout.scales()];
         let mut gaps = vec![row.gap(); layout.scales() - 1];
         let place = usize::try_from(layout.left as i64 + i64::from(self.place));
+        // An odd scale beyond those that are solved for changes none of them.
         let place = place.unwrap_or(usize::MAX);
         if let Some(scale) = scales.get_mut(place) {
             let slant = scale.slant().to_degrees() + self.slant_deg;

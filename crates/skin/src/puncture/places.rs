@@ -97,8 +97,10 @@ impl PunctureParameters {
             load_position: position,
             critical_tilt_deg: match sense {
                 Sense::Clockwise => tilt,
+                // A tilt below zero turns the control round, and with it the end of the path.
                 Sense::CounterClockwise => -tilt,
             },
+            // Only the force at the end is compared, and a place has no places of its own.
             tilts_deg: NumberList::default(),
             places: None,
             depth: None,
@@ -136,6 +138,7 @@ impl Problem<'_> {
         let count = self.parameters.places.unwrap_or(0);
         // A round tip may stand anywhere. A pitch further right it stands as before, on the next scale: that place is not tried again.
         let pitch = 1.0 + self.design.gap / (2.0 * self.design.half_base());
+        // Positions count in tops, which are as wide as bases.
         let (last, width) = match self.parameters.needle_radius {
             Some(_) => (count as f64, pitch),
             None => (count.saturating_sub(1) as f64, 1.0),
@@ -155,6 +158,7 @@ impl Problem<'_> {
 
     fn pushed(&self, position: f64, sense: Sense) -> Result<LoadedPlace, OutOfRange> {
         let parameters = self.parameters.at_place(position, sense);
+        // These parameters are not checked: nobody may ask for a tilt below zero.
         let problem = self.with(&parameters);
         // A path to one side may come to the critical tilt of the other first. Under a guided needle both end it anyway.
         let other_way = [At::Tilt(-parameters.critical_tilt_deg)];
@@ -162,6 +166,7 @@ impl Problem<'_> {
         let followed = problem.follow(&[], markers)?;
         let (points, path) = (&followed.watch.record.path, &followed.path);
         let tilted = followed.watch.places.found.first().and_then(Option::as_ref);
+        // The path went on behind that place, and its status tells of another state.
         let status = match tilted {
             Some(point) => Status::audited(path.system(), &point.state),
             None => followed.status,
@@ -234,6 +239,7 @@ impl Problem<'_> {
 /// The derivative of the smaller of two forces that are equal here.
 fn least(one: &Derivative, other: &Derivative) -> Derivative {
     let both = |a: Option<f64>, b: Option<f64>, of: fn(f64, f64) -> f64| Some(of(a?, b?));
+    // Where the parameter falls, the force with the larger slope becomes the smaller one.
     let left = both(one.left, other.left, f64::max);
     let right = both(one.right, other.right, f64::min);
     let is_smooth = left

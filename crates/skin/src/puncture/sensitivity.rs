@@ -82,6 +82,7 @@ pub fn force_curve(
             tilt = (2.0 * tilt).min(STEEPEST_DEG);
             continue;
         }
+        // The critical tilt scales the control, by which neighbours are to be measured alike.
         let as_far = |input: &PunctureInput| {
             let parameters = PunctureParameters { critical_tilt_deg: tilt, ..input.parameters };
             Ok(PunctureInput { parameters, ..input.clone() })
@@ -113,6 +114,7 @@ impl Problem<'_> {
         variations: &[Neighbours<PunctureInput>],
     ) -> Result<Vec<Option<CurvePoint>>, OutOfRange> {
         let Followed { watch, path, .. } = followed;
+        // Neighbours are as long as the row has become: their unknowns are those of the path.
         let layout = path.system().layout;
         let chain = |input: &PunctureInput| input.chain(layout);
         let variations: Result<Vec<_>, _> =
@@ -147,6 +149,7 @@ impl Problem<'_> {
         let variations = variations?;
         let anchors = anchors(path, &watch.history.segments, &variations);
         let mut found = Vec::new();
+        // Neighbours are made once for all places that keep the same of the way.
         for spots in by_history(self.spots(watch, path)) {
             let state = spots.iter().find_map(|spot| Some(&spot.place.as_ref()?.state));
             let kept = state.map(history).unwrap_or_default();
@@ -179,6 +182,7 @@ impl Problem<'_> {
         let passed = passed.and_then(|[from, to]| event_before(path, [from, to]));
         let chain = path.system();
         let peak = highest.as_ref().map(|place| chain.extremum(place));
+        // A place that is no event has nothing to hold it where a parameter moves it.
         let load_limit = needle.load_limit.as_ref().filter(|point| point.event.is_some());
         let load_limit = load_limit.and_then(|point| sensitivity::turn(chain, point, LOAD_RATE));
         let depth_limit = needle.depth_limit.as_ref();
@@ -194,12 +198,14 @@ impl Problem<'_> {
             anchor: PathAnchor::Marker(DEPTH_MARK),
         });
         let (mut end_quantities, fold_quantities) = at_end_and_fold(folded.is_some());
+        // A path that ends before it is so deep has the force of its end as the measure.
         if !marked.found.is_empty() && deep.is_none() {
             end_quantities.push(force("force_at_depth"));
         }
         let mut passing =
             vec![force("passing_force"), depth("passing_displacement"), tilt("passing_tilt_deg")];
         if chain.needle.is_some() {
+            // The shift is that at which the needle left its face, or else that of the end.
             let left = if passage.passed.is_some() { &mut passing } else { &mut end_quantities };
             left.push(quantity("needle_shift", |chain, state, _, _| {
                 chain.shift(state).unwrap_or(f64::NAN)
@@ -227,8 +233,10 @@ impl PunctureInput {
     /// The system of a row of so many scales.
     fn chain(&self, layout: Layout) -> Result<Chain, OutOfRange> {
         let Self { design, stiffness, common, parameters, odd } = self;
+        // The neighbour of an upright design leans to the left.
         let row = design.leaning_row()?;
         let rows = odd.map_or(Rows::Even(row), |odd| Rows::Odd(row, odd));
+        // At the end of a range one neighbour lies beyond it.
         let problem = Problem::unchecked(rows, design, stiffness.clone(), common, parameters)?;
         problem.part(layout)
     }

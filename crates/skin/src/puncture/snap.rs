@@ -100,6 +100,7 @@ impl SnapWatch {
             self.snaps.push(Snap { point, drop: None, events_before });
             self.depth_limit.get_or_insert(turned);
         }
+        // A snap may land on the segment on which it began.
         if let Some(snap) = self.open_snap() {
             snap.land(path, from, to);
         }
@@ -126,6 +127,7 @@ impl SnapWatch {
         let is_known =
             !self.has_unloaded || end.load > 0 || !path.system().rubs(&path.point().state);
         measures.stable_under_load = is_known.then_some(end.load == 0);
+        // A snap that has not landed leaves the needle off the path.
         measures.stable_under_depth = Some(end.depth == 0 && self.open_snap().is_none());
         let limit = self.load_limit.as_ref();
         measures.load_stability_force = limit.map(|point| path.system().force(&point.state));

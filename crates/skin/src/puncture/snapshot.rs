@@ -92,6 +92,7 @@ pub fn snapshots(
         if !reaches_short(&puncture, at) || parameters.critical_tilt_deg >= STEEPEST_DEG {
             return Ok(Snapshots { puncture, at: at_places });
         }
+        // Every try follows a whole path again, so the end moves in few large steps.
         parameters.critical_tilt_deg = (2.0 * parameters.critical_tilt_deg).min(STEEPEST_DEG);
     }
 }

@@ -47,6 +47,7 @@ impl Chain {
             factors.solve(&mut x);
             loads.iter().map(|&(unknown, load)| load * x[places[unknown]]).sum::<f64>()
         };
+        // All that is kept besides is a force.
         let motions = 3 * self.layout.scales() + usize::from(self.needle.is_some());
         let forces = kept.len() - motions;
         // A force among the unknowns is a multiplier, which brings a negative eigenvalue of its own and no motion.
@@ -90,6 +91,8 @@ impl Chain {
             } else {
                 let scale = self.layout.scale_of(unknown);
                 let is_touched = scale > self.layout.left && self.touches_scale(state, scale);
+                // The needle's unknowns stand behind the punctured scale, so that the row of a
+                // scale on its right reaches back to that one.
                 let scale = if is_touched { scale.min(self.layout.left + 1) } else { scale };
                 scale.saturating_sub(before)
             };
@@ -104,6 +107,7 @@ impl Chain {
         if self.needle.is_some() {
             self.for_needle_stiffness(state, &mut entry);
         } else {
+            // The arm of a dead load turns with the scale, which adds to its stiffness.
             let turn = self.layout.scale(self.layout.left) + 2;
             entry(turn, turn, -state.z[self.layout.load()] * self.loaded_arm(&state.z).y);
         }

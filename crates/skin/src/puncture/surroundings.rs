@@ -77,6 +77,7 @@ impl Surroundings {
             scales.map_or(LOOKED_AT, |scales| scales.min(LOOKED_AT))
         };
         let [left, right] = [looked_at(&beyond[0]), looked_at(&beyond[1])];
+        // A longer row keeps its middle, so that its outer scales are those that stand beyond.
         let row =
             rows.row(Layout { left: layout.left + left, right: layout.right + right, ..layout })?;
         let end = left + layout.scales() - 1;
@@ -94,6 +95,7 @@ impl Surroundings {
         let arm = |corner| Vec2::norm(&scale.corner(corner));
         let sides = [side((left_beyond, first)), side((right_beyond, last))];
         let relief = relief(layout, &sides);
+        // Whichever way a scale leans, one of its top corners is the farthest from its node.
         let arm = arm(Corner::TopLeft).max(arm(Corner::TopRight));
         Ok(Self { sides, relief, arm })
     }
@@ -116,6 +118,7 @@ fn relief(layout: Layout, sides: &[Option<Side>; 2]) -> Vec<(usize, usize, f64)>
         let sign = move |direction: usize| mirrored([1.0; 3], number)[direction];
         let entry = move |entry: &substrate::Relief| {
             let sign = sign(entry.force[1]) * sign(entry.displacement[1]);
+            // On the left entries that couple the vertical direction with another turn their sign.
             (unknown(entry.force), unknown(entry.displacement), sign * entry.value)
         };
         entries.iter().map(entry).collect::<Vec<_>>()
@@ -155,6 +158,7 @@ impl Chain {
             (Some(side), distance) => {
                 mirrored(side.beyond.far.displacement(self.at_end(z, number), distance), number)
             }
+            // What lies beyond a row that is solved whole counts as held.
             (None, _) => [0.0; 3],
         }
     }
@@ -190,6 +194,7 @@ impl Chain {
             match self.part_closed(&state.z, number, side) {
                 1.0.. => Reach::Beyond,
                 EARLY.. => Reach::Near,
+                // A contact at the very end may load the next scale at once.
                 _ if touching[number] => Reach::Near,
                 _ => Reach::Short,
             }
@@ -203,7 +208,9 @@ impl Chain {
         let size =
             |[x, y, rotation]: [f64; 3]| x.abs() + y.abs() + self.surroundings.arm * rotation.abs();
         let pairs = displacements.windows(2).zip(&side.clearances);
+        // Both scales may move straight towards each other: the sum of their motions is a bound.
         let parts = pairs.map(|(pair, clearance)| (size(pair[0]) + size(pair[1])) / clearance);
+        // A row of bars grows, too, where those beyond its end no longer act as springs.
         let excess = self.largest_excess(&displacements, &side.gaps) / AS_SPRINGS;
         parts.fold(excess, f64::max)
     }
@@ -219,6 +226,7 @@ impl Chain {
                 let strip = SurfaceStrip { width, half_base: self.half_base };
                 stretches.push(strip.stretch(pair[0], pair[1]));
             }
+            // Farther gaps lie between the last one looked at and this one, which bounds them.
             let last = side.beyond.scales.zip(side.gaps.last());
             stretches.push(last.map_or(1.0, |(scales, &width)| {
                 let at = |distance| match distance {

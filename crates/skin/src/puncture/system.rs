@@ -63,6 +63,7 @@ impl Layout {
 
     /// Number of unknowns.
     pub(crate) fn size(self) -> usize {
+        // The last scale has no contacts on its right.
         self.block() * self.scales() - self.contacts + 1 + self.needle
     }
 
@@ -197,6 +198,7 @@ impl Chain {
         let constraints = forces.iter().copied().chain(of_needle).collect();
         let bars = match parameters.substrate_law {
             SubstrateLaw::Linear => None,
+            // Couplings are stored as `−β`, and the stiffness of a bar is positive.
             SubstrateLaw::NeoHookean => neighbours.first().map(|nearest| -nearest.direct[0]),
         };
         let contacts = Contacts::new(arrangement, law, scales, forces);
@@ -227,6 +229,7 @@ impl Chain {
             whole_path: true,
             units: layout.units(direct),
         };
+        // Where a round tip comes to rest takes the scales of the row, so that it is found last.
         let round = chain.needle.as_ref().filter(|needle| needle.is_round());
         let centre = round.map(|needle| chain.centre_at_rest(needle, load_arm.x));
         if let (Some(needle), Some(centre)) = (&mut chain.needle, centre) {
@@ -246,6 +249,7 @@ impl Chain {
         if let Some(needle) = &self.needle {
             return z[needle.depth];
         }
+        // Depth is positive downward, `y` upward.
         let pose = self.contacts.pose(z, self.layout.left);
         -(pose.displacement.y + pose.turn(self.load_arm).y - self.load_arm.y)
     }
@@ -296,10 +300,12 @@ impl Chain {
         for i in 0..self.layout.scales() {
             let at = self.layout.scale(i);
             diagonal(at, at, &self.direct);
+            // A half-space has no such entry, and rows on it are not to pay for zeros.
             if self.roll != 0.0 {
                 diagonal(at, at + 2, &[self.roll]);
                 diagonal(at + 2, at, &[self.roll]);
             }
+            // Each pair is met once, from its right scale, which writes both triangles.
             for (before, neighbour) in self.neighbours.iter().enumerate().take(i) {
                 let other = self.layout.scale(i - 1 - before);
                 diagonal(at, other, &neighbour.direct);
@@ -308,6 +314,7 @@ impl Chain {
                 if cross != 0.0 {
                     diagonal(at + 1, other + 2, &[cross]);
                     diagonal(other + 2, at + 1, &[cross]);
+                    // Towards the left is the mirror image, which turns the sign (S9).
                     diagonal(other + 1, at + 2, &[-cross]);
                     diagonal(at + 2, other + 1, &[-cross]);
                 }
@@ -322,6 +329,7 @@ impl Chain {
                 }
             }
         }
+        // Scales beyond an end give way, and take so much stiffness from those at it.
         for &(row, column, value) in &self.surroundings.relief {
             diagonal(row, column, &[-value]);
         }
@@ -406,6 +414,7 @@ impl System for Chain {
 
     fn coordinates(&self) -> Vec<usize> {
         let scales = (0..self.layout.scales()).map(|scale| self.layout.scale(scale));
+        // Displacements over `t` and rotations in radians are of one size: forces are not.
         scales.flat_map(|at| at..at + 3).collect()
     }
 
@@ -437,6 +446,7 @@ impl System for Chain {
     fn linearise(&self, state: &SkinState, residual: &mut Residual, matrix: &mut impl Tangent) {
         let (z, load) = (&state.z, self.layout.load());
         residual.clear(&self.units);
+        // The tangent of the springs is the constant part, which the matrix holds already.
         self.for_spring_diagonals(|row, column, values| {
             residual.add_products(row, values, &z[column..]);
         });
@@ -446,9 +456,11 @@ impl System for Chain {
         } else {
             let at = self.layout.scale(self.layout.left);
             let arm = self.loaded_arm(z);
+            // The load presses down, so it stands with the forces of the springs.
             residual.add(at + 1, z[load]);
             residual.add(at + 2, z[load] * arm.x);
             matrix.add_block(at + 1, load, &[[1.0], [arm.x]]);
+            // The arm turns with the scale, `∂(F ρ_x)/∂φ = −F ρ_y`.
             matrix.add(at + 2, at + 2, -z[load] * arm.y);
         }
         self.contacts.linearise(state, residual, matrix);
@@ -456,6 +468,7 @@ impl System for Chain {
 
     fn conditions(&self, state: &SkinState, values: &mut Vec<f64>) {
         self.contacts.conditions(state, values);
+        // Constraints of the needle come behind those of the contacts, so its values are appended.
         if let Some(needle) = &self.needle {
             self.needle_conditions(needle, state, values);
         }
@@ -522,6 +535,7 @@ impl System for Chain {
             return self.needle_transition(needle, state, change);
         }
         let valid = self.contacts.transition(state, change);
+        // A contact that has changed may have been the one that made a notch.
         self.release_notch(needle, state);
         valid
     }

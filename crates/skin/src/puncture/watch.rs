@@ -53,6 +53,7 @@ impl PathWatch {
         let Segment { from, to, left } = segment;
         self.history.follow(segment);
         self.passage.follow(path.system(), segment);
+        // The record is told of the segment last, so that its events so far are those before.
         let events_before = self.record.events.len();
         self.needle.follow(path, [from, to], events_before);
         self.tilts.follow(path, from, to);
@@ -65,6 +66,7 @@ impl PathWatch {
     /// Takes the points that were kept to the row as it is in the end.
     pub(super) fn lengthen(&mut self, path: &GrowingPath) {
         let longer = |point: &SkinPoint| path.lengthened(point);
+        // Whatever keeps points has to be named here, or keeps some of a shorter row.
         let SnapWatch { load_limit, depth_limit, .. } = &mut self.needle;
         let single = [load_limit, depth_limit, &mut self.folds.first, &mut self.record.touching];
         let places = [&mut self.tilts, &mut self.depth, &mut self.places];

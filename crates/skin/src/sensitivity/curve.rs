@@ -33,6 +33,7 @@ pub(crate) fn curve_point<S: Skin>(
 ) -> CurvePoint {
     let Point { state, arriving, .. } = point;
     let at = |f: fn(&S, &SkinState, &[f64], usize) -> f64, by: f64| {
+        // At a kink the place belongs to the segment that came to it.
         f(system, &state.moved(by, arriving), arriving, 0)
     };
     let [rise_x, rise_y] = curve.map(|f| at(f, ALONG) - at(f, -ALONG));
@@ -53,10 +54,12 @@ pub(crate) fn curve_point<S: Skin>(
     let rate =
         |(x, y): (&Derivative, &Derivative)| match (side(x.left, y.left), side(x.right, y.right)) {
             (Some(left), Some(right)) => Some(0.5 * (left + right)),
+            // Where one side has no equilibrium the other one stands for both.
             (left, right) => left.or(right),
         };
     let rates: Vec<_> = of("x").into_iter().zip(of("y")).map(rate).collect();
     let unknown = vec![None; variations.len()];
     let value = (curve[1])(system, state, arriving, 0);
+    // Of a place whose tangent is singular there are no derivatives at all.
     CurvePoint { value, slope, rates: if rates.is_empty() { unknown } else { rates } }
 }

@@ -14,6 +14,7 @@ const VANISHED: f64 = 1e-8;
 pub(crate) fn rest<S: System>(system: &S) -> AnchoredPoint<S::Mode> {
     let control = system.controls()[0];
     let mut direction = vec![0.0; system.size()];
+    // This direction only chooses the section: the linearisation finds that of the path.
     direction[control.index] = control.scale;
     AnchoredPoint { state: State::at_rest(system), direction, anchor: PathAnchor::Still }
 }
@@ -31,16 +32,20 @@ pub(crate) fn first_contact<S: Skin>(
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Some(Event::Changed(changes)) = &point.event else { return None };
     let contacts = system.contacts().forces();
+    // One guard holds the place; a contact that closes with it shows as violated beside it.
     let constraint = changes.iter().find(|change| change.activated)?.constraint;
     if changes.iter().any(|change| change.constraint >= contacts.len()) {
         // The needle changes with the contact: what it did before is not known here.
         return None;
     }
+    // The point has the state with which the path goes on, and the place is the one before: all
+    // contacts are open there, and the gap is the guard.
     let mut state = SkinState::at_rest(system);
     state.z.clone_from(&point.state.z);
     for &force in contacts {
         state.z[force] = 0.0;
     }
+    // Only contacts between scales are undone: the needle does what it did before.
     state.mode.needle = point.state.mode.needle.clone();
     state.active[contacts.len()..].copy_from_slice(&point.state.active[contacts.len()..]);
     let direction = point.arriving.clone();
@@ -56,22 +61,28 @@ pub(crate) fn summit<S: Skin>(
 ) -> Option<AnchoredPoint<S::Mode>> {
     let Point { state, arriving, leaving, event } = &*summit.point;
     let control = path.system().controls()[0];
+    // The largest value may be at the end, where the target holds the place and no extremum.
     let is_target = (state.z[control.index] / control.scale - 1.0).abs() < VANISHED;
     let at = |direction: &Vec<f64>, anchor| {
         Some(AnchoredPoint { state: state.clone(), direction: direction.clone(), anchor })
     };
     match (event, &summit.before) {
+        // Between points the function is smooth, so the place is polished until it is stationary.
         _ if summit.is_inside => {
             at(arriving, PathAnchor::Still)?.stationary(path.system(), &f, settings)
         }
+        // Only the beginning of a path has no point before it.
         (_, None) => at(leaving, PathAnchor::Still),
         _ if is_target => at(arriving, PathAnchor::Target),
         (Some(Event::Changed(changes)), Some(before)) => {
             let [arrives, leaves] = [arriving, leaving].map(|v| f(path.system(), state, v));
+            // The larger value is behind the event, so the place has the state that leaves it.
             if leaves >= arrives {
                 let guard = vanished(path.system(), state, changes)?;
                 return at(leaving, PathAnchor::Guard(guard));
             }
+            // The larger value is before the event, and the point has lost the active set of that
+            // side: the equilibrium is solved for again.
             let Point { state, arriving, .. } = path.between(before, &summit.point, 1.0)?;
             let anchor = PathAnchor::Guard(vanished(path.system(), &state, changes)?);
             Some(AnchoredPoint { state, direction: arriving, anchor })
@@ -123,6 +134,7 @@ pub(crate) fn vanished<S: Skin>(
     let guards = Newton::guards(system, state);
     let changed = |constraint: &usize| {
         let contact = |constraint: usize| system.contacts().contact_of(constraint).0;
+        // A change of one force may make another one of the same contact vanish.
         changes.iter().any(|change| contact(change.constraint) == contact(*constraint))
     };
     let contacts = system.contacts();

@@ -27,6 +27,7 @@ impl Chain {
         matrix: &mut impl Tangent,
     ) {
         let load = self.layout.load();
+        // The row of the depth is the balance of the needle itself.
         residual.add(needle.depth, state.z[load]);
         matrix.add(needle.depth, load, 1.0);
         if needle.of_touch < needle.unknowns {
@@ -46,6 +47,7 @@ impl Chain {
             add_balance(&meeting, rows, push, &state.z, residual, matrix);
             residual.add(push, meeting.gap());
             add_row(push, rows, 1.0, meeting.tip.gap_slopes(), matrix);
+            // A round tip that does not rub has no tangential force, and no law for it.
             if needle.of_touch == needle.unknowns {
                 continue;
             }
@@ -88,6 +90,7 @@ impl Chain {
                 of_touch[PUSH] = other.map_or(HOLDS, |touch| self.gap_of_next(state, touch));
             }
             let tip = touch.as_ref().and_then(|t| self.tip(&state.z, t.scale, t.place));
+            // The foot is where the left face begins and where the right one ends.
             let left = match (touch.map(|touch| touch.place), tip) {
                 (Some(Place::Left), Some(tip)) => tip.way,
                 (Some(Place::Right), Some(tip)) => tip.length - tip.way,
@@ -118,6 +121,7 @@ impl Chain {
         let tip = meeting.tip;
         match touch.rub {
             Rub::Slip { .. } => {
+                // The outer end of a side face is its foot, and to come there is to come through.
                 if touch.place != Place::Left {
                     values[LOW] = way;
                 }
@@ -287,6 +291,7 @@ impl Chain {
             let slid = needle.push(slot) + 1 + if sign > 0.0 { FORWARD } else { BACKWARD };
             let push = needle.push(slot);
             let along = |of: usize| [spans[0] * from.leaving[of], spans[1] * to.arriving[of]];
+            // The tip may have come to rest at the second point: its way is taken from the poses.
             let pushes = [from.state.z[push], to.state.z[push]];
             let ways = [from.state.z[slid], sign * (end.way() - start)];
             needle.friction * product_integral([pushes, along(push)], [ways, along(slid)])

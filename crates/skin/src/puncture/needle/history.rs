@@ -35,6 +35,7 @@ pub(in crate::puncture) struct HistoryWatch {
 
 impl HistoryWatch {
     pub(in crate::puncture) fn follow(&mut self, Segment { from, to, .. }: &Segment) {
+        // What is kept is copied bit by bit along the path, so that equality tells what is new.
         if history(&to.state).into_iter().any(|kept| !is_in(kept, &from.state)) {
             self.segments.push([(**from).clone(), to.clone()]);
         }
@@ -66,6 +67,7 @@ pub(in crate::puncture) fn anchors(
     }
     for [from, to] in segments {
         let place = event_before(path, [from, to]);
+        // Earlier anchors move this event, too: the segments are in the order of the path.
         let varied = place.as_ref().and_then(|place| with(&anchors, &place.state, variations));
         let mut here = place.and_then(|place| Linearisation::new(path.system(), place).ok());
         let new = history(&to.state).into_iter().filter(|kept| !is_in(*kept, &from.state));
@@ -98,6 +100,7 @@ pub(in crate::puncture) fn with(
 ) -> Option<Vec<Neighbours<Chain>>> {
     let mut varied = variations.to_vec();
     for kept in history(state) {
+        // Something may come to the same rest twice: the latest event counts.
         let anchor = anchors.iter().rev().find(|anchor| anchor.kept == kept)?;
         for (neighbours, rate) in varied.iter_mut().zip(&anchor.rates) {
             let change = neighbours.step * (*rate)?;
@@ -160,6 +163,7 @@ impl Chain {
             Kept::Touch(touch) => touch,
         };
         let Rub::Held { .. } = touch.rub else {
+            // A round tip may roll on after the event: it counts where it touches there.
             let place = to.mode.needle.place(touch.scale).unwrap_or(touch.place);
             return Some(self.meeting(&state.z, touch.scale, place)?.way());
         };

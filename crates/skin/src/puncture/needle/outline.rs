@@ -69,6 +69,7 @@ impl Tip {
     pub(super) fn new(face: &Face, pose: &Pose, away: Vec2) -> Self {
         let arm = away - pose.displacement;
         let along = pose.turn(face.along);
+        // The outline goes from left to right over the top, so that outward is to its left.
         let normal = Vec2::new(-along.y, along.x);
         let from_origin = arm - pose.turn(face.origin);
         let (gap, way) = (from_origin.dot(&normal), from_origin.dot(&along));
@@ -79,6 +80,7 @@ impl Tip {
     pub(super) fn at_corner(self) -> Self {
         let away = self.gap * self.normal + self.way * self.along;
         let gap = away.norm();
+        // The gap is about the radius where the tip touches, and so not zero.
         let normal = away / gap;
         Self { normal, along: Vec2::new(normal.y, -normal.x), gap, way: 0.0, ..self }
     }
@@ -164,9 +166,11 @@ impl Meeting {
     pub(super) fn way_slopes(&self) -> [f64; COORDINATES] {
         let mut slopes = self.tip.way_slopes();
         if !self.is_corner {
+            // The normal turns with the scale, `∂ψ/∂φ = −1`.
             slopes[TURN] -= self.radius;
             return slopes;
         }
+        // From the node the arm leads to the corner here, and not to the centre of the tip.
         slopes[TURN] -= self.tip.gap;
         slopes.map(|slope| slope * self.radius / self.tip.gap)
     }

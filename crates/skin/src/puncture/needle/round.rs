@@ -68,6 +68,7 @@ impl GuidedNeedle {
         let touches = &mut state.mode.needle.round;
         touches.retain(|touch| touch.scale != scale);
         touches.extend(touch);
+        // Touches are in the order of the scales, so that equal modes compare as equal.
         touches.sort_by_key(|touch| touch.scale);
         state.active[self.number(slot, PUSH)] = touch.is_some();
     }
@@ -100,6 +101,7 @@ impl Chain {
         }
         let distances = places().map(|(place, face)| {
             let beyond = face.way - face.way.clamp(0.0, face.length);
+            // Only beyond a top corner the outline goes on: below the bases there is no model.
             let at_end = match (place, beyond) {
                 (Place::Top, ..0.0) => Place::TopLeft,
                 (Place::Left, 0.0..) if beyond > 0.0 => Place::TopLeft,
@@ -132,6 +134,7 @@ impl Chain {
             for touch in before.mode.needle.round {
                 let slot = needle.slot(&touch);
                 let [push, drag] = [0, 1].map(|k| rates[needle.push(slot) + k]);
+                // A touch that would have to pull is none.
                 if push <= 0.0 {
                     needle.set_touch(&mut rest, touch.scale, None);
                     continue;
@@ -178,6 +181,7 @@ impl Chain {
             let of_scale = &mut values[needle.of_touch * slot..][..needle.of_touch];
             of_scale[PUSH] = meeting.gap();
             let [before, after] = self.to_ends(state, touch.scale, touch.place);
+            // One condition serves both ends: which one has come is asked at the event.
             of_scale[needle.of_touch - 1] = before.min(after);
             if needle.rubs() {
                 needle.rub_conditions(state, slot, touch, &meeting, of_scale);
@@ -243,6 +247,7 @@ impl Chain {
             state.active[change.constraint] = false;
             let place = state.mode.needle.place(scale)?;
             let [before, after] = self.to_ends(state, scale, place);
+            // The end that has come is the nearer one.
             let next = place.next(after < before)?;
             // The way goes on without a step, and the force with it.
             let here = state.mode.needle.round.iter_mut().find(|touch| touch.scale == scale)?;
@@ -268,12 +273,14 @@ fn height_above(face: &Face, x: f64, radius: f64) -> f64 {
     let normal = Vec2::new(-face.along.y, face.along.x);
     let on_face = face.origin.y + (radius - (x - face.origin.x) * normal.x) / normal.y;
     let way = (Vec2::new(x, on_face) - face.origin).dot(&face.along);
+    // A face that looks down holds nothing that comes from above.
     if normal.y > 0.0 && (0.0..=face.length).contains(&way) {
         return on_face;
     }
     let ends = [face.origin, face.origin + face.length * face.along];
     let above = ends.map(|end| {
         let height = (radius.powi(2) - (x - end.x).powi(2)).sqrt();
+        // Farther beside an end than its radius, the circle passes it.
         if height.is_nan() { f64::NEG_INFINITY } else { end.y + height }
     });
     above[0].max(above[1])

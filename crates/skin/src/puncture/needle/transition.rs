@@ -29,6 +29,7 @@ impl Chain {
         let number = change.constraint.checked_sub(needle.contacts)?;
         let (slot, constraint) = (number / needle.of_touch, number % needle.of_touch);
         let slides = number < needle.tilt_number() && (FORWARD..=BACKWARD).contains(&constraint);
+        // Where it sticks and slides a round tip is like a sharp one: only its places differ.
         if needle.is_round() && !(slides && needle.rubs()) {
             return self.round_transition(needle, state, change);
         }
@@ -60,6 +61,7 @@ impl Chain {
         let Some([face, _]) = self.notch(state) else { return };
         let top = state.mode.needle.touches[1 - face];
         if top.is_some_and(|top| !self.is_notched(state, top.scale)) {
+            // The notch is known by the touch that it holds, so this comes before the touch moves.
             self.free_corner(state);
             self.move_to(needle, state, 1 - face, Place::TopRight, Rub::Passing { forward: true });
             self.come_to_rest(needle, state, face);
@@ -103,6 +105,7 @@ impl Chain {
         if other_is_held {
             let push = needle.push(1 - slot);
             let ratio = state.z[push + 1] / state.z[push];
+            // A tip that does not press has no ratio, and no friction to hold.
             let ratio = if ratio.is_finite() { ratio } else { 0.0 };
             needle.end_sliding(state, 1 - slot);
             state.mode.needle.touches[1 - slot] = Some(Touch { rub: Rub::Held { ratio }, ..other });
@@ -124,7 +127,9 @@ impl Chain {
 
     /// A touch lets go, and the other is left alone.
     fn leave(&self, needle: &GuidedNeedle, state: &mut SkinState, slot: usize) -> Option<usize> {
+        // The last touch cannot let go: nothing would be left to follow.
         state.mode.needle.touches[1 - slot]?;
+        // The notch is known by both touches, so this comes before one of them is gone.
         self.free_corner(state);
         needle.end_sliding(state, slot);
         state.z[needle.push(slot) + 1] = 0.0;
@@ -170,11 +175,13 @@ impl Chain {
         needle.end_sliding(state, slot);
         let Rub::Passing { forward } = touch.rub else {
             self.move_to(needle, state, slot, next, Rub::Passing { forward: onward });
+            // The force is still that of the face behind: the limit on this side has to hold.
             return Some(if onward { LOW } else { HIGH });
         };
         let face_length = self.tip(&state.z, touch.scale, next)?.length;
         let at = if onward { 0.0 } else { face_length };
         let inward = if onward { LOW } else { HIGH };
+        // Without friction the tip slides on both faces alike, whichever way it goes.
         if needle.friction == 0.0 {
             self.move_to(needle, state, slot, next, needle.resting(at));
             return Some(inward);
