@@ -1,6 +1,6 @@
 //! The needle: a dead load, or a body that is guided straight down.
 //!
-//! A guided needle has a sharp tip that keeps its place `X` along the row. It touches a face of a scale and rubs on it, slides to the
+//! A guided needle has a tip, sharp or round, that keeps its place `X` along the row. It touches a face of a scale and rubs on it, slides to the
 //! end of the face, over the corner or into the notch that a neighbour's face makes with it, and on.
 //!
 //! | File | What it holds |
@@ -47,7 +47,7 @@ pub enum Needle {
     /// A dead load that hangs on its point of the scale and follows it sideways, as in Shafiei et al. (2021).
     #[default]
     Free,
-    /// A sharp tip that moves straight down, with this coefficient of friction.
+    /// A tip that moves straight down, with this coefficient of friction.
     Guided {
         /// `μ_n`; 0 for a needle that does not rub.
         friction: f64,
@@ -279,10 +279,9 @@ impl Chain {
             return self.round_at_rest(needle, rest);
         }
         rest.active[needle.number(0, PUSH)] = true;
-        let face = Face::new(&self.contacts.scale(self.layout.left), Place::Top);
         let touch = |rub| [Some(Touch { scale: 0, place: Place::Top, rub }), None];
-        rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: 0.0 });
-        let at = self.tip(&rest.z, 0, Place::Top).map_or(face.length, |tip| tip.way);
+        // Scale 0 is in every row.
+        let Some(Tip { way: at, .. }) = self.tip(&rest.z, 0, Place::Top) else { return rest };
         if needle.friction == 0.0 {
             rest.mode.needle.touches = touch(Rub::Slip { sign: 0.0, from: at });
             return rest;

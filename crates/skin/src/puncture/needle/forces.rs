@@ -173,8 +173,10 @@ impl Chain {
     /// Whether the tip is already below the face that it would come to next, whose end is about to come over it: there a corner meets the
     /// shaft, of which the model knows nothing.
     pub(in crate::puncture) fn is_met_from_the_side(&self, state: &SkinState) -> bool {
-        let [Some(touch), None] = state.mode.needle.touches else { return false };
-        let next = Self::next_touch(&touch);
+        // A tip that has gone on to the next scale is the second of the two touches.
+        let mut touches = state.mode.needle.touches.iter().flatten();
+        let (Some(touch), None) = (touches.next(), touches.next()) else { return false };
+        let next = Self::next_touch(touch);
         let tip = next.and_then(|(scale, place)| self.tip(&state.z, scale, place));
         tip.is_some_and(|tip| {
             let way = tip.way.min(tip.length - tip.way);
