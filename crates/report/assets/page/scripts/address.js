@@ -70,10 +70,13 @@
   };
 
   // Written a moment after the last change: a slider changes often, and browsers allow only so many.
-  let timer = null, own = null;
+  let timer = null, own = null, known = location.hash;
   const write = () => {
+    // An address that came from outside since the last look has the last word.
+    if (location.hash !== known && location.hash.includes("=")) return;
     own = `#${squama.written()}`;
     try { history.replaceState(null, "", own); } catch { /* The page works without an address. */ }
+    known = location.hash;
   };
   squama.writeAddress = () => {
     clearTimeout(timer);
@@ -81,6 +84,8 @@
   };
   addEventListener("hashchange", () => {
     if (location.hash === own || !location.hash.includes("=")) return;
+    clearTimeout(timer);
+    known = location.hash;
     squama.read(location.hash.slice(1));
     squama.showAll();
   });
